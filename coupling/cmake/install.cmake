@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Headers, libraries and the package configuration for consumers of the solver and the coupling library.
+include(CMakePackageConfigHelpers)
+set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/liggghts-nurbs)
+set(header_dir ${CMAKE_INSTALL_INCLUDEDIR}/liggghts-nurbs)
+
+install(TARGETS nurbs structure iga_io coupling coupling_iga project_warnings EXPORT liggghts-nurbs-targets
+  ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(EXPORT liggghts-nurbs-targets NAMESPACE liggghts_nurbs:: DESTINATION ${package_dir})
+foreach(folder iga-solver/nurbs iga-solver/structure iga-solver/io coupling)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/${folder} DESTINATION ${header_dir} FILES_MATCHING PATTERN "*.h")
+endforeach()
+
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/liggghts-nurbs-config.cmake.in
+  ${PROJECT_BINARY_DIR}/liggghts-nurbs-config.cmake INSTALL_DESTINATION ${package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/liggghts-nurbs-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/liggghts-nurbs-config.cmake
+              ${PROJECT_BINARY_DIR}/liggghts-nurbs-config-version.cmake DESTINATION ${package_dir})

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Point force to control points and control-point velocities to the point: one transposed pair,
+//   f_A = R_A(xi) F   and   v(xi) = sum_A R_A(xi) v_A,   so   F . v(xi) = sum_A f_A . v_A.
+// Source: Gao & Feng (2019), eqs. 29 and 34 (F here is the force on the surface, so eq. 34's minus sign is in F).
+#pragma once
+
+#include "coupling/contact_surface.h"
+
+namespace coupling {
+
+/// Values R_A at one foot; the same object serves both directions of the transfer.
+class FootBasis {
+ public:
+  FootBasis(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi) {
+    nurbs::evaluate(space, xi, 0, basis_);
+  }
+
+  /// Value at the foot of a control-point field q (3 x n).
+  Vector3 interpolate(const NodalVectors& q) const { return nurbs::interpolate<2>(basis_, q); }
+
+  /// Adds R_A F to the control-point forces f (3 x n) [force].
+  void distribute(const Vector3& F, NodalVectors& f) const {
+    for (int a = 0; a < basis_.count; ++a) f.col(basis_.control_point[a]) += basis_.R[a] * F;
+  }
+
+ private:
+  nurbs::RationalBasis<2> basis_;
+};
+
+}  // namespace coupling

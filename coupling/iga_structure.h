@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// iga-solver's explicit solid behind the port.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/structure_solver.h"
+#include "nurbs/boundary.h"
+#include "structure/explicit_solver.h"
+#include "structure/probe.h"
+
+namespace coupling {
+
+class IgaStructure final : public StructureSolver {
+ public:
+  /// Particles see the face `face` of the solver's volume patch.
+  IgaStructure(structure::ExplicitSolver solver, nurbs::Face face, std::vector<structure::Probe> probes = {});
+
+  const ContactSurface& surface() const override { return surface_; }
+  const NodalVectors& positions() const override { return solver_.positions(); }
+  const NodalVectors& velocities() const override { return solver_.velocities(); }
+
+  void initialise_forces(const NodalVectors& forces) override { solver_.initialise_forces(forces); }
+  void begin_step() override { solver_.begin_step(); }
+  void end_step(const NodalVectors& forces) override { solver_.end_step(forces); }
+  /// Also throws if dt is above structure::kStableStepSafety of the stable step, naming both numbers.
+  void set_time_step(double dt) override;
+  double stable_time_step() const override { return solver_.stable_time_step(); }
+
+  bool moves() const override { return true; }
+  Eigen::VectorXd control_node_mass() const override { return solver_.mass().nodal_mass(); }
+  Energies energies() const override { return {solver_.kinetic_energy(), solver_.strain_energy()}; }
+  Vector3 linear_momentum() const override { return solver_.linear_momentum(); }
+  Vector3 angular_momentum(const Vector3& about) const override { return solver_.angular_momentum(about); }
+  std::optional<SurfaceMaterial> material() const override;
+  std::vector<Probe> probes() const override;
+  std::vector<double> save() const override { return solver_.save(); }
+  void load(const std::vector<double>& state) override { solver_.load(state); }
+
+ private:
+  structure::ExplicitSolver solver_;
+  ContactSurface surface_;
+  std::vector<structure::Probe> probes_;
+};
+
+}  // namespace coupling

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/model_text.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+
+#include "nurbs/yaml_map.h"
+
+namespace coupling {
+
+std::string read_text_on_all_ranks(MPI_Comm comm, const std::string& path) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::string text;
+  long length_or_error = 0;  // >= 0: length of the text; < 0: minus errno
+  if (rank == 0) {
+    errno = 0;
+    std::ifstream file(path);
+    std::ostringstream content;
+    if (file) content << file.rdbuf();
+    text = content.str();
+    const bool failed = !file || (text.empty() && errno != 0);
+    length_or_error = failed ? -(errno != 0 ? errno : EIO) : static_cast<long>(text.size());
+  }
+  MPI_Bcast(&length_or_error, 1, MPI_LONG, 0, comm);
+  if (length_or_error < 0)
+    throw nurbs::InputError("cannot read '" + path + "': " + std::strerror(static_cast<int>(-length_or_error)));
+  text.resize(length_or_error);
+  MPI_Bcast(text.data(), static_cast<int>(length_or_error), MPI_CHAR, 0, comm);
+  return text;
+}
+
+}  // namespace coupling

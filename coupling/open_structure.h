@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// From a file named in a deck to the solver behind the port.  A new kind of structure is one more function here.
+#pragma once
+
+#include <mpi.h>
+
+#include <memory>
+#include <string>
+
+#include "coupling/structure_solver.h"
+#include "nurbs/geometry_file.h"
+
+namespace coupling {
+
+/// What a deck's `structure` or `geometry` keyword opens.
+struct OpenedStructure {
+  std::unique_ptr<StructureSolver> solver;
+  nurbs::Units units;
+};
+
+/// Rigid wall: the named surface of a geometry file.  Collective; throws nurbs::InputError on every rank.
+OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface);
+
+/// Deforming solid of iga-solver: the named surface of a model file.  Collective; throws nurbs::InputError on every
+/// rank.  Lives in the library coupling_iga, so that a rigid wall links no structural code.
+OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface);
+
+}  // namespace coupling

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A fixed surface behind the port: takes any force, never moves.
+#pragma once
+
+#include "coupling/structure_solver.h"
+
+namespace coupling {
+
+class RigidSurface final : public StructureSolver {
+ public:
+  /// `outward_sign` as in ContactSurface.
+  explicit RigidSurface(nurbs::Surface surface, int outward_sign = 0);
+
+  const ContactSurface& surface() const override { return surface_; }
+  const NodalVectors& positions() const override { return positions_; }
+  const NodalVectors& velocities() const override { return velocities_; }
+
+  void initialise_forces(const NodalVectors&) override {}
+  void begin_step() override {}
+  void end_step(const NodalVectors&) override {}
+  void set_time_step(double) override {}
+  double stable_time_step() const override;
+
+  bool moves() const override { return false; }
+  Eigen::VectorXd control_node_mass() const override { return {}; }
+  Energies energies() const override { return {0.0, 0.0}; }
+  Vector3 linear_momentum() const override { return Vector3::Zero(); }
+  Vector3 angular_momentum(const Vector3&) const override { return Vector3::Zero(); }
+  std::optional<SurfaceMaterial> material() const override { return std::nullopt; }
+  std::vector<Probe> probes() const override { return {}; }
+  std::vector<double> save() const override { return {}; }
+  void load(const std::vector<double>& state) override;
+
+ private:
+  ContactSurface surface_;
+  NodalVectors positions_, velocities_;
+};
+
+}  // namespace coupling

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The port to a structure solver: all that contact needs to know of a deforming (or rigid) body.
+// One step is velocity Verlet, which is the central difference scheme; particles and surface share one time level:
+//   begin_step  v(n+1/2) = v(n) + dt/2 a(n),  x(n+1) = x(n) + dt v(n+1/2)
+//   [contact forces F(n+1) from x(n+1), v(n+1/2)]
+//   end_step    a(n+1) = M^-1 (F(n+1) + f_ext - f_int(x(n+1))),  v(n+1) = v(n+1/2) + dt/2 a(n+1)
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/contact_surface.h"
+
+namespace coupling {
+
+struct Energies {
+  double kinetic;  ///< [J]
+  double strain;   ///< [J]
+};
+
+/// Elastic constants of the surface's material, to be compared with the deck's.
+struct SurfaceMaterial {
+  double youngs_modulus;  ///< [Pa]
+  double poissons_ratio;  ///< [-]
+};
+
+/// A displacement history that the model file asks for.
+struct Probe {
+  std::string name;
+  Vector3 displacement;  ///< [length]
+};
+
+class StructureSolver {
+ public:
+  virtual ~StructureSolver() = default;
+
+  virtual const ContactSurface& surface() const = 0;
+  /// Of the solver's own nodes, 3 x node_count: current positions [length] and velocities [length/time].  During a
+  /// step (after begin_step) the velocities are those of the half step.
+  virtual const NodalVectors& positions() const = 0;
+  virtual const NodalVectors& velocities() const = 0;
+
+  /// Accelerations for the current state under the given nodal contact forces [force]; advances nothing.
+  virtual void initialise_forces(const NodalVectors& forces) = 0;
+  virtual void begin_step() = 0;
+  virtual void end_step(const NodalVectors& forces) = 0;
+
+  /// dt [time]; throws std::invalid_argument unless it is positive and below the stable step.
+  virtual void set_time_step(double dt) = 0;
+  /// Largest stable dt [time]; infinity for a body that is not integrated.
+  virtual double stable_time_step() const = 0;
+
+  virtual bool moves() const = 0;
+  virtual Eigen::VectorXd control_node_mass() const = 0;  ///< [mass], one per node; empty for a rigid surface
+  virtual Energies energies() const = 0;
+  virtual Vector3 linear_momentum() const = 0;                        ///< sum m_A v_A
+  virtual Vector3 angular_momentum(const Vector3& about) const = 0;   ///< sum (x_A - about) x m_A v_A
+  virtual std::optional<SurfaceMaterial> material() const = 0;
+  virtual std::vector<Probe> probes() const = 0;
+
+  /// The state as numbers, for restart files; load throws std::invalid_argument if the size does not fit.
+  virtual std::vector<double> save() const = 0;
+  virtual void load(const std::vector<double>& state) = 0;
+};
+
+}  // namespace coupling

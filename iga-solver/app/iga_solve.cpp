@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// iga-solve: runs the model file of a solid without particles.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <stdexcept>
+
+#include "io/history.h"
+#include "io/model_file.h"
+#include "structure/stable_time_step.h"
+
+namespace {
+
+using structure::ExplicitSolver;
+
+struct Options {
+  std::string model;
+  std::optional<double> end, step;
+  bool quiet = false;
+};
+
+constexpr double kDefaultStepFactor = 0.9;  // of the stable step
+
+double end_time(const Options& options, const io::ModelFile& model) {
+  if (options.end) return *options.end;
+  if (model.time) return model.time->end;
+  throw std::runtime_error(
+      fmt::format("{}: no end time, expected 'time: {{end: T}}' in it or --end T", model.file));
+}
+
+double time_step(const Options& options, const io::ModelFile& model, double stable) {
+  std::optional<double> wanted = options.step;
+  if (!wanted && model.time) wanted = model.time->step;
+  const double limit = structure::kStableStepSafety * stable;
+  if (wanted && *wanted > limit)
+    throw std::runtime_error(
+        fmt::format("{}: time step {:.6g} is above the stable step {:.6g} times {}: {:.6g}", model.file,
+                    *wanted, stable, structure::kStableStepSafety, limit));
+  if (!wanted && std::isinf(stable))
+    throw std::runtime_error(fmt::format("{}: every node is fixed, expected at least one free", model.file));
+  return wanted.value_or(kDefaultStepFactor * stable);
+}
+
+long step_count(double end, double largest_step) {
+  constexpr double kMaxSteps = 1e15;
+  const double steps =
+      std::ceil(end / largest_step * (1.0 - 1e-12));  // rounding of the quotient adds no step
+  if (steps > kMaxSteps)
+    throw std::runtime_error(fmt::format("{:.3g} steps of {:.6g} to time {:.6g}, expected at most {:.0e}",
+                                         steps, largest_step, end, kMaxSteps));
+  return std::max(1L, std::lround(steps));
+}
+
+void print_model(const io::ModelFile& model, const ExplicitSolver& solver) {
+  const nurbs::Space<3>& space = solver.solid().patch().space;
+  fmt::print("{} (units {})\n", model.file, nurbs::units_name(model.geometry.units));
+  fmt::print("  elements     {} ({} x {} x {}), degrees {} {} {}\n", space.element_count(),
+             space.knots(0).element_count(), space.knots(1).element_count(), space.knots(2).element_count(),
+             space.degree(0), space.degree(1), space.degree(2));
+  fmt::print("  dof          {}, {} of them fixed\n", 3 * space.control_point_count(),
+             solver.supports().fixed_dofs().size());
+  fmt::print("  mass         {:.8g}\n", solver.mass().nodal_mass().sum());
+}
+
+void print_progress(long step, long steps, double time) {
+  fmt::print("\r  step {} of {}, time {:.6g}", step, steps, time);
+  if (step == steps) fmt::print("\n");
+  std::fflush(stdout);
+}
+
+void print_energies(const ExplicitSolver& solver) {
+  const double kinetic = solver.kinetic_energy(), strain = solver.strain_energy(), work = solver.load_work();
+  fmt::print(
+      "  energies at time {:.6g}: kinetic {:.8g}, strain {:.8g}, work of the loads {:.8g}, balance {:.8g}\n",
+      solver.time(), kinetic, strain, work, kinetic + strain - work);
+}
+
+void run(const Options& options) {
+  const io::ModelFile model = io::read_model_file(options.model);
+  const double end = end_time(options, model);
+  ExplicitSolver solver = io::build_solver(model);
+  if (!options.quiet) print_model(model, solver);
+  const double stable = solver.stable_time_step();
+  if (!options.quiet) fmt::print("  stable step  {:.6g}\n", stable);
+  const double largest_step = time_step(options, model, stable);
+  const long steps = step_count(end, largest_step);
+  solver.set_time_step(end / steps);  // never longer than asked for, and the last step ends at `end`
+  if (!options.quiet) fmt::print("  time step    {:.6g}, {} steps\n", solver.time_step(), steps);
+
+  const structure::NodalVectors no_forces = structure::NodalVectors::Zero(3, solver.solid().node_count());
+  solver.initialise_forces(no_forces);
+  std::optional<io::History> history;
+  if (model.output) history.emplace(*model.output, model.geometry.units, model.probes);
+  if (history) history->record_if_due(solver);
+  const bool progress = !options.quiet && isatty(STDOUT_FILENO);
+  for (long step = 1; step <= steps; ++step) {
+    solver.begin_step();
+    solver.end_step(no_forces);
+    if (history) history->record_if_due(solver);
+    if (progress && (step % std::max(1L, steps / 100) == 0 || step == steps))
+      print_progress(step, steps, solver.time());
+  }
+  if (!options.quiet) {
+    print_energies(solver);
+    if (history) fmt::print("  histories    {}\n", history->path());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Runs the model file of a NURBS solid without particles: explicit, isogeometric.");
+  app.add_option("model", options.model, "model file (YAML)")->required();
+  app.add_option("--end", options.end, "end time, in the model's units (else time: {end} of the model)")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--step", options.step, "largest time step (else time: {step}, else 0.9 of the stable step)")
+      ->check(CLI::PositiveNumber);
+  app.add_flag("--quiet", options.quiet, "print nothing but errors");
+  try {
+    app.parse(argc, argv);
+    run(options);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "ERROR: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/model_file.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "structure/linear_elastic.h"
+#include "structure/loads.h"
+
+namespace io {
+
+using nurbs::YamlMap;
+
+namespace {
+
+std::shared_ptr<const structure::Material> read_linear_elastic(const YamlMap& map) {
+  map.allow_only({"law", "youngs_modulus", "poissons_ratio", "density"});
+  return std::make_shared<structure::LinearElastic>(map.number("youngs_modulus", nurbs::positive()),
+                                                    map.number("poissons_ratio", {-1.0, 0.5}),
+                                                    map.number("density", nurbs::positive()));
+}
+
+/// The word in a model file -> the class.
+struct Law {
+  const char* name;
+  std::shared_ptr<const structure::Material> (*read)(const YamlMap&);
+};
+constexpr Law kLaws[] = {
+    {"linear_elastic", read_linear_elastic},
+};
+
+std::shared_ptr<const structure::Material> read_material(const YamlMap& map) {
+  const std::string name = map.word("law");
+  std::vector<std::string> known;
+  for (const Law& law : kLaws) {
+    if (name == law.name) return law.read(map);
+    known.emplace_back(law.name);
+  }
+  map.fail("law", fmt::format("law is '{}', expected one of: {}", name, fmt::join(known, ", ")));
+}
+
+nurbs::Face read_face(const YamlMap& map, const std::string& key, const std::string& name) {
+  try {
+    return nurbs::face_from_name(name);
+  } catch (const std::invalid_argument& error) {
+    map.fail(key, error.what());
+  }
+}
+
+FixedFaces read_fixed_faces(const YamlMap& map) {
+  map.allow_only({"fix", "faces"});
+  FixedFaces fixed{{false, false, false}, {}};
+  for (const std::string& word : map.words("fix")) {
+    if (word != "x" && word != "y" && word != "z")
+      map.fail("fix", fmt::format("fix has '{}', expected a list of x, y, z", word));
+    fixed.directions[word[0] - 'x'] = true;
+  }
+  for (const std::string& name : map.words("faces")) fixed.faces.push_back(read_face(map, "faces", name));
+  return fixed;
+}
+
+structure::Probe read_probe(const YamlMap& probes, const std::string& name, const nurbs::Space<3>& space) {
+  const YamlMap map = probes.map(name);
+  map.allow_only({"face", "at"});
+  const nurbs::Face face = read_face(map, "face", map.word("face"));
+  const std::vector<double> at = map.numbers("at");
+  if (at.size() != 2) map.fail("at", fmt::format("at has {} numbers, expected 2 from 0 to 1", at.size()));
+  try {
+    return {name, structure::face_point(space, face, {at[0], at[1]})};
+  } catch (const std::invalid_argument&) {
+    map.fail("at", fmt::format("at is [{}, {}], expected 2 numbers from 0 to 1", at[0], at[1]));
+  }
+}
+
+HistoryOutput read_output(const YamlMap& map) {
+  map.allow_only({"every", "file"});
+  return {map.number("every", nurbs::positive()), map.word("file")};
+}
+
+void read_loads(const YamlMap& map, ModelFile& model) {
+  map.allow_only({"gravity", "tractions"});
+  if (map.has("gravity")) model.gravity = map.vector3("gravity");
+  if (!map.has("tractions")) return;
+  for (const YamlMap& traction : map.list_of_maps("tractions")) {
+    traction.allow_only({"face", "value"});
+    model.tractions.push_back(
+        {read_face(traction, "face", traction.word("face")), traction.vector3("value")});
+  }
+}
+
+TimeSpan read_time(const YamlMap& map) {
+  map.allow_only({"end", "step"});
+  TimeSpan time{map.number("end", nurbs::positive()), {}};
+  if (map.has("step")) time.step = map.number("step", nurbs::positive());
+  return time;
+}
+
+ModelFile read_required(const YamlMap& document) {
+  ModelFile model{document.file(),
+                  document.line_of("geometry"),
+                  nurbs::read_geometry(document),
+                  read_material(document.map("material")),
+                  {},
+                  {},
+                  {},
+                  Vector3::Zero(),
+                  {},
+                  Vector3::Zero(),
+                  {}};
+  if (!std::holds_alternative<nurbs::Volume>(model.geometry.patch))
+    document.fail("geometry", "geometry is a surface, expected a volume: a solid with a material needs one");
+  return model;
+}
+
+}  // namespace
+
+ModelFile parse_model_file(const std::string& text, const std::string& file) {
+  const YamlMap document = YamlMap::parse(text, file);
+  document.allow_only({"units", "geometry", "material", "boundary", "surfaces", "probes", "output", "loads",
+                       "initial", "time"});
+  ModelFile model = read_required(document);
+  if (document.has("boundary"))
+    for (const YamlMap& entry : document.list_of_maps("boundary"))
+      model.boundary.push_back(read_fixed_faces(entry));
+  if (document.has("probes")) {
+    const YamlMap probes = document.map("probes");
+    for (const std::string& name : probes.keys())
+      model.probes.push_back(read_probe(probes, name, model.volume().space));
+  }
+  if (document.has("output")) model.output = read_output(document.map("output"));
+  if (document.has("loads")) read_loads(document.map("loads"), model);
+  if (document.has("initial")) {
+    const YamlMap initial = document.map("initial");
+    initial.allow_only({"velocity"});
+    model.initial_velocity = initial.vector3("velocity");
+  }
+  if (document.has("time")) model.time = read_time(document.map("time"));
+  return model;
+}
+
+ModelFile read_model_file(const std::string& path) {
+  std::ifstream stream(path);
+  std::ostringstream text;
+  // Inserting from a directory's or an empty file's buffer sets a fail bit: both are told apart from a model
+  // here.
+  if (!stream || !(text << stream.rdbuf()))
+    throw nurbs::InputError(fmt::format("{}: cannot read this file, expected a model file (YAML)", path));
+  return parse_model_file(text.str(), path);
+}
+
+structure::ExplicitSolver build_solver(const ModelFile& model) {
+  const nurbs::Volume& volume = model.volume();
+  structure::Supports supports;
+  for (const FixedFaces& fixed : model.boundary)
+    for (nurbs::Face face : fixed.faces) supports.fix(volume.space, face, fixed.directions);
+  try {
+    structure::ExplicitSolver solver(structure::Solid(volume, model.material), std::move(supports));
+    structure::NodalVectors f_ext = structure::gravity_load(solver.solid(), model.gravity);
+    for (const FaceTraction& traction : model.tractions)
+      f_ext += structure::traction_load(volume, traction.face, traction.value);
+    solver.set_load(f_ext);
+    solver.set_velocities(model.initial_velocity.replicate(1, solver.solid().node_count()));
+    return solver;
+  } catch (const std::invalid_argument& error) {
+    throw nurbs::InputError(
+        fmt::format("{}:{}: geometry: {}", model.file, model.geometry_line, error.what()));
+  }
+}
+
+}  // namespace io

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The model file of a deformable solid (YAML): what README.md of this folder lists.  The same file serves a
+// run with particles and one without (iga-solve).  `units` names a consistent system; numbers are taken as
+// they are.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "nurbs/geometry_file.h"
+#include "structure/explicit_solver.h"
+#include "structure/probe.h"
+
+namespace io {
+
+using nurbs::Vector3;
+
+/// One entry of `boundary`.
+struct FixedFaces {
+  structure::Directions directions;
+  std::vector<nurbs::Face> faces;
+};
+
+/// One entry of `loads: tractions`: dead traction [force/length^2] on a face.
+struct FaceTraction {
+  nurbs::Face face;
+  Vector3 value;
+};
+
+struct HistoryOutput {
+  double every;      ///< interval [time]
+  std::string file;  ///< without ".h5"; relative to the current directory unless absolute
+};
+
+struct TimeSpan {
+  double end;                  ///< [time]
+  std::optional<double> step;  ///< [time]; absent: chosen from the stable step
+};
+
+struct ModelFile {
+  std::string file;  ///< as given, for messages
+  int geometry_line;
+  nurbs::GeometryFile geometry;  ///< holds a Volume
+  std::shared_ptr<const structure::Material> material;
+  std::vector<FixedFaces> boundary;
+  std::vector<structure::Probe> probes;  ///< in the order of the file
+  std::optional<HistoryOutput> output;
+  Vector3 gravity = Vector3::Zero();  ///< [length/time^2]
+  std::vector<FaceTraction> tractions;
+  Vector3 initial_velocity = Vector3::Zero();  ///< [length/time], uniform
+  std::optional<TimeSpan> time;
+
+  const nurbs::Volume& volume() const { return std::get<nurbs::Volume>(geometry.patch); }
+};
+
+/// `file` is the name used in messages.  Throws nurbs::InputError "file:line: what was given, what was
+/// expected".
+ModelFile parse_model_file(const std::string& text, const std::string& file);
+/// Throws nurbs::InputError also if the file cannot be read.
+ModelFile read_model_file(const std::string& path);
+
+/// The solver in its initial state, loads applied, accelerations not yet worked out.  Throws
+/// nurbs::InputError if the geometry is left-handed or folded.
+structure::ExplicitSolver build_solver(const ModelFile& model);
+
+}  // namespace io

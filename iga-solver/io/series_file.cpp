@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/series_file.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace io {
+
+namespace {
+
+constexpr hsize_t kRowsPerChunk = 256;
+
+/// HDF5 prints its error stack unless told not to; a library must leave that to its caller.
+class SilentErrors {
+ public:
+  SilentErrors() {
+    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~SilentErrors() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
+
+ private:
+  H5E_auto2_t print_;
+  void* data_;
+};
+
+hid_t create_file(const std::string& path) {
+  const SilentErrors silent;
+  return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+}
+
+}  // namespace
+
+template <class Result>
+Result SeriesFile::check(Result result, const char* action) const {
+  if (result < 0) throw std::runtime_error(fmt::format("{}: HDF5 cannot {}", path_, action));
+  return result;
+}
+
+SeriesFile::SeriesFile(std::string path) : path_(std::move(path)), file_(create_file(path_), H5Fclose) {
+  check<hid_t>(file_, "create this file (does the folder exist, may it be written to?)");
+}
+
+void SeriesFile::set_attribute(const std::string& name, const std::string& value) {
+  const SilentErrors silent;
+  write_attribute(file_, name, value);
+}
+
+void SeriesFile::write_attribute(hid_t object, const std::string& name, const std::string& value) {
+  const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  check(H5Tset_size(type, value.size() + 1), "make a text type");
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Hdf5Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
+  check(H5Awrite(attribute, type, value.c_str()), "write an attribute");
+}
+
+int SeriesFile::add_series(const std::string& name, int width, const std::string& unit) {
+  const SilentErrors silent;
+  const int rank = width == 1 ? 1 : 2;
+  const hsize_t columns = width;
+  const hsize_t size[2] = {0, columns}, limit[2] = {H5S_UNLIMITED, columns},
+                chunk[2] = {kRowsPerChunk, columns};
+  const Hdf5Handle space(H5Screate_simple(rank, size, limit), H5Sclose);
+  const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  check(H5Pset_chunk(creation, rank, chunk), "set a chunk size");
+  const Hdf5Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  check(H5Pset_create_intermediate_group(links, 1), "make groups");
+  Hdf5Handle data_set(H5Dcreate2(file_, name.c_str(), H5T_NATIVE_DOUBLE, space, links, creation, H5P_DEFAULT),
+                      H5Dclose);
+  check<hid_t>(data_set, ("create the data set '" + name + "'").c_str());
+  write_attribute(data_set, "unit", unit);
+  series_.push_back({std::move(data_set), 0, columns});
+  return static_cast<int>(series_.size()) - 1;
+}
+
+void SeriesFile::append(int series, const double* row) {
+  const SilentErrors silent;
+  Series& s = series_.at(series);
+  const hsize_t size[2] = {s.rows + 1, s.width}, start[2] = {s.rows, 0}, count[2] = {1, s.width};
+  const int rank = s.width == 1 ? 1 : 2;
+  check(H5Dset_extent(s.data_set, size), "extend a data set");
+  const Hdf5Handle in_file(H5Dget_space(s.data_set), H5Sclose);
+  check(H5Sselect_hyperslab(in_file, H5S_SELECT_SET, start, nullptr, count, nullptr), "select a row");
+  const Hdf5Handle in_memory(H5Screate_simple(rank, count, nullptr), H5Sclose);
+  check(H5Dwrite(s.data_set, H5T_NATIVE_DOUBLE, in_memory, in_file, H5P_DEFAULT, row), "write a row");
+  ++s.rows;
+}
+
+void SeriesFile::flush() {
+  const SilentErrors silent;
+  check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flush this file");
+}
+
+}  // namespace io

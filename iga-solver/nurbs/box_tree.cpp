@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "nurbs/box_tree.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace nurbs {
+namespace {
+
+constexpr int kLeafSize = 4;
+constexpr int kMaxDepth = 64;  // halving a range of ints reaches the leaves after 31 levels
+
+}  // namespace
+
+Box element_box(const Space<2>& space, const NodalVectors& control_points, int element) {
+  int indices[power(kMaxDegree + 1, 2)];
+  space.element_control_points(element, indices);
+  Box box{control_points.col(indices[0]), control_points.col(indices[0])};
+  for (int a = 1; a < space.functions_per_element(); ++a) {
+    box.low = box.low.cwiseMin(control_points.col(indices[a]));
+    box.high = box.high.cwiseMax(control_points.col(indices[a]));
+  }
+  return box;
+}
+
+void element_boxes(const Space<2>& space, const NodalVectors& control_points, std::vector<Box>& out) {
+  out.resize(space.element_count());
+  for (int e = 0; e < space.element_count(); ++e) out[e] = element_box(space, control_points, e);
+}
+
+void BoxTree::build(const std::vector<Box>& boxes) {
+  boxes_ = boxes;
+  nodes_.clear();
+  order_.resize(boxes.size());
+  std::iota(order_.begin(), order_.end(), 0);
+  if (boxes_.empty()) return;
+  nodes_.emplace_back();
+  split(0, 0, static_cast<int>(boxes_.size()));
+}
+
+// Halves the range at the median of the box centres along the longest side.
+void BoxTree::split(int node, int begin, int end) {
+  Box bounds = boxes_[order_[begin]];
+  for (int i = begin + 1; i < end; ++i) {
+    bounds.low = bounds.low.cwiseMin(boxes_[order_[i]].low);
+    bounds.high = bounds.high.cwiseMax(boxes_[order_[i]].high);
+  }
+  if (end - begin <= kLeafSize) {
+    nodes_[node] = {bounds, begin, end - begin};
+    return;
+  }
+  int axis;
+  (bounds.high - bounds.low).maxCoeff(&axis);
+  const int middle = begin + (end - begin) / 2;
+  const auto before = [&](int a, int b) {
+    return boxes_[a].low[axis] + boxes_[a].high[axis] < boxes_[b].low[axis] + boxes_[b].high[axis];
+  };
+  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, before);
+
+  const int children = static_cast<int>(nodes_.size());
+  nodes_[node] = {bounds, children, 0};
+  nodes_.resize(nodes_.size() + 2);
+  split(children, begin, middle);
+  split(children + 1, middle, end);
+}
+
+void BoxTree::query(const Vector3& point, double reach, std::vector<int>& out) const {
+  if (empty()) return;
+  const size_t old_size = out.size();
+  const double reach2 = reach * reach;
+  int stack[kMaxDepth], depth = 0;
+  stack[depth++] = 0;
+  while (depth > 0) {
+    const Node& node = nodes_[stack[--depth]];
+    if (node.box.squared_distance(point) > reach2) continue;
+    if (node.count == 0) {
+      stack[depth++] = node.first;
+      stack[depth++] = node.first + 1;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i)
+      if (boxes_[order_[i]].squared_distance(point) <= reach2) out.push_back(order_[i]);
+  }
+  std::sort(out.begin() + old_size, out.end());
+}
+
+}  // namespace nurbs

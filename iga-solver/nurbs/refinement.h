@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Knot insertion and degree elevation: the geometry stays the same, exactly.
+// Both are one rule, a blossom at consecutive knots of the new knot vector: Cohen, Lyche & Riesenfeld (1980),
+// "Discrete B-splines" (the Oslo algorithm), and Prautzsch (1984), "Degree elevation of B-spline curves"; the
+// operations are those of Piegl & Tiller (1997), sections 5.2-5.5.
+#pragma once
+
+#include "nurbs/patch.h"
+
+namespace nurbs {
+
+/// Inserts `xi` `times` times in one direction.  Throws std::invalid_argument if xi lies outside the open
+/// domain or its multiplicity would exceed the degree.
+template <int Dim>
+Patch<Dim> insert_knot(const Patch<Dim>& patch, int direction, double xi, int times = 1);
+
+/// Raises the degree in one direction by `times`; every knot's multiplicity rises by as much, so continuity
+/// stays. Throws std::invalid_argument above kMaxDegree.
+template <int Dim>
+Patch<Dim> elevate_degree(const Patch<Dim>& patch, int direction, int times = 1);
+
+}  // namespace nurbs

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Names shared by the geometry kernel.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace nurbs {
+
+/// Highest polynomial degree; fixes the size of every evaluation's stack buffers.
+constexpr int kMaxDegree = 6;
+
+using Vector3 = Eigen::Vector3d;
+
+/// One column per control point (3 x n, contiguous xyz): positions [length], velocities, forces.
+/// Geometry owns topology; these are always passed in, so reference, current and trial share one topology.
+using NodalVectors = Eigen::Matrix<double, 3, Eigen::Dynamic>;
+
+constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
+
+}  // namespace nurbs

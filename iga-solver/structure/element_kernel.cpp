@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/element_kernel.h"
+
+#include <algorithm>
+
+namespace structure {
+
+namespace {
+
+/// Displacement gradient from u and dR/dX, both [3][n].  Two partial sums per entry: a plain sum of doubles
+/// would be one long chain of additions, which the compiler may not break.
+inline Matrix3 displacement_gradient(const double* u, const double* dR_dX, int n) {
+  using Lanes = Eigen::Array2d;
+  using Values = Eigen::Map<const Lanes>;
+  Lanes sum[3][3];
+  for (auto& row : sum)
+    for (Lanes& entry : row) entry.setZero();
+  for (int A = 0; A < n; A += 2)
+    for (int j = 0; j < 3; ++j) {
+      const Lanes dR_dX_j = Values(dR_dX + j * n + A);
+      for (int i = 0; i < 3; ++i) sum[i][j] += Values(u + i * n + A) * dR_dX_j;
+    }
+  Matrix3 H;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) H(i, j) = sum[i][j].sum();
+  return H;
+}
+
+/// f_A += P dR_A/dX
+inline void add_force(const Matrix3& P, const double* __restrict dR_dX, int n, double* __restrict f) {
+  for (int i = 0; i < 3; ++i)
+    for (int A = 0; A < n; ++A)
+      f[i * n + A] += P(i, 0) * dR_dX[A] + P(i, 1) * dR_dX[n + A] + P(i, 2) * dR_dX[2 * n + A];
+}
+
+/// Padded > 0 is known at compile time; 0 takes the element's own.
+template <int Padded>
+void element_force(const Material& material, const ElementGeometry& element, const double* u, double* f) {
+  const int n = Padded > 0 ? Padded : element.padded;
+  std::fill_n(f, 3 * n, 0.0);
+  for (int q = 0; q < element.points; ++q) {
+    const double* dR_dX = element.dR_dX + 3 * n * q;
+    const Matrix3 H = displacement_gradient(u, dR_dX, n);
+    add_force(element.wJ[q] * material.stress(H), dR_dX, n, f);
+  }
+}
+
+}  // namespace
+
+ForceKernel force_kernel(int padded) {
+  switch (padded) {
+    case 28:
+      return element_force<28>;
+    case 64:
+      return element_force<64>;
+    default:
+      return element_force<0>;
+  }
+}
+
+double element_energy(const Material& material, const ElementGeometry& element, const double* u) {
+  const int n = element.padded;
+  double energy = 0.0;
+  for (int q = 0; q < element.points; ++q)
+    energy += element.wJ[q] * material.energy_density(displacement_gradient(u, element.dR_dX + 3 * n * q, n));
+  return energy;
+}
+
+}  // namespace structure

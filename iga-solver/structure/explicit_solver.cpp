@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/explicit_solver.h"
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "structure/stable_time_step.h"
+
+namespace structure {
+
+ExplicitSolver::ExplicitSolver(Solid solid, Supports supports)
+    : solid_(std::move(solid)),
+      supports_(std::move(supports)),
+      mass_(std::make_unique<LumpedMass>(solid_.row_sum_mass())),
+      f_ext_(NodalVectors::Zero(3, solid_.node_count())),
+      residual_(f_ext_),
+      u_(f_ext_),
+      x_(solid_.patch().control_points),
+      v_(f_ext_),
+      a_(f_ext_) {}
+
+void ExplicitSolver::check_size(const NodalVectors& values, const char* what) const {
+  if (values.cols() != u_.cols())
+    throw std::invalid_argument(
+        fmt::format("ExplicitSolver: {} for {} nodes, expected {}", what, values.cols(), u_.cols()));
+}
+
+void ExplicitSolver::set_load(const NodalVectors& f_ext) {
+  check_size(f_ext, "load");
+  f_ext_ = f_ext;
+}
+
+void ExplicitSolver::set_velocities(const NodalVectors& v) {
+  check_size(v, "velocities");
+  v_ = v;
+  supports_.apply(v_);
+}
+
+void ExplicitSolver::set_time_step(double dt) {
+  if (!(dt > 0.0 && std::isfinite(dt)))
+    throw std::invalid_argument(fmt::format("ExplicitSolver: time step is {}, expected a number > 0", dt));
+  dt_ = dt;
+}
+
+void ExplicitSolver::initialise_forces(const NodalVectors& F) {
+  check_size(F, "forces");
+  update_accelerations(F);
+}
+
+void ExplicitSolver::begin_step() {
+  if (dt_ == 0.0) throw std::logic_error("ExplicitSolver: begin_step before set_time_step");
+  v_ += 0.5 * dt_ * a_;
+  u_ += dt_ * v_;
+  x_ = solid_.patch().control_points + u_;
+}
+
+void ExplicitSolver::end_step(const NodalVectors& F) {
+  check_size(F, "forces");
+  update_accelerations(F);
+  v_ += 0.5 * dt_ * a_;
+  time_ += dt_;
+}
+
+void ExplicitSolver::update_accelerations(const NodalVectors& F) {
+  solid_.internal_force(u_, residual_);
+  residual_ = f_ext_ + F - residual_;
+  mass_->apply_inverse_mass(residual_, a_);
+  supports_.apply(a_);
+}
+
+Vector3 ExplicitSolver::displacement(const nurbs::Parameter<3>& xi) const {
+  return nurbs::interpolate(solid_.patch().space, u_, xi);
+}
+
+double ExplicitSolver::stable_time_step() const {
+  if (!stable_time_step_) stable_time_step_ = structure::stable_time_step(solid_, *mass_, supports_, u_);
+  return *stable_time_step_;
+}
+
+double ExplicitSolver::kinetic_energy() const {
+  return 0.5 * v_.colwise().squaredNorm().dot(mass_->nodal_mass());
+}
+
+double ExplicitSolver::strain_energy() const { return solid_.strain_energy(u_); }
+
+double ExplicitSolver::load_work() const { return f_ext_.cwiseProduct(u_).sum(); }
+
+Vector3 ExplicitSolver::linear_momentum() const { return v_ * mass_->nodal_mass(); }
+
+Vector3 ExplicitSolver::angular_momentum(const Vector3& about) const {
+  Vector3 L = Vector3::Zero();
+  for (int A = 0; A < x_.cols(); ++A)
+    L += (x_.col(A) - about).cross(mass_->nodal_mass()[A] * Vector3(v_.col(A)));
+  return L;
+}
+
+std::vector<double> ExplicitSolver::save() const {
+  std::vector<double> state{time_};
+  state.reserve(1 + 3 * u_.size());
+  for (const NodalVectors* values : {&u_, &v_, &a_})
+    state.insert(state.end(), values->data(), values->data() + values->size());
+  return state;
+}
+
+void ExplicitSolver::load(const std::vector<double>& state) {
+  const std::size_t size = u_.size();
+  if (state.size() != 1 + 3 * size)
+    throw std::invalid_argument(
+        fmt::format("ExplicitSolver: state of {} numbers, expected {}", state.size(), 1 + 3 * size));
+  auto next = state.begin();
+  time_ = *next++;
+  for (NodalVectors* values : {&u_, &v_, &a_}) {
+    std::copy_n(next, size, values->data());
+    next += size;
+  }
+  x_ = solid_.patch().control_points + u_;
+}
+
+}  // namespace structure

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A solid in time: central differences as velocity Verlet (Newmark with beta = 0, gamma = 1/2), lumped mass.
+//   begin_step  v(n+1/2) = v(n) + dt/2 a(n),  u(n+1) = u(n) + dt v(n+1/2)
+//   end_step    a(n+1) = M^-1 (F(n+1) + f_ext - f_int(u(n+1))),  v(n+1) = v(n+1/2) + dt/2 a(n+1)
+// Between the two calls somebody else may work out forces F at the new positions (contact); all of the step's
+// results then belong to one time level.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "structure/mass.h"
+#include "structure/solid.h"
+#include "structure/supports.h"
+
+namespace structure {
+
+/// All nodal arrays are 3 x node_count.  Fixed dofs have u = v = a = 0 and take any force.
+class ExplicitSolver {
+ public:
+  /// At rest, undeformed, row-sum lumped mass.
+  ExplicitSolver(Solid solid, Supports supports);
+
+  /// Constant external nodal forces f_ext [force]; throws std::invalid_argument if the size does not fit.
+  void set_load(const NodalVectors& f_ext);
+  /// Current velocities [length/time], set to 0 at fixed dofs; throws as above.
+  void set_velocities(const NodalVectors& v);
+  /// dt [time]; throws std::invalid_argument unless it is positive and finite.
+  void set_time_step(double dt);
+
+  /// Accelerations for the current state under further nodal forces F [force]; advances nothing.  Call before
+  /// the first step and whenever state or loads were set.
+  void initialise_forces(const NodalVectors& F);
+  /// Half kick and drift; throws std::logic_error before set_time_step.
+  void begin_step();
+  /// Accelerations under further nodal forces F [force] and half kick.
+  void end_step(const NodalVectors& F);
+
+  const Solid& solid() const { return solid_; }
+  const Supports& supports() const { return supports_; }
+  const MassOperator& mass() const { return *mass_; }
+  double time() const { return time_; }
+  double time_step() const { return dt_; }
+  const NodalVectors& displacements() const { return u_; }    ///< [length]
+  const NodalVectors& positions() const { return x_; }        ///< of the control points [length]
+  const NodalVectors& velocities() const { return v_; }       ///< [length/time]; v(n+1/2) within a step
+  const NodalVectors& accelerations() const { return a_; }    ///< [length/time^2]
+  Vector3 displacement(const nurbs::Parameter<3>& xi) const;  ///< of a material point [length]
+
+  /// 2 / omega_max about the state of the first call, which takes seconds for large models; then remembered.
+  double stable_time_step() const;
+
+  double kinetic_energy() const;  ///< sum m_A |v_A|^2 / 2
+  double strain_energy() const;
+  double load_work()
+      const;  ///< f_ext . u: kinetic + strain energy - load work is conserved without further forces
+  Vector3 linear_momentum() const;                       ///< sum m_A v_A
+  Vector3 angular_momentum(const Vector3& about) const;  ///< sum (x_A - about) x m_A v_A
+
+  /// Time, displacements, velocities and accelerations as 1 + 9 node_count numbers, to continue to the last
+  /// bit.
+  std::vector<double> save() const;
+  /// Throws std::invalid_argument if the size does not fit.
+  void load(const std::vector<double>& state);
+
+ private:
+  void check_size(const NodalVectors& values, const char* what) const;
+  void update_accelerations(const NodalVectors& F);
+
+  Solid solid_;
+  Supports supports_;
+  std::unique_ptr<MassOperator> mass_;
+  double dt_ = 0.0, time_ = 0.0;
+  NodalVectors f_ext_, residual_, u_, x_, v_, a_;
+  mutable std::optional<double> stable_time_step_;
+};
+
+}  // namespace structure

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/solid.h"
+
+#include <fmt/format.h>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <numeric>
+#include <stdexcept>
+
+#include "structure/gauss_legendre.h"
+
+namespace structure {
+
+namespace {
+
+constexpr int kMaxElementValues = 3 * padded(nurbs::RationalBasis<3>::kMaxFunctions);
+
+/// dX/dxi from reference control points: J(i, d) = sum_A X_A,i dR_A/dxi_d.
+Matrix3 jacobian(const nurbs::RationalBasis<3>& basis, const NodalVectors& X) {
+  Matrix3 J = Matrix3::Zero();
+  for (int a = 0; a < basis.count; ++a)
+    for (int d = 0; d < 3; ++d) J.col(d) += basis.dR[d][a] * X.col(basis.control_point[a]);
+  return J;
+}
+
+[[noreturn]] void throw_not_positive(double det_J, int element, const std::array<int, 3>& span) {
+  throw std::invalid_argument(fmt::format(
+      "Solid: Jacobian determinant {} in element {} (spans {}, {}, {} of xi, eta, zeta), expected > 0: "
+      "the patch is left-handed or folded there",
+      det_J, element, span[0], span[1], span[2]));
+}
+
+}  // namespace
+
+Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material)
+    : patch_(std::move(patch)), material_(std::move(material)) {
+  nurbs::check_patch(patch_);
+  const nurbs::Space<3>& space = patch_.space;
+  const std::size_t elements = space.element_count();
+  functions_ = points_ =
+      space.functions_per_element();  // degree + 1 points per direction: as many as functions
+  padded_ = padded(functions_);
+  nodes_.resize(elements * functions_);
+  dR_dX_.assign(elements * points_ * 3 * padded_, 0.0);
+  wJ_.resize(elements * points_);
+  element_mass_.assign(elements * padded_, 0.0);
+  row_sum_mass_ = Eigen::VectorXd::Zero(node_count());
+  force_kernel_ = force_kernel(padded_);
+  for (int e = 0; e < space.element_count(); ++e) integrate_element(e);
+}
+
+void Solid::integrate_element(int element) {
+  const nurbs::Space<3>& space = patch_.space;
+  const std::array<int, 3> span = space.element_indices(element);
+  QuadratureRule rule[3];
+  for (int d = 0; d < 3; ++d) {
+    const std::vector<double>& breaks = space.knots(d).breaks();
+    rule[d] = gauss_legendre(space.degree(d) + 1, breaks[span[d]], breaks[span[d] + 1]);
+  }
+  int* nodes = &nodes_[std::size_t(element) * functions_];
+  space.element_control_points(element, nodes);
+  int point = 0;
+  for (std::size_t k = 0; k < rule[2].points.size(); ++k)
+    for (std::size_t j = 0; j < rule[1].points.size(); ++j)
+      for (std::size_t i = 0; i < rule[0].points.size(); ++i)
+        integrate_point(element, point++, {rule[0].points[i], rule[1].points[j], rule[2].points[k]},
+                        rule[0].weights[i] * rule[1].weights[j] * rule[2].weights[k]);
+  for (int a = 0; a < functions_; ++a) row_sum_mass_[nodes[a]] += element_mass(element)[a];
+}
+
+void Solid::integrate_point(int element, int point, const nurbs::Parameter<3>& xi, double weight) {
+  nurbs::RationalBasis<3> basis;
+  nurbs::evaluate_on_element(patch_.space, element, xi, 1, basis);
+  const Matrix3 J = jacobian(basis, patch_.control_points);
+  const double det_J = J.determinant();
+  if (!(det_J > 0.0)) throw_not_positive(det_J, element, patch_.space.element_indices(element));
+
+  const std::size_t index = std::size_t(element) * points_ + point;
+  const double wJ = wJ_[index] = weight * det_J;
+  double* dR_dX = &dR_dX_[index * 3 * padded_];
+  double* mass = &element_mass_[std::size_t(element) * padded_];
+  const Matrix3 J_inverse_transposed = J.inverse().transpose();
+  for (int a = 0; a < functions_; ++a) {
+    const Vector3 gradient = J_inverse_transposed * Vector3(basis.dR[0][a], basis.dR[1][a], basis.dR[2][a]);
+    for (int d = 0; d < 3; ++d) dR_dX[d * padded_ + a] = gradient[d];
+    mass[a] += material_->density() * basis.R[a] * wJ;
+  }
+}
+
+ElementGeometry Solid::geometry(int element) const {
+  const std::size_t first_point = std::size_t(element) * points_;
+  return {&dR_dX_[first_point * 3 * padded_], &wJ_[first_point], points_, padded_};
+}
+
+double Solid::volume() const { return std::accumulate(wJ_.begin(), wJ_.end(), 0.0); }
+
+void Solid::gather(int element, const NodalVectors& nodal, double* values) const {
+  const int* nodes = element_nodes(element);
+  for (int i = 0; i < 3; ++i) {
+    for (int a = 0; a < functions_; ++a) values[i * padded_ + a] = nodal(i, nodes[a]);
+    std::fill(values + i * padded_ + functions_, values + (i + 1) * padded_, 0.0);
+  }
+}
+
+void Solid::element_force(int element, const double* u, double* f) const {
+  force_kernel_(*material_, geometry(element), u, f);
+}
+
+void Solid::internal_force(const NodalVectors& u, NodalVectors& f) const {
+  double u_element[kMaxElementValues], f_element[kMaxElementValues];
+  f.setZero();
+  for (int e = 0; e < patch_.space.element_count(); ++e) {
+    gather(e, u, u_element);
+    element_force(e, u_element, f_element);
+    const int* nodes = element_nodes(e);
+    for (int a = 0; a < functions_; ++a)
+      for (int i = 0; i < 3; ++i) f(i, nodes[a]) += f_element[i * padded_ + a];
+  }
+}
+
+double Solid::strain_energy(const NodalVectors& u) const {
+  double u_element[kMaxElementValues];
+  double energy = 0.0;
+  for (int e = 0; e < patch_.space.element_count(); ++e) {
+    gather(e, u, u_element);
+    energy += element_energy(*material_, geometry(e), u_element);
+  }
+  return energy;
+}
+
+Matrix3 Solid::displacement_gradient(const NodalVectors& u, const nurbs::Parameter<3>& xi) const {
+  nurbs::RationalBasis<3> basis;
+  nurbs::evaluate(patch_.space, xi, 1, basis);
+  return jacobian(basis, u) * jacobian(basis, patch_.control_points).inverse();
+}
+
+Matrix3 Solid::stress(const NodalVectors& u, const nurbs::Parameter<3>& xi) const {
+  return material_->stress(displacement_gradient(u, xi));
+}
+
+}  // namespace structure

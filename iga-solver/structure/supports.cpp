@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/supports.h"
+
+#include <algorithm>
+
+namespace structure {
+
+void Supports::fix(const nurbs::Space<3>& volume, nurbs::Face face, const Directions& directions) {
+  for (int A : nurbs::boundary_surface(volume, face).volume_control_point)
+    for (int i = 0; i < 3; ++i)
+      if (directions[i]) dofs_.push_back(3 * A + i);
+  std::sort(dofs_.begin(), dofs_.end());
+  dofs_.erase(std::unique(dofs_.begin(), dofs_.end()), dofs_.end());
+}
+
+void Supports::apply(NodalVectors& values) const {
+  for (int dof : dofs_) values.data()[dof] = 0.0;
+}
+
+}  // namespace structure

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Homogeneous Dirichlet conditions: degrees of freedom that stay where they are.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "nurbs/boundary.h"
+
+namespace structure {
+
+using nurbs::NodalVectors;
+
+/// Fixed directions x, y, z.
+using Directions = std::array<bool, 3>;
+
+class Supports {
+ public:
+  /// Fixes all control points of a face of the volume in the given directions.
+  void fix(const nurbs::Space<3>& volume, nurbs::Face face, const Directions& directions);
+  /// Sets the fixed entries of nodal values (3 x n) to zero: velocities, accelerations, trial vectors.
+  void apply(NodalVectors& values) const;
+  /// Fixed degrees of freedom 3 A + direction, rising, each once.
+  const std::vector<int>& fixed_dofs() const { return dofs_; }
+
+ private:
+  std::vector<int> dofs_;
+};
+
+}  // namespace structure

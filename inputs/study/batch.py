@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The chosen cases of a study, from the variables the user set to the files in out/<deck>/."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import tempfile
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Mapping, Sequence
+
+from study.case import Case, Result, Study, index_variables, numbers, run_variables
+from study.progress import Progress
+from study.pulse import NoPulse
+from study.solver import LOG, Run, Solver, run_all
+from study.summary import Row, table, write_json
+from study.usage import one_of
+
+
+@dataclass
+class Batch:
+    """`user` holds the -var words; results of cases that were run are kept by case name."""
+
+    folder: Path
+    study: Study
+    cases: Sequence[Case]
+    user: Mapping[str, str]
+    results: dict[str, Result] = field(default_factory=dict)
+    rows: dict[str, list[Row]] = field(default_factory=dict)
+    complete: bool = True
+
+    def defaults(self, case: Case) -> dict[str, str]:
+        return index_variables(self.folder / case.deck)
+
+    def check_variables(self) -> None:
+        """UsageError for a -var that no chosen case's deck has, or whose value is none."""
+        known = sorted({name for case in self.cases for name in self.defaults(case)})
+        for name in self.user:
+            one_of("variable", name, known)
+        for case in self.cases:
+            run_variables(case, self.defaults(case), self.user)
+
+    def runs(self, scratch: Path) -> list[tuple[Run, list[Case]]]:
+        """One run for all cases that set the same variables of the same deck."""
+        shared: dict[tuple, tuple[Run, list[Case]]] = {}
+        for case in self.cases:
+            variables = run_variables(case, self.defaults(case), self.user)
+            run = Run(case.name, self.folder, case.deck, variables, scratch / case.name)
+            same = (case.deck, tuple(numbers(variables).items()))
+            shared.setdefault(same, (run, []))[1].append(case)
+        return list(shared.values())
+
+    def run(self, solver: Solver, jobs: int, keep_going: bool, out: Path) -> bool:
+        """Runs everything and writes `out`; whether every run and every row went well."""
+        out.mkdir(parents=True, exist_ok=True)
+        for stale in [out / "summary.json", *(out / figure.file for figure in self.study.figures)]:
+            stale.unlink(missing_ok=True)
+        with tempfile.TemporaryDirectory(prefix=".run-", dir=out) as scratch:
+            runs = self.runs(Path(scratch))
+            cases = {run.name: cases for run, cases in runs}
+            progress = Progress(len(runs))
+            ended = run_all([run for run, _ in runs], solver, jobs, progress.watch, keep_going)
+            for done, run in enumerate(ended, start=1):
+                failure = run.failure() or self.take(run, cases[run.name])
+                progress.finished(done, run, failure)
+                self.publish(run, cases[run.name], out, failure)
+            if not self.complete and not keep_going:
+                return False
+            for figure in self.study.figures:
+                if set(figure.cases) <= self.results.keys():
+                    figure.draw(out / figure.file, self.results)
+        rows = [row for case in self.cases for row in self.rows[case.name]]
+        write_json(out / "summary.json", self.folder.name, rows)
+        print(table(rows))
+        return self.complete and all(row.passes is not False for row in rows)
+
+    def take(self, run: Run, cases: Sequence[Case]) -> str | None:
+        """Keeps the results and rows of a run; why it cannot, if so."""
+        for case in cases:
+            before = numbers(run_variables(case, self.defaults(case), {}))
+            values = numbers(run.variables)
+            changed = frozenset(name for name in values if values[name] != before[name])
+            result = Result(case.name, values, changed, run.folder)
+            try:
+                self.rows[case.name] = case.rows(result)
+            except NoPulse as error:
+                return str(error)
+            self.results[case.name] = result
+        return None
+
+    def publish(self, run: Run, cases: Sequence[Case], out: Path, failure: str | None) -> None:
+        """Logs and force histories under each case's name; a row that says so if it failed."""
+        for case in cases:
+            put(run.folder / LOG, out / f"log_{case.name}.txt")
+            if failure:
+                self.complete = False
+                self.rows[case.name] = [Row(case.name, "completed", 0.0, "1", 1.0, 0.0)]
+            else:
+                put(run.folder / "contact_force.csv", out / f"contact_force_{case.name}.csv")
+        if failure:
+            print(f"see {out / f'log_{run.name}.txt'}", file=sys.stderr)
+
+
+def put(source: Path, target: Path) -> None:
+    """Copies a file, as a whole or not at all."""
+    partial = target.with_name(target.name + ".partial")
+    shutil.copyfile(source, partial)
+    os.replace(partial, target)

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Contact force against time: computed samples over closed forms."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Callable, Sequence
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
+from matplotlib.lines import Line2D  # noqa: E402
+
+Force = Callable[[np.ndarray], np.ndarray]
+
+# Okabe and Ito's colours, told apart by all kinds of eyes and in grey.
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00")
+MARKERS = ("o", "s", "^", "D", "v")
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A computed history, t [s] and F [N], and what it is compared with."""
+
+    label: str
+    t: np.ndarray
+    F: np.ndarray
+    exact: Force
+    paper: Force | None = None  # eq. 35 for this curve's own parameters
+
+
+@dataclass(frozen=True)
+class Line:
+    """A closed form that belongs to no computed curve, in black."""
+
+    label: str
+    force: Force
+    style: str
+
+
+def force_figure(
+    path: Path,
+    title: str,
+    curves: Sequence[Curve],
+    exact_label: str,
+    lines: Sequence[Line] = (),
+) -> None:
+    """Computed forces as markers over their closed forms; SI in, microseconds on the axis."""
+    figure, axes = plt.subplots(figsize=(9.0, 4.6), layout="constrained")
+    t = np.linspace(0.0, 1.04 * max(contact_end(curve) for curve in curves), 801)
+    for curve, colour, marker in zip(curves, COLOURS, MARKERS):
+        axes.plot(1e6 * t, curve.exact(t), color=colour, linewidth=1.3)
+        if curve.paper:
+            axes.plot(1e6 * t, curve.paper(t), color=colour, linewidth=1.0, linestyle=":")
+        every = max(1, len(curve.t) // 32)
+        shown = slice(every // 2, np.count_nonzero(curve.t <= contact_end(curve)), every)
+        style = dict(linestyle="none", marker=marker, markersize=4.5, markerfacecolor="none")
+        axes.plot(1e6 * curve.t[shown], curve.F[shown], color=colour, label=curve.label, **style)
+    for line in lines:
+        style = dict(color="k", linewidth=1.2, linestyle=line.style)
+        axes.plot(1e6 * t, line.force(t), label=line.label, **style)
+    handles, labels = axes.get_legend_handles_labels()
+    handles.append(Line2D([], [], color="0.4", linewidth=1.3))
+    labels.append(exact_label)
+    if any(curve.paper for curve in curves):
+        handles.append(Line2D([], [], color="0.4", linewidth=1.0, linestyle=":"))
+        labels.append("eq. 35 of the paper")
+    beside = dict(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    legend = axes.legend(handles, labels, title="markers: computed", frameon=False, **beside)
+    legend.set_alignment("left")
+    axes.set(title=title, xlabel="time [µs]", ylabel="contact force [N]", xlim=(0.0, 1e6 * t[-1]))
+    axes.set_ylim(bottom=0.0)
+    axes.grid(color="0.92", linewidth=0.6)
+    axes.set_axisbelow(True)
+    save(figure, path)
+
+
+def contact_end(curve: Curve) -> float:
+    """Time of the last sample with a force [s]."""
+    return curve.t[curve.F > 0.0][-1]
+
+
+def save(figure, path: Path) -> None:
+    """Writes the picture as a whole or not at all."""
+    partial = path.with_name(path.name + ".partial")
+    figure.savefig(partial, dpi=180, format="png")
+    plt.close(figure)
+    os.replace(partial, path)

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs of the solver, a few at a time, each in a folder of its own."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import time
+from collections import deque
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Callable, Iterator, Mapping, Sequence
+
+LOG = "log.txt"
+
+
+@dataclass(frozen=True)
+class Solver:
+    """The executable and the number of MPI ranks it runs on."""
+
+    program: Path
+    ranks: int = 1
+
+    def command(self, deck: str, variables: Mapping[str, str]) -> list[str]:
+        launcher = ["mpirun", "--bind-to", "none", "-np", str(self.ranks)] if self.ranks > 1 else []
+        options = [word for name, value in variables.items() for word in ("-var", name, value)]
+        return [*launcher, str(self.program), "-in", deck, "-log", "none", *options]
+
+    def environment(self) -> dict[str, str]:
+        """Open MPI runs as root, and oversubscribes, only where it is told to."""
+        environment = dict(os.environ)
+        if os.geteuid() == 0:
+            environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
+        if self.ranks > cores():
+            environment["OMPI_MCA_rmaps_base_oversubscribe"] = "1"
+        return environment
+
+
+def cores() -> int:
+    """Cores this process may use."""
+    return len(os.sched_getaffinity(0))
+
+
+@dataclass
+class Run:
+    """One start of the solver; `folder` gets the deck's files and all that the run writes."""
+
+    name: str
+    source: Path  # the deck's folder
+    deck: str
+    variables: Mapping[str, str]
+    folder: Path
+    seconds: float = 0.0
+    process: subprocess.Popen | None = field(default=None, repr=False)
+
+    def start(self, solver: Solver) -> None:
+        ignored = shutil.ignore_patterns("*.py", "*.md", "__pycache__")
+        shutil.copytree(self.source, self.folder, ignore=ignored)
+        self.seconds = -time.monotonic()
+        with open(self.folder / LOG, "w", encoding="utf-8") as log:
+            self.process = subprocess.Popen(
+                solver.command(self.deck, self.variables),
+                cwd=self.folder,
+                env=solver.environment(),
+                stdin=subprocess.DEVNULL,
+                stdout=log,
+                stderr=subprocess.STDOUT,
+            )
+
+    def finished(self) -> bool:
+        if self.process.poll() is None:
+            return False
+        self.seconds += time.monotonic()
+        return True
+
+    def failure(self) -> str | None:
+        """None if the run went well, else the solver's own words."""
+        if self.process.returncode == 0:
+            return None
+        lines = (self.folder / LOG).read_text(encoding="utf-8", errors="replace").splitlines()
+        errors = [line for line in lines if line.startswith("ERROR")]
+        return errors[0] if errors else f"the solver ended with code {self.process.returncode}"
+
+
+def run_all(
+    runs: Sequence[Run],
+    solver: Solver,
+    jobs: int,
+    watch: Callable[[int, Sequence[Run]], None],
+    keep_going: bool,
+) -> Iterator[Run]:
+    """Runs `jobs` at a time, yields each as it ends; after a failure none starts unless keep_going.
+
+    `watch(done, running)` is called a few times a second.  Leaving the loop early stops what runs.
+    """
+    waiting, running, done = deque(runs), [], 0
+    try:
+        while waiting or running:
+            while waiting and len(running) < jobs:
+                running.append(waiting.popleft())
+                running[-1].start(solver)
+            watch(done, running)
+            time.sleep(0.1)
+            for run in [run for run in running if run.finished()]:
+                running.remove(run)
+                done += 1
+                if run.failure() and not keep_going:
+                    waiting.clear()
+                yield run
+    finally:
+        for run in running:
+            run.process.terminate()
+        for run in running:
+            run.process.wait()

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "model_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "contact_model_constants.h"
+#include "nurbs/yaml_map.h"
+#include "penalty_laws.h"
+
+namespace liggghts_pkg {
+
+namespace {
+
+using namespace LIGGGHTS::ContactModels;
+
+// LIGGGHTS' lists of models are X-macros: each style_<kind>_model.h calls <KIND>_MODEL(identifier, word, id)
+// per model.
+#define LIST_ENTRY(identifier, word, id) {#word, id},
+
+std::vector<ModelWord> normal_models() {
+  std::vector<ModelWord> models = {
+      {"off", NORMAL_OFF},
+#define NORMAL_MODEL LIST_ENTRY
+#include "style_normal_model.h"
+#undef NORMAL_MODEL
+  };
+  for_each_law([&](auto law) { models.push_back({law.word, law.id}); });
+  return models;
+}
+
+const std::vector<ModelWord> kTangentialModels = {
+    {"off", TANGENTIAL_OFF},
+#define TANGENTIAL_MODEL LIST_ENTRY
+#include "style_tangential_model.h"
+#undef TANGENTIAL_MODEL
+};
+
+const std::vector<ModelWord> kCohesionModels = {
+    {"off", COHESION_OFF},
+#define COHESION_MODEL LIST_ENTRY
+#include "style_cohesion_model.h"
+#undef COHESION_MODEL
+};
+
+const std::vector<ModelWord> kRollingModels = {
+    {"off", ROLLING_OFF},
+#define ROLLING_MODEL LIST_ENTRY
+#include "style_rolling_model.h"
+#undef ROLLING_MODEL
+};
+
+const std::vector<ModelWord> kSurfaceModels = {
+#define SURFACE_MODEL LIST_ENTRY
+#include "style_surface_model.h"
+#undef SURFACE_MODEL
+};
+
+#undef LIST_ENTRY
+
+/// A keyword, the models it chooses from and where the choice goes; in the order that LIGGGHTS demands.
+struct Keyword {
+  const char* word;
+  ModelKind kind;
+  std::string ModelChoice::*choice;
+};
+const Keyword kKeywords[] = {
+    {"model", ModelKind::normal, &ModelChoice::normal},
+    {"tangential", ModelKind::tangential, &ModelChoice::tangential},
+    {"cohesion", ModelKind::cohesion, &ModelChoice::cohesion},
+    {"rolling_friction", ModelKind::rolling, &ModelChoice::rolling},
+    {"surface", ModelKind::surface, &ModelChoice::surface},
+};
+
+std::vector<std::string> words_of(const std::vector<ModelWord>& models) {
+  std::vector<std::string> words;
+  for (const ModelWord& model : models) words.push_back(model.word);
+  return words;
+}
+
+void check_known(const Keyword& keyword, const std::string& given) {
+  const std::vector<std::string> known = words_of(known_models(keyword.kind));
+  if (std::find(known.begin(), known.end(), given) != known.end()) return;
+  const std::string near = nurbs::nearest_word(given, known);
+  throw std::invalid_argument(fmt::format("unknown {} model '{}'{}, expected one of {}",
+                                          keyword.kind == ModelKind::normal ? "contact" : keyword.word, given,
+                                          near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near),
+                                          fmt::join(known, ", ")));
+}
+
+bool is_penalty_law(const std::string& word) {
+  bool found = false;
+  for_each_law([&](auto law) { found |= word == law.word; });
+  return found;
+}
+
+}  // namespace
+
+const std::vector<ModelWord>& known_models(ModelKind kind) {
+  static const std::vector<ModelWord> normal = normal_models();
+  switch (kind) {
+    case ModelKind::normal:
+      return normal;
+    case ModelKind::tangential:
+      return kTangentialModels;
+    case ModelKind::cohesion:
+      return kCohesionModels;
+    case ModelKind::rolling:
+      return kRollingModels;
+    default:
+      return kSurfaceModels;
+  }
+}
+
+ModelChoice model_choice(std::int64_t hash) {
+  ModelChoice models;
+  int shift = 0;
+  for (const Keyword& keyword : kKeywords) {
+    const int id = (hash >> shift) & 63;
+    shift += 6;
+    const std::vector<ModelWord>& known = known_models(keyword.kind);
+    const auto model =
+        std::find_if(known.begin(), known.end(), [&](const ModelWord& m) { return m.id == id; });
+    if (model == known.end())
+      throw std::invalid_argument(
+          fmt::format("no {} model has the id {} in LIGGGHTS' headers", keyword.word, id));
+    models.*keyword.choice = model->word;
+  }
+  return models;
+}
+
+std::string why_refused(const ModelChoice& models, bool is_wall) {
+  if (models.surface != "default" && is_penalty_law(models.normal))
+    return fmt::format("surface model '{}' needs a normal model of LIGGGHTS' own, given '{}'", models.surface,
+                       models.normal);
+  if (models.surface != "default" && is_wall)
+    return fmt::format("surface model '{}' needs {}, expected 'default'", models.surface,
+                       models.surface == "superquadric" ? "a LIGGGHTS that is built for superquadrics"
+                                                        : "a triangle mesh as wall");
+  // these two read the history of the normal model luding, whoever has written it
+  if (models.tangential == "tan_luding" && models.normal != "luding")
+    return fmt::format("tangential model 'tan_luding' needs model 'luding', given '{}'", models.normal);
+  if (models.rolling == "luding" && models.normal != "luding")
+    return fmt::format("rolling_friction model 'luding' needs model 'luding', given '{}'", models.normal);
+  // after the contact it looks up the velocity of particle j; a wall without mesh has a negative j
+  if (is_wall && models.cohesion == "easo/capillary/viscous")
+    return "cohesion model 'easo/capillary/viscous' needs a triangle mesh as wall, expected another cohesion "
+           "model "
+           "('washino/capillary/viscous' works)";
+  // nobody sets the stiffness that tangential and rolling models use
+  if (is_wall && models.normal == "off")
+    return "model 'off' leaves a wall without stiffness, expected a normal model";
+  return "";
+}
+
+std::size_t check_contact_models(const std::vector<std::string>& words) {
+  if (words.empty() || words[0] != kKeywords[0].word)
+    throw std::invalid_argument(
+        fmt::format("first comes '{}', expected 'model NORMAL' (such as 'model hertz')",
+                    words.empty() ? "nothing" : words[0]));
+  ModelChoice models;
+  std::size_t next = 0;
+  for (const Keyword& keyword : kKeywords) {
+    if (next == words.size() || words[next] != keyword.word) continue;
+    if (next + 1 == words.size())
+      throw std::invalid_argument(fmt::format("'{}' is the last word, expected one of {} after it",
+                                              keyword.word,
+                                              fmt::join(words_of(known_models(keyword.kind)), ", ")));
+    check_known(keyword, words[next + 1]);
+    models.*keyword.choice = words[next + 1];
+    next += 2;
+  }
+  const std::string reason = why_refused(models, true);
+  if (!reason.empty()) throw std::invalid_argument(reason);
+  return next;
+}
+
+void check_model_settings(const std::vector<std::string>& words) {
+  for (const char* setting : {"computeElasticPotential", "computeDissipatedEnergy"}) {
+    const auto found = std::find(words.begin(), words.end(), setting);
+    if (found != words.end() && found + 1 != words.end() && found[1] == "on")
+      throw std::invalid_argument(
+          fmt::format("'{} on' needs a triangle mesh as wall, expected off", setting));
+  }
+}
+
+}  // namespace liggghts_pkg

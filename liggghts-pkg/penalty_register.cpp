@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "penalty_register.h"
+
+#include <vector>
+
+#include "fix_insert_stream.h"  // pair_gran_base.h needs these two before it
+#include "fix_wall_gran_base.h"
+#include "granular_pair_style.h"
+#include "granular_wall.h"
+#include "model_words.h"
+#include "pair_gran_base.h"
+#include "penalty_contact_model.h"
+#include "penalty_laws.h"
+
+namespace liggghts_pkg {
+
+namespace {
+
+namespace Walls = LIGGGHTS::Walls;
+namespace PairStyles = LIGGGHTS::PairStyles;
+
+Walls::IGranularWall* make_wall(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::FixWallGran* parent, std::int64_t hash) {
+  return new Walls::Granular<PenaltyContactModel>(lmp, parent, hash);
+}
+
+PairStyles::IGranularPairStyle* make_pair(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::PairGran* parent,
+                                          std::int64_t hash) {
+  return new PairStyles::Granular<PenaltyContactModel>(lmp, parent, hash);
+}
+
+}  // namespace
+
+// Also the combinations that PenaltyContactModel refuses: LIGGGHTS itself would only say "Unknown normal
+// model".
+void register_penalty_models() {
+  for_each_law([](auto law) {
+    LIGGGHTS::ContactModels::Factory::instance().addNormalModel(law.word, law.id);
+    for (const ModelWord& tangential : known_models(ModelKind::tangential))
+      for (const ModelWord& cohesion : known_models(ModelKind::cohesion))
+        for (const ModelWord& rolling : known_models(ModelKind::rolling))
+          for (const ModelWord& surface : known_models(ModelKind::surface)) {
+            const std::int64_t hash = LIGGGHTS::Utils::generate_gran_hashcode(
+                law.id, tangential.id, cohesion.id, rolling.id, surface.id);
+            Walls::Factory::instance().addStyle("gran", hash, &make_wall);
+            PairStyles::Factory::instance().addStyle("gran", hash, &make_pair);
+          }
+  });
+}
+
+}  // namespace liggghts_pkg

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "wall_nurbs_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <stdexcept>
+
+#include "model_words.h"
+#include "nurbs/yaml_map.h"
+
+namespace liggghts_pkg {
+
+namespace {
+
+const std::vector<std::string> kKeywords = {"type", "structure", "geometry", "surface", "material", "store_force"};
+const std::vector<std::string> kModelKeywords = {"model", "tangential", "cohesion", "rolling_friction"};
+
+[[noreturn]] void fail(const std::string& message) { throw std::invalid_argument(message); }
+
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+/// The words, read from left to right.
+class Reader {
+ public:
+  Reader(const std::vector<std::string>& words, std::size_t next) : words_(words), next_(next) {}
+
+  bool at_end() const { return next_ == words_.size(); }
+  std::string keyword() { return words_[next_++]; }
+  bool value_is_switch() const { return next_ < words_.size() && (words_[next_] == "on" || words_[next_] == "off"); }
+
+  std::string value(const std::string& keyword, const std::string& expected) {
+    if (at_end()) fail(fmt::format("'{}' is the last word, expected {} after it", keyword, expected));
+    return words_[next_++];
+  }
+  std::string value_of(const std::string& keyword, const std::vector<std::string>& allowed) {
+    const std::string expected = fmt::format("'{}'", fmt::join(allowed, "' or '"));
+    const std::string given = value(keyword, expected);
+    if (!contains(allowed, given)) fail(fmt::format("{} is '{}', expected {}", keyword, given, expected));
+    return given;
+  }
+
+ private:
+  const std::vector<std::string>& words_;
+  std::size_t next_;
+};
+
+int parse_type(const std::string& word) {
+  int type = 0;
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), type);
+  if (problem != std::errc() || end != word.data() + word.size() || type < 1)
+    fail(fmt::format("type is '{}', expected the number of an atom type, 1 or more", word));
+  return type;
+}
+
+[[noreturn]] void fail_unknown(const std::string& word) {
+  if (contains(kModelKeywords, word))
+    fail(fmt::format("'{}' stands too late: model, tangential, cohesion, rolling_friction and the surface model come "
+                     "first, in this order",
+                     word));
+  const std::string near = nurbs::nearest_word(word, kKeywords);
+  fail(fmt::format("unknown keyword '{}'{}, expected one of {}, or a contact model's setting with on or off", word,
+                   near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near), fmt::join(kKeywords, ", ")));
+}
+
+void check_complete(const WallNurbsOptions& options) {
+  if (options.atom_type == 0) fail("keyword 'type' is missing, expected 'type T', the atom type of the wall's material");
+  if (options.file.empty())
+    fail("keyword 'structure' or 'geometry' is missing, expected 'structure FILE surface NAME' for a deforming wall or "
+         "'geometry FILE surface NAME' for a rigid one");
+  if (options.surface.empty())
+    fail("keyword 'surface' is missing, expected 'surface NAME' after the file, a name under 'surfaces' in that file");
+}
+
+}  // namespace
+
+WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words) {
+  WallNurbsOptions options;
+  const std::size_t model_count = check_contact_models(words);
+  options.model_words.assign(words.begin(), words.begin() + model_count);
+
+  std::vector<std::string> seen;
+  Reader reader(words, model_count);
+  while (!reader.at_end()) {
+    const std::string keyword = reader.keyword();
+    if (contains(seen, keyword)) fail(fmt::format("keyword '{}' is given twice, expected once", keyword));
+    seen.push_back(keyword);
+
+    if (keyword == "type") {
+      options.atom_type = parse_type(reader.value(keyword, "an atom type"));
+    } else if (keyword == "structure" || keyword == "geometry") {
+      if (!options.file.empty()) fail("both 'structure' and 'geometry' are given, expected one of them");
+      options.body = keyword == "structure" ? WallNurbsOptions::Body::iga : WallNurbsOptions::Body::rigid;
+      options.file = reader.value(keyword, "a file");
+    } else if (keyword == "surface") {
+      options.surface = reader.value(keyword, "the name of a surface in the file");
+    } else if (keyword == "material") {
+      reader.value_of(keyword, {"independent"});
+      options.material_independent = true;
+    } else if (keyword == "store_force") {
+      options.store_force = reader.value_of(keyword, {"yes", "no"}) == "yes";
+    } else if (reader.value_is_switch()) {
+      options.setting_words.push_back(keyword);
+      options.setting_words.push_back(reader.keyword());
+    } else {
+      fail_unknown(keyword);
+    }
+  }
+  check_complete(options);
+  check_model_settings(options.setting_words);
+  return options;
+}
+
+}  // namespace liggghts_pkg

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The words of `fix ID group wall/nurbs ...`, split into ours and LIGGGHTS'.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace liggghts_pkg {
+
+struct WallNurbsOptions {
+  enum class Body { rigid, iga };
+
+  std::vector<std::string> model_words;     ///< `model ... surface ...`, for LIGGGHTS' contact model factory
+  std::vector<std::string> setting_words;   ///< on/off settings of these models, for LIGGGHTS
+  int atom_type = 0;                        ///< the wall's material, 1-based
+  Body body = Body::rigid;
+  std::string file;                         ///< model file (iga) or geometry file (rigid)
+  std::string surface;                      ///< name of the surface in that file
+  bool material_independent = false;        ///< the deck's E and nu may differ from the model file's
+  bool store_force = false;
+};
+
+/// Parses the words after `wall/nurbs`.  Throws std::invalid_argument: what was given, what was expected.
+WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words);
+
+}  // namespace liggghts_pkg

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The forces that the structure gets do not depend on how many ranks hold the particles.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "coupling/force_distribution.h"
+#include "coupling/open_structure.h"
+#include "coupling/rigid_surface.h"
+#include "coupling/surface_exchange.h"
+#include "nurbs/yaml_map.h"
+#include "wavy_surface.h"
+
+namespace {
+
+using coupling::ContactForce;
+using coupling::NodalVectors;
+using coupling::Vector3;
+
+struct Ranks {
+  Ranks() {
+    MPI_Comm_rank(MPI_COMM_WORLD, &me);
+    MPI_Comm_size(MPI_COMM_WORLD, &count);
+  }
+  int me, count;
+};
+
+/// Contact of particle `tag`: forces of very different size, so that the order of summation shows in the last bits.
+ContactForce contact(long tag) {
+  const double t = static_cast<double>(tag);
+  return {tag,
+          0,
+          {std::fmod(0.37 * t, 1.0), std::fmod(0.73 * t, 1.0)},
+          {std::sin(t), std::cos(3 * t), std::pow(10.0, tag % 7) * (1.0 + 0.1 * t)}};
+}
+
+TEST(SurfaceExchange, ForcesAreBitwiseTheSameOnAnyNumberOfRanks) {
+  const Ranks ranks;
+  coupling::RigidSurface rigid(test::wavy_surface());
+  coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
+  const int particles = 200;
+
+  // Serial reference in the order of tags, straight from eq. 34.
+  NodalVectors expected = NodalVectors::Zero(3, rigid.positions().cols());
+  Vector3 total = Vector3::Zero();
+  for (long tag = 1; tag <= particles; ++tag) {
+    const ContactForce c = contact(tag);
+    coupling::FootBasis(rigid.surface().space, {c.xi[0], c.xi[1]}).distribute(Vector3::Map(c.F), expected);
+    total += Vector3::Map(c.F);
+  }
+
+  std::vector<ContactForce> mine;
+  for (long tag = particles; tag >= 1; --tag)  // against the order, dealt to the ranks in turn
+    if (tag % ranks.count == ranks.me) mine.push_back(contact(tag));
+  const NodalVectors forces = exchange.export_add(mine);
+  EXPECT_EQ((forces - expected).cwiseAbs().maxCoeff(), 0.0);
+  EXPECT_LE((forces.rowwise().sum() - total).norm(), 1e-13 * total.norm());
+}
+
+TEST(SurfaceExchange, RanksWithoutContactsTakePart) {
+  const Ranks ranks;
+  coupling::RigidSurface rigid(test::wavy_surface());
+  coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
+  std::vector<ContactForce> mine;
+  if (ranks.me == ranks.count - 1) mine.push_back(contact(3));
+  EXPECT_NEAR(exchange.export_add(mine).row(2).sum(), contact(3).F[2], 1e-13 * contact(3).F[2]);
+  EXPECT_EQ(exchange.export_add({}).cwiseAbs().maxCoeff(), 0.0) << "forces of an earlier step must not stay";
+}
+
+TEST(SurfaceExchange, ImportBringsTheControlPoints) {
+  const nurbs::Surface surface = test::wavy_surface();
+  coupling::RigidSurface rigid(surface);
+  const coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
+  EXPECT_EQ(exchange.positions(), surface.control_points);
+  EXPECT_EQ(exchange.velocities().cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(OpenRigidSurface, MissingFileIsAnErrorOnEveryRank) {
+  try {
+    coupling::open_rigid_surface(MPI_COMM_WORLD, "no_such_file.yaml", "floor");
+    FAIL() << "expected nurbs::InputError";
+  } catch (const nurbs::InputError& problem) {
+    EXPECT_THAT(problem.what(), testing::AllOf(testing::HasSubstr("no_such_file.yaml"),
+                                               testing::HasSubstr("No such file")));
+  }
+}
+
+TEST(OpenRigidSurface, FolderInPlaceOfAFileIsAnError) {
+  EXPECT_THROW(coupling::open_rigid_surface(MPI_COMM_WORLD, ".", "floor"), nurbs::InputError);
+}
+
+}  // namespace

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "io/history.h"
+
+namespace {
+
+using io::Vector3;
+namespace fs = std::filesystem;
+
+// A free block falling under gravity: every quantity of the history has a closed form, which the central
+// difference scheme meets exactly.
+const char* const kFalling = R"(units: mm-g-ms
+geometry:
+  box: {origin: [0, 0, 0], size: [1, 2, 3], elements: [2, 1, 1], degree: 2}
+material: {law: linear_elastic, youngs_modulus: 100, poissons_ratio: 0.3, density: 0.5}
+probes:
+  top: {face: zeta+, at: [0.5, 0.5]}
+loads: {gravity: [0, 0, -2]}
+)";
+constexpr double kMass = 3.0, kGravity = 2.0, kStep = 0.01;
+
+class HistoryFile : public testing::Test {
+ protected:
+  // One folder per test: CTest runs them at the same time.
+  HistoryFile()
+      : folder_(fs::path(testing::TempDir()) /
+                (std::string("history_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
+    fs::create_directories(folder_);
+  }
+  ~HistoryFile() override { fs::remove_all(folder_); }
+
+  std::string base() const { return (folder_ / "falling").string(); }
+
+  fs::path folder_;
+};
+
+std::vector<double> read_series(const std::string& path, const std::string& name) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t data_set = H5Dopen2(file, name.c_str(), H5P_DEFAULT);
+  const hid_t space = H5Dget_space(data_set);
+  std::vector<double> values(H5Sget_simple_extent_npoints(space));
+  EXPECT_GE(H5Dread(data_set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
+  H5Sclose(space), H5Dclose(data_set), H5Fclose(file);
+  return values;
+}
+
+std::string read_attribute(const std::string& path, const std::string& object, const std::string& name) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  const hid_t attribute = H5Aopen_by_name(file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+  const hid_t type = H5Aget_type(attribute);
+  std::string value(H5Tget_size(type), '\0');
+  EXPECT_GE(H5Aread(attribute, type, value.data()), 0);
+  H5Tclose(type), H5Aclose(attribute), H5Fclose(file);
+  return value.c_str();
+}
+
+structure::ExplicitSolver falling_block(const io::ModelFile& model) {
+  structure::ExplicitSolver solver = io::build_solver(model);
+  solver.set_time_step(kStep);
+  solver.initialise_forces(structure::NodalVectors::Zero(3, solver.solid().node_count()));
+  return solver;
+}
+
+void run(structure::ExplicitSolver& solver, io::History& history, int steps) {
+  const structure::NodalVectors F = structure::NodalVectors::Zero(3, solver.solid().node_count());
+  history.record_if_due(solver);
+  for (int n = 0; n < steps; ++n) {
+    solver.begin_step();
+    solver.end_step(F);
+    history.record_if_due(solver);
+  }
+}
+
+TEST_F(HistoryFile, HoldsTheClosedFormOfAFallingBlockAtEveryOutputTime) {
+  const io::ModelFile model = io::parse_model_file(kFalling, "falling.yaml");
+  structure::ExplicitSolver solver = falling_block(model);
+  const double every = 2.5 * kStep;  // no multiple of the step: the nearest steps are recorded
+  io::History history({every, base()}, model.geometry.units, model.probes);
+  EXPECT_EQ(history.path(), base() + ".h5");
+  run(solver, history, 100);
+
+  const std::vector<double> time = read_series(history.path(), "time");
+  ASSERT_EQ(time.size(), 41u);
+  const auto column = [&](const char* name) { return read_series(history.path(), name); };
+  const auto kinetic = column("kinetic_energy"), strain = column("strain_energy"), work = column("load_work");
+  const auto linear = column("linear_momentum"), angular = column("angular_momentum");
+  const auto largest = column("largest_displacement"), top = column("probes/top");
+  ASSERT_EQ(linear.size(), 3 * time.size());
+  ASSERT_EQ(angular.size(), 3 * time.size());
+  ASSERT_EQ(top.size(), 3 * time.size());
+  for (std::size_t row = 0; row < time.size(); ++row) {
+    const double t = time[row], v = -kGravity * t, w = -0.5 * kGravity * t * t;
+    EXPECT_LE(std::abs(t - row * every), 0.5 * kStep + 1e-12);
+    EXPECT_NEAR(kinetic[row], 0.5 * kMass * v * v, 1e-11);
+    EXPECT_NEAR(strain[row], 0.0, 1e-11);
+    EXPECT_NEAR(work[row], kinetic[row], 1e-11);
+    EXPECT_NEAR(linear[3 * row + 2], kMass * v, 1e-11);
+    EXPECT_NEAR(angular[3 * row], 1.0 * kMass * v, 1e-11);  // centre of mass at (0.5, 1, z): L = r x m v
+    EXPECT_NEAR(angular[3 * row + 1], -0.5 * kMass * v, 1e-11);
+    EXPECT_NEAR(largest[row], -w, 1e-11);
+    EXPECT_NEAR(top[3 * row + 2], w, 1e-11);
+  }
+}
+
+TEST_F(HistoryFile, CarriesUnits) {
+  const io::ModelFile model = io::parse_model_file(kFalling, "falling.yaml");
+  for (const auto& [units, name, momentum] :
+       {std::tuple{nurbs::Units::si, "si", "kg m/s"}, std::tuple{nurbs::Units::cgs, "cgs", "g cm/s"},
+        std::tuple{nurbs::Units::mm_g_ms, "mm-g-ms", "g mm/ms"}}) {
+    const io::History history({1.0, base()}, units, model.probes);
+    EXPECT_EQ(read_attribute(history.path(), "/", "units"), name);
+    EXPECT_EQ(read_attribute(history.path(), "linear_momentum", "unit"), momentum);
+  }
+}
+
+TEST_F(HistoryFile, IsCompleteOnDiskAfterEveryRecord) {
+  const io::ModelFile model = io::parse_model_file(kFalling, "falling.yaml");
+  structure::ExplicitSolver solver = falling_block(model);
+  io::History history({kStep, base()}, model.geometry.units, model.probes);
+  for (int block = 1; block <= 3; ++block) {
+    run(solver, history, 200);
+    // What a run killed now would leave.
+    const std::string copy = base() + "_copy.h5";
+    fs::copy_file(history.path(), copy, fs::copy_options::overwrite_existing);
+    const std::vector<double> time = read_series(copy, "time");
+    ASSERT_EQ(time.size(), 200u * block + 1);
+    EXPECT_EQ(time.back(), solver.time());
+    EXPECT_EQ(read_series(copy, "probes/top").size(), 3 * time.size());
+  }
+}
+
+TEST_F(HistoryFile, NamesTheFileItCannotCreate) {
+  EXPECT_THAT(([&] {
+                io::History({1.0, base() + "_missing/history"}, nurbs::Units::si, {});
+              }),
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("_missing/history.h5")));
+}
+
+}  // namespace

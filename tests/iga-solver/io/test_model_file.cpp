@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "io/model_file.h"
+
+namespace {
+
+using io::ModelFile;
+using io::Vector3;
+using nurbs::Face;
+using testing::HasSubstr;
+
+const std::string kPlate = R"(units: si
+geometry:
+  box: {origin: [-1, -2, -0.5], size: [2, 4, 0.5], elements: [4, 3, 2], degree: 2}
+material: {law: linear_elastic, youngs_modulus: 210.6e9, poissons_ratio: 0.286, density: 7850}
+boundary:
+  - {fix: [x, y, z], faces: [xi-, xi+]}
+  - {fix: [z], faces: [zeta-]}
+surfaces: {top: zeta+}
+probes:
+  corner: {face: zeta+, at: [1, 1]}
+  below: {face: zeta-, at: [0.5, 0.25]}
+output: {every: 1.0e-7, file: plate}
+loads:
+  gravity: [0, 0, -9.81]
+  tractions:
+    - {face: zeta+, value: [0, 0, -1000]}
+    - {face: eta+, value: [5, 0, 0]}
+initial: {velocity: [0, 1, 2]}
+time: {end: 1.0e-3, step: 1.0e-6}
+)";
+
+TEST(ModelFile, ReadsEveryKey) {
+  const ModelFile model = io::parse_model_file(kPlate, "plate.yaml");
+  EXPECT_EQ(model.geometry.units, nurbs::Units::si);
+  EXPECT_EQ(model.volume().space.element_count(), 24);
+  EXPECT_EQ(model.material->youngs_modulus(), 210.6e9);
+  EXPECT_EQ(model.material->poissons_ratio(), 0.286);
+  EXPECT_EQ(model.material->density(), 7850);
+  ASSERT_EQ(model.boundary.size(), 2u);
+  EXPECT_THAT(model.boundary[0].faces, testing::ElementsAre(Face::xi_minus, Face::xi_plus));
+  EXPECT_THAT(model.boundary[0].directions, testing::ElementsAre(true, true, true));
+  EXPECT_THAT(model.boundary[1].directions, testing::ElementsAre(false, false, true));
+  EXPECT_EQ(model.geometry.surfaces.at("top"), Face::zeta_plus);
+  ASSERT_EQ(model.probes.size(), 2u);
+  EXPECT_EQ(model.probes[0].name, "corner");
+  EXPECT_EQ(model.probes[1].name, "below");
+  const Vector3 below =
+      nurbs::interpolate(model.volume().space, model.volume().control_points, model.probes[1].xi);
+  EXPECT_LT((below - Vector3(0, -1, -0.5)).norm(), 1e-14);
+  EXPECT_EQ(model.output->every, 1e-7);
+  EXPECT_EQ(model.output->file, "plate");
+  EXPECT_EQ(model.gravity, Vector3(0, 0, -9.81));
+  ASSERT_EQ(model.tractions.size(), 2u);
+  EXPECT_EQ(model.tractions[1].face, Face::eta_plus);
+  EXPECT_EQ(model.tractions[1].value, Vector3(5, 0, 0));
+  EXPECT_EQ(model.initial_velocity, Vector3(0, 1, 2));
+  EXPECT_EQ(model.time->end, 1e-3);
+  EXPECT_EQ(model.time->step, 1e-6);
+}
+
+TEST(ModelFile, LeavesOutWhatIsOptional) {
+  const ModelFile model = io::parse_model_file(kPlate.substr(0, kPlate.find("boundary:")), "plate.yaml");
+  EXPECT_TRUE(model.boundary.empty());
+  EXPECT_TRUE(model.probes.empty());
+  EXPECT_FALSE(model.output || model.time);
+  EXPECT_EQ(model.gravity, Vector3::Zero());
+  EXPECT_EQ(model.initial_velocity, Vector3::Zero());
+}
+
+TEST(BuildSolver, HasTheMassSupportsLoadsAndVelocitiesOfTheFile) {
+  const ModelFile model = io::parse_model_file(kPlate, "plate.yaml");
+  structure::ExplicitSolver solver = io::build_solver(model);
+  const double mass = 7850.0 * 2 * 4 * 0.5;
+  EXPECT_NEAR(solver.mass().nodal_mass().sum(), mass, 1e-9 * mass);
+  // 6 x 5 x 4 control points: two faces of 5 x 4 fixed in x, y, z; in z also 6 x 5 of zeta-, 2 x 5 of them
+  // fixed already.
+  EXPECT_EQ(solver.supports().fixed_dofs().size(), 2u * 5 * 4 * 3 + 6 * 5 - 2 * 5);
+  EXPECT_EQ(solver.velocities().row(1).maxCoeff(), 1.0);
+  // The work of the loads in a uniform displacement is total force times displacement.
+  std::vector<double> state = solver.save();
+  for (int A = 0; A < solver.solid().node_count(); ++A) state[1 + 3 * A] = 2.0, state[3 + 3 * A] = 1.0;
+  solver.load(state);
+  const double expected = 2.0 * (5 * 2 * 0.5) + (-9.81 * mass - 1000 * 8);
+  EXPECT_NEAR(solver.load_work(), expected, 1e-9 * std::abs(expected));
+}
+
+TEST(BuildSolver, NamesTheFileAndTheLineOfALeftHandedGeometry) {
+  const std::string text = R"(units: si
+geometry:
+  patches:
+    - degrees: [1, 1, 1]
+      knots: [[0, 0, 1, 1], [0, 0, 1, 1], [0, 0, 1, 1]]
+      control_points: [[0,0,1],[1,0,1],[0,1,1],[1,1,1],[0,0,0],[1,0,0],[0,1,0],[1,1,0]]
+material: {law: linear_elastic, youngs_modulus: 1, poissons_ratio: 0, density: 1}
+)";
+  try {
+    io::build_solver(io::parse_model_file(text, "mirrored.yaml"));
+    FAIL() << "accepted";
+  } catch (const nurbs::InputError& error) {
+    EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("mirrored.yaml:"), HasSubstr("left-handed")));
+  }
+}
+
+struct BadInput {
+  const char* given;        // replaced in kPlate ...
+  const char* replacement;  // ... by this
+  int line;
+  std::vector<const char*> said;
+};
+
+TEST(ModelFile, RefusesBadInputInOneLineThatNamesFileLineGivenAndExpected) {
+  const BadInput table[] = {
+      {"density: 7850", "density: -7850", 4, {"density", "-7850", "> 0"}},
+      {"density: 7850", "density: heavy", 4, {"density", "heavy", "number"}},
+      {"density: 7850", "densty: 7850", 4, {"densty", "did you mean", "density"}},
+      {", density: 7850", "", 4, {"density"}},
+      {"0.286", "0.5", 4, {"poissons_ratio", "0.5", "-1"}},
+      {"0.286", "-1", 4, {"poissons_ratio", "-1", "0.5"}},
+      {"210.6e9", "0", 4, {"youngs_modulus", "0", "> 0"}},
+      {"210.6e9", ".nan", 4, {"youngs_modulus"}},
+      {"linear_elastic", "jelly", 4, {"jelly", "linear_elastic"}},
+      {"units: si", "units: imperial", 1, {"imperial", "si", "cgs", "mm-g-ms"}},
+      {"fix: [z]", "fix: [w]", 7, {"'w'", "x, y, z"}},
+      {"faces: [zeta-]", "faces: [bottom]", 7, {"bottom", "zeta-"}},
+      {"faces: [zeta-]", "face: [zeta-]", 7, {"face", "did you mean", "faces"}},
+      {"face: zeta-", "face: lower", 11, {"lower", "zeta-"}},
+      {"at: [0.5, 0.25]", "at: [0.5, 1.25]", 11, {"at", "1.25", "0 to 1"}},
+      {"at: [0.5, 0.25]", "at: [0.5]", 11, {"at", "1 numbers", "2"}},
+      {"every: 1.0e-7", "every: 0", 12, {"every", "0", "> 0"}},
+      {"output:", "outptu:", 12, {"outptu", "did you mean", "output"}},
+      {"gravity: [0, 0, -9.81]", "gravity: -9.81", 14, {"gravity"}},
+      {"face: eta+", "face: theta+", 17, {"theta+", "eta+"}},
+      {"velocity: [0, 1, 2]", "speed: 3", 18, {"speed", "velocity"}},
+      {"end: 1.0e-3", "end: -1", 19, {"end", "-1", "> 0"}},
+      {"step: 1.0e-6", "step: 0", 19, {"step", "0", "> 0"}},
+      {"boundary:\n  - {fix: [x, y, z], faces: [xi-, xi+]}\n  -",
+       "boundary:\n\n   ",
+       5,
+       {"boundary", "list"}},
+      {"material: {", "material: [", 4, {}},
+  };
+  for (const BadInput& bad : table) {
+    SCOPED_TRACE(std::string(bad.given) + " -> " + bad.replacement);
+    std::string text = kPlate;
+    const std::size_t at = text.find(bad.given);
+    ASSERT_NE(at, std::string::npos);
+    text.replace(at, std::string(bad.given).size(), bad.replacement);
+    try {
+      io::parse_model_file(text, "plate.yaml");
+      ADD_FAILURE() << "accepted";
+    } catch (const nurbs::InputError& error) {
+      const std::string message = error.what();
+      EXPECT_THAT(message, testing::StartsWith("plate.yaml:" + std::to_string(bad.line) + ":"));
+      for (const char* words : bad.said) EXPECT_THAT(message, HasSubstr(words));
+      EXPECT_THAT(message, testing::Not(HasSubstr("\n")));
+    }
+  }
+}
+
+TEST(ModelFile, RefusesASurfaceWhereASolidIsNeeded) {
+  std::string text = kPlate.substr(0, kPlate.find("boundary:"));
+  const std::size_t box = text.find("  box:");
+  text.replace(box, text.find("material:") - box,
+               "  plane: {origin: [0,0,0], edges: [[1,0,0],[0,1,0]], elements: [1, 1], degree: 1}\n");
+  EXPECT_THAT([&] { io::parse_model_file(text, "plane.yaml"); },
+              testing::ThrowsMessage<nurbs::InputError>(
+                  testing::AllOf(HasSubstr("plane.yaml:"), HasSubstr("volume"))));
+}
+
+TEST(ModelFile, NamesAFileThatCannotBeRead) {
+  for (const char* path : {"no/such/plate.yaml", "/"})
+    EXPECT_THAT([&] { io::read_model_file(path); },
+                testing::ThrowsMessage<nurbs::InputError>(HasSubstr(path)));
+}
+
+}  // namespace

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Small models that several tests share.
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "nurbs/patch.h"
+#include "structure/linear_elastic.h"
+#include "structure/solid.h"
+#include "structure/supports.h"
+
+namespace models {
+
+using nurbs::NodalVectors;
+using nurbs::Vector3;
+using structure::Matrix3;
+
+std::shared_ptr<const structure::Material> elastic(double E = 1.0, double nu = 0.3, double density = 1.0);
+
+/// Axis-parallel block with its lowest corner at the origin.
+nurbs::Volume block(const Vector3& size, const std::array<int, 3>& elements,
+                    const std::array<int, 3>& degrees);
+nurbs::Volume block(const Vector3& size, const std::array<int, 3>& elements, int degree);
+/// Every control point moved by up to `amount` in each direction; the same in every run.
+nurbs::Volume distorted(nurbs::Volume patch, double amount);
+/// Quarter ring a = 1, b = 2, H = 1 of degree p = 2 or 3 with n^3 elements: radius, angle, height.  Rational.
+nurbs::Volume quarter_ring(int degree, int elements);
+
+/// Pseudo-random entries in [-1, 1].
+NodalVectors random_vectors(int nodes, unsigned seed);
+/// u_A = H X_A.
+NodalVectors linear_field(const Matrix3& H, const nurbs::Volume& patch);
+/// A displacement gradient without any symmetry.
+Matrix3 some_gradient();
+
+/// Dense stiffness matrix, one internal force per column.
+Eigen::MatrixXd stiffness(const structure::Solid& solid);
+/// M^-1/2 K M^-1/2 without the fixed dofs, M lumped by row sums.
+Eigen::MatrixXd mass_scaled_stiffness(const structure::Solid& solid, const structure::Supports& supports);
+/// Control points on no face.
+std::vector<int> interior_nodes(const nurbs::Space<3>& space);
+
+}  // namespace models

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Every law passes the same properties: a new one is tested by being listed in kLaws.
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <memory>
+#include <stdexcept>
+
+#include "models.h"
+
+namespace {
+
+using structure::LinearElastic;
+using structure::Material;
+using structure::Matrix3;
+
+constexpr double kE = 210.0, kNu = 0.29, kDensity = 7.8;
+
+class EveryLaw : public testing::TestWithParam<std::shared_ptr<const Material>> {};
+
+TEST_P(EveryLaw, StressIsTheDerivativeOfTheEnergy) {
+  const Material& material = *GetParam();
+  const Matrix3 H = 0.1 * models::some_gradient();
+  const double step = 1e-5;
+  Matrix3 P;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      Matrix3 dH = Matrix3::Zero();
+      dH(i, j) = step;
+      P(i, j) = (material.energy_density(H + dH) - material.energy_density(H - dH)) / (2.0 * step);
+    }
+  EXPECT_LT((material.stress(H) - P).norm(), 1e-8 * P.norm());
+}
+
+TEST_P(EveryLaw, IsFreeOfStressInARigidInfinitesimalRotation) {
+  const Matrix3 H = models::some_gradient();
+  const Matrix3 spin = 1e-9 * (H - H.transpose());
+  EXPECT_LT(GetParam()->stress(spin).norm(), 1e-16 * kE);
+}
+
+TEST_P(EveryLaw, HasItsElasticConstantsAtSmallStrain) {
+  const Material& material = *GetParam();
+  EXPECT_EQ(material.density(), kDensity);
+  EXPECT_EQ(material.youngs_modulus(), kE);
+  EXPECT_EQ(material.poissons_ratio(), kNu);
+  const double stretch = 1e-7;
+  const Matrix3 uniaxial = Eigen::Vector3d(stretch, -kNu * stretch, -kNu * stretch).asDiagonal();
+  Matrix3 expected = Matrix3::Zero();
+  expected(0, 0) = kE * stretch;
+  EXPECT_LT((material.stress(uniaxial) - expected).norm(), 1e-6 * expected(0, 0));
+}
+
+INSTANTIATE_TEST_SUITE_P(kLaws, EveryLaw,
+                         testing::Values(std::make_shared<LinearElastic>(kE, kNu, kDensity)));
+
+TEST(LinearElastic, RefusesImpossibleConstants) {
+  const double nan = std::numeric_limits<double>::quiet_NaN(),
+               infinity = std::numeric_limits<double>::infinity();
+  for (double E : {0.0, -1.0, nan, infinity})
+    EXPECT_THROW(LinearElastic(E, 0.3, 1.0), std::invalid_argument) << E;
+  for (double nu : {-1.0, 0.5, -2.0, 0.6, nan})
+    EXPECT_THROW(LinearElastic(1.0, nu, 1.0), std::invalid_argument) << nu;
+  for (double density : {0.0, -1.0, nan})
+    EXPECT_THROW(LinearElastic(1.0, 0.3, density), std::invalid_argument) << density;
+}
+
+}  // namespace

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Runs a whole study as a user does and checks what it left, by this file's own numbers.
+
+usage: check_study.py DECK inputs/run DIR
+"""
+
+import csv
+import json
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+# case: peak force [N], duration [us] of the exact solution for a fixed wall (independent values).
+BALL_PLATE = {
+    "hertz_lambda_0.6": (5.450859, 7.011585),
+    "hertz_lambda_0.8": (6.115619, 6.249435),
+    "hertz_lambda_1.0": (6.686586, 5.715796),
+    "hertz_lambda_1.2": (7.192452, 5.313788),
+    "hertz_E_50GPa": (5.901825, 6.475821),
+    "hertz_E_74.6GPa": (6.686586, 5.715796),
+    "hertz_E_100GPa": (7.271409, 5.256087),
+    "hertz_E_200GPa": (8.599050, 4.444580),
+    "hertz_E_300GPa": (9.280603, 4.118177),
+    "hertz_nu_0.1": (6.599905, 5.790866),
+    "hertz_nu_0.2285": (6.686586, 5.715796),
+    "hertz_nu_0.3": (6.767668, 5.647317),
+    "hertz_nu_0.4": (6.927448, 5.517062),
+    "linear_lambda_0.03": (4.93456, 6.61366),
+    "linear_lambda_0.040165": (5.70970, 5.715796),
+    "linear_lambda_0.055": (6.68143, 4.88451),
+    "linear_lambda_0.055085": (6.686586, 4.88074),
+    "linear_lambda_0.07": (7.53767, 4.32965),
+    "quadratic_lambda_10": (5.74601, 7.60501),
+    "quadratic_lambda_15.7585": (6.686586, 6.53524),
+    "quadratic_lambda_20": (7.23952, 6.03610),
+    "quadratic_lambda_23.5542": (7.64521, 5.715796),
+    "quadratic_lambda_30": (8.28718, 5.27302),
+}
+# (case, quantity): value, largest relative error of what was measured.
+ALSO = {
+    "ball_plate": {
+        ("table2", "peak_force"): (6.68524, 2e-4),
+        ("table2", "restitution"): (0.99962, 2.001e-4),
+        ("table2", "plate_displacement_at_peak"): (3.26e-10, 0.05),
+        ("table2", "plate_displacement_at_end"): (7.63e-10, 0.05),
+        ("table2", "stable_time_step"): (9.19e-7, 0.03),
+        ("free_block_centre", "impulse"): (2.052223e-5, 1e-3),
+        ("free_block_centre", "block_velocity"): (2.42065e-2, 1e-3),
+        ("free_block_centre", "peak_force"): (6.5764, 1e-3),
+        ("free_block_centre", "duration"): (5.730e-6, 2e-3),
+        ("free_block_offset", "impulse"): (2.038747e-5, 1e-3),
+        ("free_block_offset", "block_velocity"): (2.404750e-2, 1e-3),
+        ("free_block_offset", "angular_velocity"): (8.657, 1e-3),
+    },
+    "thin_plate": {
+        ("Z1", "restitution"): (0.7619, 3e-3),
+        ("Z1", "peak_force"): (4.876, 3e-3),
+        ("Z1_zener", "restitution"): (0.76982, 0.010 / 0.76982),
+        ("Z1_zener", "peak_force"): (4.91162, 0.02),
+        ("Z1_zener", "duration"): (6.90554e-6, 0.02),
+        ("Z1_zener", "impulse"): (1.838524e-5, 0.010 / 1.76982),
+    },
+}
+BALANCE = {
+    "ball_plate": ["free_block_centre", "free_block_offset"],
+    "thin_plate": ["Z1"],
+}
+FIGURES = {"ball_plate": [f"fig{n:02d}.png" for n in range(6, 12)], "thin_plate": ["force.png"]}
+WITH_REFERENCE = {"ball_plate": 23 * 4 + 5 + 5 + 4, "thin_plate": 3 + 4}
+
+
+def check(condition: bool, complaint: str) -> None:
+    if not condition:
+        sys.exit(f"check_study: {complaint}")
+
+
+def check_rule(row: dict) -> None:
+    """Error and pass as the summary's readers expect them, worked out anew."""
+    name = f"{row['case']} {row['quantity']}"
+    if row["reference"] is None:
+        check(row["error"] is row["tolerance"] is row["pass"] is None, f"{name} is no information")
+        return
+    scale = row["reference"] or 1.0
+    error = (row["value"] - row["reference"]) / scale
+    check(abs(row["error"] - error) < 1e-12, f"{name}: error {row['error']}, expected {error}")
+    check(row["pass"] is True, f"{name} = {row['value']} does not pass")
+    check(abs(error) <= row["tolerance"], f"{name}: error {error} above {row['tolerance']}")
+
+
+def check_values(deck: str, rows: dict) -> None:
+    """Measured values against this file's references and tolerances."""
+    expected = dict(ALSO[deck])
+    if deck == "ball_plate":
+        for case, (peak, duration_us) in BALL_PLATE.items():
+            expected[case, "peak_force"] = (peak, 1e-3)
+            expected[case, "duration"] = (duration_us * 1e-6, 2e-3)
+            expected[case, "impulse"] = (2.0776399e-5, 1e-3)
+            check(rows[case, "curve_error"]["value"] <= 5e-3, f"{case}: curve_error")
+    for key, (reference, tolerance) in expected.items():
+        error = abs(rows[key]["value"] / reference - 1.0)
+        check(error <= tolerance, f"{key}: {rows[key]['value']}, expected {reference} +- {tolerance}")
+    for case in BALANCE[deck]:
+        drift = rows[case, "momentum_balance"]["value"]
+        check(0.0 < drift <= 1e-12, f"{case}: momentum_balance {drift}")
+
+
+def check_force_history(path: Path, dt: float) -> None:
+    """t_n = n dt from step 1 on; positive force exactly where bodies overlap; then apart."""
+    with open(path, newline="", encoding="utf-8") as file:
+        header, *lines = csv.reader(file)
+    check(header == ["t", "F", "overlap", "plate_displacement"], f"{path.name}: header {header}")
+    samples = [tuple(map(float, line)) for line in lines]
+    check(len(samples) > 400, f"{path.name}: only {len(samples)} samples")
+    for n, (t, F, overlap, _) in enumerate(samples, start=1):
+        check(abs(t - n * dt) < 1e-6 * dt, f"{path.name}: sample {n} at t = {t}")
+        check((F > 0.0) == (overlap > 0.0), f"{path.name}: F = {F}, overlap = {overlap} at t = {t}")
+    check(samples[-1][1] == 0.0, f"{path.name}: the contact has not ended")
+
+
+def main(deck: str, run: str, out: Path) -> None:
+    shutil.rmtree(out, ignore_errors=True)
+    done = subprocess.run([run, deck, "--out", out], check=False)
+    check(done.returncode == 0, f"inputs/run {deck} ended with code {done.returncode}")
+    summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
+    check(summary["deck"] == deck, f"deck is {summary['deck']}")
+    rows = {(row["case"], row["quantity"]): row for row in summary["rows"]}
+    check(len(rows) == len(summary["rows"]), "a quantity stands twice")
+    for row in summary["rows"]:
+        check_rule(row)
+    compared = sum(row["reference"] is not None for row in summary["rows"])
+    check(compared == WITH_REFERENCE[deck], f"{compared} rows have a reference")
+    check_values(deck, rows)
+    for case in {row["case"] for row in summary["rows"]}:
+        check_force_history(out / f"contact_force_{case}.csv", dt=1e-8)
+    for name in FIGURES[deck]:
+        check((out / name).stat().st_size > 20000, f"{name} is empty")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1], sys.argv[2], Path(sys.argv[3]))

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The layers of the tree hold: liggghts-pkg -> coupling -> iga-solver/structure -> iga-solver/nurbs, never backwards;
+no LIGGGHTS header outside liggghts-pkg; no mpi.h in the geometry kernel; an SPDX line in every source file."""
+
+import re
+import unittest
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+LIGGGHTS_HEADERS = {path.name for path in Path("/usr/include/liggghts").glob("*.h")}
+
+# folder -> what its files must not include
+FORBIDDEN = {
+    "iga-solver/nurbs": r"^(mpi\.h|structure/|io/|coupling/|liggghts)",
+    "iga-solver/structure": r"^(mpi\.h|io/|coupling/|liggghts)",
+    "iga-solver/io": r"^(coupling/|liggghts)",
+    "iga-solver/app": r"^(coupling/|liggghts)",
+    "coupling": r"^liggghts",
+}
+# a rigid wall needs these and no structural code
+RIGID = ["contact_surface", "surface_exchange", "rigid_surface", "model_text", "structure_solver", "open_rigid_surface"]
+
+
+def includes(path: Path) -> list[str]:
+    return re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(), flags=re.M)
+
+
+def sources(folder: str) -> list[Path]:
+    files = [p for p in (ROOT / folder).rglob("*") if p.suffix in (".h", ".cpp")]
+    assert files, folder
+    return files
+
+
+class Layers(unittest.TestCase):
+    def test_no_include_runs_backwards(self):
+        for folder, pattern in FORBIDDEN.items():
+            for path in sources(folder):
+                for name in includes(path):
+                    self.assertNotRegex(name, pattern, f"{path.relative_to(ROOT)} includes {name}")
+
+    def test_no_liggghts_header_outside_its_package(self):
+        self.assertIn("fix_wall_gran.h", LIGGGHTS_HEADERS)
+        for folder in ("iga-solver", "coupling"):
+            for path in sources(folder):
+                own = {p.name for p in path.parent.glob("*.h")}
+                for name in includes(path):
+                    self.assertFalse(name in LIGGGHTS_HEADERS - own, f"{path.relative_to(ROOT)} includes {name}")
+
+    def test_rigid_walls_include_no_structural_code(self):
+        for stem in RIGID:
+            for path in (ROOT / "coupling").glob(stem + ".*"):
+                for name in includes(path):
+                    self.assertNotRegex(name, r"^(structure|io)/", f"{path.relative_to(ROOT)} includes {name}")
+
+    def test_every_file_names_its_licence(self):
+        suffixes = (".h", ".cpp", ".py", ".cmake", ".in", ".sh", ".yaml", ".map")
+        folders = ("iga-solver", "coupling", "liggghts-pkg", "inputs", "tests", ".ci")
+        for path in (p for folder in folders for p in (ROOT / folder).rglob("*") if p.is_file()):
+            named = path.suffix in suffixes or path.name in ("CMakeLists.txt", "run", "setup") or path.name.startswith("in.")
+            if named:
+                head = "\n".join(path.read_text().splitlines()[:4])
+                self.assertIn("SPDX-License-Identifier: GPL-2.0-or-later", head, str(path.relative_to(ROOT)))
+
+
+if __name__ == "__main__":
+    unittest.main()

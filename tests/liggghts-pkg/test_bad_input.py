@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Wrong decks and model files: exactly one line starting with ERROR that says what was given and what was expected,
+a non-zero exit, no hang and no backtrace, on 1 and 2 ranks.  A new kind of wrong input is one more row of a table."""
+
+import re
+import unittest
+
+import ball_on_block as bob
+import decks
+
+BLOCK = bob.block()
+FLAT = """
+units: si
+geometry:
+  patches:
+    - degrees: [2, 1]
+      knots: [[0, 0, 0, 1, 1, 1], [0, 0, 1, 1]]
+      control_points: [[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0], [2, 1, 0]]
+      weights: [1, 1, 1, 1, 1, 1]
+surfaces: {floor: all}
+"""
+MODELS = "model hertz tangential no_history"
+GOOD = f"{MODELS} type 2 structure block.yaml surface top"
+RIGID = f"{MODELS} type 2 geometry flat.yaml surface floor"
+
+
+def in_block(old: str, new: str) -> dict[str, str]:
+    """The block's model file with `old` replaced; `old` must be there."""
+    assert old in BLOCK, old
+    return {"block.yaml": BLOCK.replace(old, new)}
+
+
+def in_flat(old: str, new: str) -> dict[str, str]:
+    assert old in FLAT, old
+    return {"flat.yaml": FLAT.replace(old, new)}
+
+
+# name: (words after `wall/nurbs`, files that differ, what the error line must say, ...)
+# Model files: file and line, what was given, what was expected.
+MODEL_FILES = {
+    "missing model file": (GOOD.replace("block", "nowhere"), {}, ["nowhere.yaml", "No such file"]),
+    "folder as model file": (f"{MODELS} type 2 structure . surface top", {}, ["'.'", "directory"]),
+    "empty model file": (GOOD, {"block.yaml": ""}, ["block.yaml:1"]),
+    "broken YAML": (GOOD, in_block("{top: zeta+}", "{top: zeta+"), [r"block.yaml:\d+"]),
+    "no mapping": (GOOD, {"block.yaml": "- 1\n- 2\n"}, ["block.yaml:1"]),
+    "unknown key": (GOOD, in_block("density", "densty"), [r"block.yaml:5", "densty", "did you mean 'density'"]),
+    "unknown top-level key": (GOOD, {"block.yaml": BLOCK + "sufaces: 1\n"}, ["sufaces", "did you mean 'surfaces'"]),
+    "unknown units": (GOOD, in_block("units: si", "units: imperial"), ["block.yaml:2", "imperial", "si"]),
+    "units missing": (GOOD, in_block("units: si", ""), ["block.yaml", "units"]),
+    "negative density": (GOOD, in_block("density: 1000.0", "density: -1"), ["block.yaml:5", "density", "-1", "> 0"]),
+    "density no number": (GOOD, in_block("density: 1000.0", "density: heavy"), ["block.yaml:5", "heavy", "number"]),
+    "E zero": (GOOD, in_block("5000000000.0", "0"), ["block.yaml:5", "youngs_modulus", "> 0"]),
+    "E not finite": (GOOD, in_block("5000000000.0", ".nan"), ["block.yaml:5", "youngs_modulus"]),
+    "nu 0.5": (GOOD, in_block("poissons_ratio: 0.3", "poissons_ratio: 0.5"), ["poissons_ratio", "0.5"]),
+    "nu -1": (GOOD, in_block("poissons_ratio: 0.3", "poissons_ratio: -1"), ["poissons_ratio", "-1"]),
+    "unknown law": (GOOD, in_block("linear_elastic", "rubber"), ["rubber", "linear_elastic"]),
+    "law missing": (GOOD, in_block("law: linear_elastic, ", ""), ["block.yaml:5", "law"]),
+    "unknown face": (GOOD, in_block("faces: [zeta-]", "faces: [bottom]"), ["block.yaml:6", "bottom", "zeta-"]),
+    "unknown fixed direction": (GOOD, in_block("fix: [x, y, z]", "fix: [w]"), ["block.yaml:6", "w", "x, y, z"]),
+    "unknown surface": (GOOD.replace("top", "bottom"), {}, ["bottom", "top"]),
+    "probe off the face": (GOOD, in_block("at: [0.5, 0.5]", "at: [0.5, 1.5]"), ["block.yaml:8", "1.5"]),
+    "no elements": (GOOD, in_block("elements: [4, 4, 2]", "elements: [4, 0, 2]"), ["elements", "0"]),
+    "degree too high": (GOOD, in_block("degree: 2", "degree: 7"), ["degree", "7", "6"]),
+    "negative size": (GOOD, in_block("size: [0.004, 0.004", "size: [0.004, -0.004"), ["size", "-0.004"]),
+    "knots not open": (RIGID, in_flat("0, 0, 0, 1, 1, 1", "0, 0, 0.1, 1, 1, 1"), ["flat.yaml:6", "knot"]),
+    "knots decrease": (RIGID, in_flat("[0, 0, 1, 1]", "[1, 1, 0, 0]"), ["flat.yaml:6", "knot"]),
+    "a control point too few": (RIGID, in_flat(", [2, 1, 0]", ""), ["flat.yaml:7", "5", "6"]),
+    "a control point with 2 coordinates": (RIGID, in_flat("[2, 1, 0]", "[2, 1]"), ["flat.yaml:7", "2", "3"]),
+    "a weight too many": (RIGID, in_flat("[1, 1, 1, 1, 1, 1]", "[1, 1, 1, 1, 1, 1, 1]"), ["flat.yaml:8", "7", "6"]),
+    "weight zero": (RIGID, in_flat("[1, 1, 1, 1, 1, 1]", "[1, 1, 0, 1, 1, 1]"), ["flat.yaml:8", "weight", "0"]),
+    "material in a rigid wall's file": (RIGID, {"flat.yaml": FLAT + "material: {law: linear_elastic}\n"}, ["material"]),
+    "surface patch as a solid": (f"{MODELS} type 2 structure flat.yaml surface floor", {}, ["flat.yaml"]),
+    "units differ from the deck's": (GOOD, in_block("units: si", "units: cgs"), ["cgs", "si"]),
+    "wall material E differs": (GOOD, in_block("5000000000.0", "6e9"), ["youngsModulus", "5000000000", "6000000000"]),
+    "wall material nu differs": (GOOD, in_block("poissons_ratio: 0.3", "poissons_ratio: 0.31"), ["poissonsRatio", "0.31"]),
+}
+
+# The fix's words: its id, the word given, what was expected.
+DECK_WORDS = {
+    "no words": ("", ["model"]),
+    "type 0": (GOOD.replace("type 2", "type 0"), ["id plate", "'0'", "1"]),
+    "type too high": (GOOD.replace("type 2", "type 3"), ["id plate", "3", "1 to 2"]),
+    "type no number": (GOOD.replace("type 2", "type wall"), ["id plate", "'wall'"]),
+    "type missing": (GOOD.replace("type 2 ", ""), ["id plate", "'type' is missing"]),
+    "unknown keyword": (GOOD.replace("structure", "structur"), ["'structur'", "did you mean 'structure'"]),
+    "stock keyword": (GOOD + " primitive zplane 0.", ["'primitive'", "structure"]),
+    "misplaced model keyword": (f"{GOOD} cohesion sjkr", ["'cohesion'", "first"]),
+    "keyword twice": (GOOD + " type 2", ["'type'", "twice"]),
+    "structure and geometry": (GOOD + " geometry flat.yaml", ["'structure'", "'geometry'"]),
+    "no body": (f"{MODELS} type 2 surface top", ["'structure' or 'geometry'"]),
+    "no surface": (f"{MODELS} type 2 structure block.yaml", ["'surface' is missing"]),
+    "last word lacks its value": (f"{MODELS} type 2 structure", ["'structure' is the last word"]),
+    "material of another word": (GOOD + " material any", ["'any'", "'independent'"]),
+    "store_force of another word": (GOOD + " store_force maybe", ["'maybe'", "'yes' or 'no'"]),
+    "unknown normal model": (GOOD.replace("hertz", "herz"), ["herz", "hertz"]),
+    "unknown tangential model": (GOOD.replace("no_history", "historie"), ["historie", "history"]),
+    "surface multicontact": (GOOD.replace("no_history", "no_history surface multicontact"), ["multicontact"]),
+    "elastic potential": (GOOD + " computeElasticPotential on", ["computeElasticPotential"]),
+    "dissipated energy": (GOOD + " computeDissipatedEnergy on", ["computeDissipatedEnergy"]),
+    "unknown setting": (GOOD + " tangential_dampin on", ["tangential_dampin"]),
+}
+
+# What the deck does with a good wall: (lines before the fix, after it, what the error says)
+DECKS = {
+    "timestep above the stable step": ("timestep 1e-6\n", "run 1\n", ["id plate", "1e-06", r"2\.\d+e-07"]),
+    "timestep raised between runs": ("", "run 1\ntimestep 1e-6\nrun 1\n", ["id plate", "1e-06"]),
+    "minimize": ("", "minimize 1e-4 1e-6 10 10\n", ["id plate", "minimize"]),
+    "respa": ("run_style respa 2 2\n", "run 1\n", ["respa"]),
+    "id in use": ("", f"fix plate all wall/nurbs {GOOD}\nrun 1\n", ["plate|style"]),
+    "no such column": ("", "variable v equal f_plate[99]\nthermo_style custom step v_v\nrun 1\n", ["fix"]),
+    "multicontact of the pairs": (
+        "pair_style gran model hertz tangential no_history surface multicontact\npair_coeff * *\n"
+        "fix mc all multicontact/halfspace\n", "run 1\n", ["multicontact|geometric|Poisson|prefactor"],
+    ),
+}
+
+
+class BadInput(unittest.TestCase):
+    def check(self, deck, files, expected, ranks):
+        files = {"block.yaml": BLOCK, "flat.yaml": FLAT} | files
+        result = decks.run(deck, files=files, ranks=ranks, timeout=60)
+        self.assertNotEqual(result.code, 0, result.text[-2000:])
+        self.assertEqual(len(result.errors), 1, result.text[-3000:])
+        for pattern in expected:
+            self.assertRegex(result.errors[0], pattern)
+        self.assertIsNone(re.search(r"Signal|backtrace|\*\*\* Process|terminate called", result.text), result.text[-3000:])
+
+    def check_table(self, rows):
+        for name, (deck, files, expected) in rows.items():
+            for ranks in (1, 2):
+                with self.subTest(name, ranks=ranks):
+                    self.check(deck, files, expected, ranks)
+
+    def test_model_files(self):
+        self.check_table({
+            name: (bob.prelude() + f"fix plate all wall/nurbs {words}\nrun 1\n", files, expected)
+            for name, (words, files, expected) in MODEL_FILES.items()
+        })
+
+    def test_deck_words(self):
+        self.check_table({
+            name: (bob.prelude() + f"fix plate all wall/nurbs {words}\nrun 1\n", {}, expected)
+            for name, (words, expected) in DECK_WORDS.items()
+        })
+
+    def test_decks(self):
+        self.check_table({
+            name: (bob.prelude() + before + f"fix plate all wall/nurbs {GOOD}\n" + after, {}, expected)
+            for name, (before, after, expected) in DECKS.items()
+        })
+
+    def test_the_good_deck_is_good(self):
+        for words in (GOOD, RIGID, GOOD + " material independent store_force yes tangential_damping on"):
+            files = {"block.yaml": BLOCK, "flat.yaml": FLAT}
+            decks.good(bob.prelude() + f"fix plate all wall/nurbs {words}\nthermo 1\nrun 1\n", files=files)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""run 0, several runs, unfix, clear, re-creation and restart of fix wall/nurbs; memory errors."""
+
+import math
+import unittest
+
+import numpy as np
+
+import ball_on_block as bob
+import decks
+
+FILES = {"block.yaml": bob.block()}
+COLUMNS = (3, 7, 8, 11, 15, 16, 20)  # force, contacts, overlap, momentum, energies, probe
+START = bob.prelude() + bob.wall() + bob.output(COLUMNS)
+DAMPED = dict(restitution=0.6, friction=0.3, models="model hertz tangential history")
+START_DAMPED = bob.prelude(velocity=(0.5, 0.1, -1.0), **DAMPED) + bob.wall(DAMPED["models"]) + bob.output(COLUMNS)
+
+
+class LifeCycle(unittest.TestCase):
+    def test_run_0_gives_forces_and_advances_nothing(self):
+        overlap = 1e-6
+        deck = bob.prelude(balls=((0, 0, bob.RADIUS - overlap),)) + bob.wall() + bob.output(COLUMNS)
+        table = decks.good(deck + "run 0\nrun 0\n", files=FILES).table
+        E_star = 5e9 / (2 * (1 - 0.3**2))
+        hertz = 4 / 3 * E_star * math.sqrt(bob.RADIUS) * overlap**1.5
+        np.testing.assert_allclose(table["fz"], hertz, rtol=1e-9)
+        np.testing.assert_allclose(table["plate3"], -hertz, rtol=1e-9)
+        np.testing.assert_allclose(table["plate8"], overlap, rtol=1e-9)
+        np.testing.assert_array_equal(table["plate7"], 1)
+        for untouched in ("plate11", "plate15", "plate16", "plate20"):
+            np.testing.assert_array_equal(table[untouched], 0.0)
+
+    def test_several_runs_equal_one(self):
+        whole = decks.good(START + "run 600\n", files=FILES).table
+        parts = decks.good(START + "run 200\nrun 0\nrun 150\nrun 250\n", files=FILES).table
+        _, first = np.unique(parts["Step"], return_index=True)
+        for column, reference in whole.items():
+            with self.subTest(column=column):
+                self.assertLessEqual(decks.largest_difference(parts[column][first], reference), 1e-12)
+        self.assertGreater(whole["fz"].max(), 0.5)
+
+    def test_unfix_takes_the_wall_away(self):
+        deck = START + "run 100\nunfix plate\nthermo_style custom step v_vz v_fz\nrun 200\n"
+        tables = decks.good(deck, files=FILES).tables
+        self.assertGreater(tables[0]["fz"][-1], 0.0)
+        np.testing.assert_array_equal(tables[1]["fz"], 0.0)
+        np.testing.assert_array_equal(tables[1]["vz"], tables[1]["vz"][0])
+
+    def test_recreating_after_unfix_and_after_clear_repeats_the_run(self):
+        again = "unfix plate\nset atom 1 x 0 y 0 z 0.001 vx 0 vy 0 vz -1.0\nreset_timestep 0\n" + bob.wall() + "run 300\n"
+        deck = START + "run 300\n" + again + "clear\n" + START + "run 300\n"
+        first, second, third = decks.good(deck, files=FILES).tables
+        for column, reference in first.items():
+            with self.subTest(column=column):
+                np.testing.assert_array_equal(third[column], reference)
+                np.testing.assert_array_equal(second[column], reference)
+
+    def test_restart_continues_a_contact_to_the_last_bit(self):
+        files = dict(FILES)
+        write = START_DAMPED + "run 260\nwrite_restart contact.restart\nrun 340\n"
+        read = (
+            "clear\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
+            "communicate single vel yes\nread_restart contact.restart\nneighbor 0.0002 bin\nhard_particles yes\n"
+            + START_DAMPED[START_DAMPED.index("fix m1") : START_DAMPED.index("create_atoms")]
+            + "fix integrate all nve/sphere\n" + bob.wall(DAMPED["models"]) + bob.output(COLUMNS) + "run 340\n"
+        )
+        for ranks in (1, 2):
+            tables = decks.good(write + read, files=files, ranks=ranks).tables
+            self.assertGreater(tables[1]["fz"][0], 0.1, "the restart falls into the contact")
+            for column, reference in tables[1].items():
+                with self.subTest(ranks=ranks, column=column):
+                    np.testing.assert_array_equal(tables[2][column], reference)
+
+    def test_store_force_keeps_the_wall_force_per_particle(self):
+        deck = bob.prelude() + bob.wall(rest="structure block.yaml surface top store_force yes")
+        deck += "run 100\ncompute w all reduce sum f_force_plate[3]\nvariable w equal c_w\n" + bob.output((3,))
+        table = decks.good(deck.replace("v_x v_y", "v_w v_x v_y") + "run 50\n", files=FILES).tables[-1]
+        np.testing.assert_allclose(table["w"], -table["plate3"], rtol=1e-14)
+
+    def test_valgrind_finds_no_error_of_ours(self):
+        small = {"block.yaml": bob.block(elements=(2, 2, 1))}
+        deck = START_DAMPED + "run 60\nthermo_style custom step\nunfix plate\nrun 5\nclear\n" + START_DAMPED + "run 10\n"
+        launcher = ["valgrind", "--error-exitcode=99", "--leak-check=no", "-q",
+                    "--suppressions=/usr/share/openmpi/openmpi-valgrind.supp"]
+        result = decks.run(deck, files=small, launcher=launcher, timeout=500)
+        self.assertEqual(result.code, 0, result.text[-4000:])
+
+
+if __name__ == "__main__":
+    unittest.main()

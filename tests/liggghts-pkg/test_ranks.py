@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""1, 2 and 4 ranks give the same run of balls on a bending plate."""
+
+import unittest
+
+import ball_on_block as bob
+import decks
+
+PLATE = bob.block(
+    size=(16e-3, 12e-3, 1e-3), elements=(16, 12, 1), youngs_modulus=74.6e9, nu=0.2285, density=2480.0,
+    fixed=("xi-", "xi+", "eta-", "eta+"),
+)
+GLASS = (74.6e9, 0.2285)
+# one on the border of all ranks, the others on ranks of their own, at their own times
+BALLS = ((0.0, 0.0, 1e-3), (-4e-3, 3e-3, 1.0003e-3), (5e-3, 3.1e-3, 1.0008e-3), (4e-3, -3e-3, 1.0005e-3), (-5e-3, -2e-3, 1e-3))
+COLUMNS = tuple(range(1, 21))
+
+
+class Ranks(unittest.TestCase):
+    def bounce(self, ranks, processors):
+        deck = bob.prelude(
+            balls=BALLS, velocity=(0.4, -0.3, -1.0), ball=GLASS, wall=GLASS, restitution=0.8, friction=0.3,
+            models="model hertz tangential history", timestep=2e-8, processors=processors,
+        )
+        deck += bob.wall("model hertz tangential history", "structure plate.yaml surface top") + bob.output(COLUMNS)
+        return decks.good(deck + "run 500\n", files={"plate.yaml": PLATE}, ranks=ranks).table
+
+    def test_same_history_on_1_2_and_4_ranks(self):
+        one = self.bounce(1, "1 1 1")
+        self.assertEqual(one["plate7"].max(), 5, "all balls touch at once for a while")
+        self.assertLess(one["plate20"].min(), -1e-7, "the plate bends")
+        for ranks, processors in ((2, "2 1 1"), (4, "2 2 1")):
+            more = self.bounce(ranks, processors)
+            for column, reference in one.items():
+                with self.subTest(ranks=ranks, column=column):
+                    self.assertLessEqual(decks.largest_difference(more[column], reference), 1e-11)
+
+
+if __name__ == "__main__":
+    unittest.main()

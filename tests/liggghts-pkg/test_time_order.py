@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Particles and surface share one time level: the coupled scheme is second order, a late surface is first order.
+
+Richardson order: q(dt), q(dt/2), q(dt/4), q(dt/8) at two fixed times inside the contact of a ball with a light elastic
+block; the order is log2 of the ratio of successive differences, each the root mean square over 20 start phases (the
+Hertz force starts with a kink, so the error depends on where in a step the contact begins).
+"""
+
+import unittest
+
+import numpy as np
+
+import ball_on_block as bob
+import decks
+
+DT = 4e-8  # the contact lasts about 18 us; the stable step of the block is 2.6e-7 s
+TIMES = (110, 265)  # steps of DT: about 0.25 and 0.6 of the contact
+END = 640  # well after it
+PHASES = 20
+REFINEMENTS = (1, 2, 4, 8)
+FILES = {"block.yaml": bob.block(fixed=())}
+COLUMNS = (11, 15, 16, 20)  # momentum z, kinetic and strain energy of the block, displacement of its top
+
+
+def one_run(phase: float, refinement: int) -> str:
+    start = bob.RADIUS + phase * DT  # touches after `phase` steps of the coarsest run
+    deck = bob.prelude(balls=((0.0, 0.0, start),), timestep=DT / refinement) + bob.wall() + bob.output(COLUMNS, refinement)
+    return deck + f"run {END * refinement}\nclear\n"
+
+
+class TimeOrder(unittest.TestCase):
+    @staticmethod
+    def measure(late: bool):
+        """Orders of the quantities at the two times, and the largest relative gain of energy over all runs."""
+        environment = {"LIGGGHTS_NURBS_TEST_LATE_SURFACE": "1"} if late else {}
+        values = {}  # refinement -> [phase][time][quantity]
+        gains = []
+        for refinement in REFINEMENTS:
+            deck = "".join(one_run((k + 0.5) / PHASES, refinement) for k in range(PHASES))
+            tables = decks.good(deck, files=FILES, environment=environment, timeout=400).tables
+            assert len(tables) == PHASES
+            rows = []
+            for table in tables:
+                energy = table["KinEng"] + table["plate15"] + table["plate16"]
+                assert table["fz"][END] == 0.0 and table["fz"][TIMES[1]] > 0.0
+                if refinement == 1:
+                    gains.append(energy[END] / energy[0] - 1.0)
+                quantities = ("z", "vz", "plate11", "plate20")
+                rows.append([[table[q][step] for q in quantities] for step in TIMES])
+            values[refinement] = np.array(rows)
+        pairs = list(zip(REFINEMENTS[:-1], REFINEMENTS[1:]))
+        differences = [np.sqrt(np.mean((values[a] - values[b]) ** 2, axis=0)) for a, b in pairs]
+        orders = [np.log2(coarse / fine) for coarse, fine in zip(differences[:-1], differences[1:])]
+        return np.array(orders), np.array(gains)
+
+    def test_in_phase_surface_is_second_order(self):
+        orders, gains = self.measure(late=False)
+        print("orders [refinement][time][z, vz, momentum, displacement]:\n", orders.round(3))
+        print("energy gain: mean %.2e, largest %.2e" % (gains.mean(), np.abs(gains).max()))
+        self.assertGreaterEqual(orders.min(), 1.8)
+        self.assertLessEqual(orders.max(), 2.3)
+
+    def test_late_surface_is_first_order_and_gains_energy(self):
+        orders, gains = self.measure(late=True)
+        print("orders [refinement][time][z, vz, momentum, displacement]:\n", orders.round(3))
+        print("energy gain: mean %.2e" % gains.mean())
+        self.assertGreaterEqual(orders.min(), 0.9)
+        self.assertLessEqual(orders.max(), 1.1)
+        self.assertGreater(gains.min(), 0.0)
+
+
+if __name__ == "__main__":
+    unittest.main()
