@@ -7,10 +7,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <vector>
+#include <string>
 
 #include "contact_models.h"
-#include "fix_property_atom.h"
 #include "global_properties.h"
 #include "penalty_factor.h"
 #include "penalty_laws.h"

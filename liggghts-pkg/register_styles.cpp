@@ -15,8 +15,7 @@
 #include "penalty_register.h"
 
 #if defined(SUPERQUADRIC_ACTIVE_FLAG) || defined(NONSPHERICAL_ACTIVE_FLAG) || defined(CONVEX_ACTIVE_FLAG)
-#error \
-    "LIGGGHTS' structs have another size with these macros; libliggghts is built without them (FindLIGGGHTS.cmake)"
+#error "LIGGGHTS changes the size of its structs with these macros; libliggghts is built without them"
 #endif
 
 namespace liggghts_pkg {

@@ -2,6 +2,7 @@
 #include "nurbs/foot_search.h"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -68,12 +69,14 @@ SmoothRegion region_of_element(const Space<2>& space, int element) {
 FootSearch::FootSearch(const Space<2>& space, const NodalVectors& control_points, const Vector3& d,
                        const Vector2& u, const SmoothRegion& region)
     : space_(space), control_points_(control_points), d_(d), region_(region) {
+  Vector2 start;
   for (int i = 0; i < 2; ++i) {
     const KnotVector& knots = space.knots(i);
     range_[i] = knots.back() - knots.front();
     ulp_[i] = kEpsilon * std::max(std::abs(knots.front()), std::abs(knots.back()));
+    start[i] = std::clamp(u[i], region.low[i], region.high[i]);
   }
-  at_ = sample(u.cwiseMax(region.low).cwiseMin(region.high), region);
+  at_ = sample(start, region);
 }
 
 // The active set: a parameter on a border of the region is held there while the gradient pushes it outward.

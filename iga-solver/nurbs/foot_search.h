@@ -2,8 +2,6 @@
 // Minimisation of the squared distance from a point to a surface: the machinery behind closest_point.h.
 #pragma once
 
-#include <Eigen/LU>
-
 #include "nurbs/closest_point.h"
 
 namespace nurbs {

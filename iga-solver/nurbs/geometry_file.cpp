@@ -26,7 +26,7 @@ auto blame(const YamlMap& map, const std::string& key, const std::string& prefix
 }
 
 void expect_count(const YamlMap& map, const std::string& key, size_t given, size_t expected) {
-  if (given != expected) map.fail(key, fmt::format("{} entries in '{}', expected {}", given, key, expected));
+  if (given != expected) map.fail(key, fmt::format("{} is a list of {}, expected {}", key, given, expected));
 }
 
 // `degree`: one number for all directions or one for each.
@@ -122,7 +122,7 @@ std::variant<Surface, Volume> read_patches(const YamlMap& geometry) {
   const size_t dim = patch.integers("degrees", 1, kMaxDegree).size();
   if (dim == 2) return read_patch<2>(patch, std::make_index_sequence<2>());
   if (dim == 3) return read_patch<3>(patch, std::make_index_sequence<3>());
-  patch.fail("degrees", fmt::format("{} degrees given, expected 2 (a surface) or 3 (a volume)", dim));
+  patch.fail("degrees", fmt::format("degrees is a list of {}, expected 2 (a surface) or 3 (a volume)", dim));
 }
 
 std::variant<Surface, Volume> read_shape(const YamlMap& geometry) {

@@ -12,13 +12,10 @@
 namespace nurbs {
 namespace {
 
-// A user's text inside a one-line message: control characters hidden, long texts cut.
-std::string shown(std::string text) {
+// A user's text inside a message: long ones are cut.
+std::string shown(const std::string& text) {
   constexpr size_t kLongest = 60;
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
-  return text;
+  return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 
 std::string described(const YAML::Node& node) {
@@ -55,7 +52,10 @@ bool parse_number(const std::string& text, Number& number) {
   return error == std::errc() && end == last;
 }
 
-[[noreturn]] void fail_in(const std::string& file, int line, const std::string& message) {
+// Whatever the user's text holds, the message is one line.
+[[noreturn]] void fail_in(const std::string& file, int line, std::string message) {
+  std::replace_if(
+      message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, ' ');
   throw InputError(fmt::format("{}:{}: {}", file, line, message));
 }
 
@@ -216,6 +216,8 @@ void YamlMap::fail(const std::string& key, const std::string& message) const {
 YAML::Node YamlMap::value(const std::string& key) const {
   const YAML::Node found = node_[key];
   if (!found.IsDefined()) fail_at(node_, fmt::format("{} is missing", name_of(key)));
+  // An empty node stands where the parser noticed, often a line late: complain here, at the key.
+  if (found.IsNull()) fail(key, fmt::format("{} is empty, expected a value", name_of(key)));
   return found;
 }
 

@@ -7,6 +7,7 @@ import os
 import shutil
 import sys
 import tempfile
+from contextlib import closing
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Mapping, Sequence
@@ -58,14 +59,7 @@ class Batch:
         for stale in [out / "summary.json", *(out / figure.file for figure in self.study.figures)]:
             stale.unlink(missing_ok=True)
         with tempfile.TemporaryDirectory(prefix=".run-", dir=out) as scratch:
-            runs = self.runs(Path(scratch))
-            cases = {run.name: cases for run, cases in runs}
-            progress = Progress(len(runs))
-            ended = run_all([run for run, _ in runs], solver, jobs, progress.watch, keep_going)
-            for done, run in enumerate(ended, start=1):
-                failure = run.failure() or self.take(run, cases[run.name])
-                progress.finished(done, run, failure)
-                self.publish(run, cases[run.name], out, failure)
+            self.run_cases(self.runs(Path(scratch)), solver, jobs, keep_going, out)
             if not self.complete and not keep_going:
                 return False
             for figure in self.study.figures:
@@ -75,6 +69,25 @@ class Batch:
         write_json(out / "summary.json", self.folder.name, rows)
         print(table(rows))
         return self.complete and all(row.passes is not False for row in rows)
+
+    def run_cases(
+        self,
+        runs: Sequence[tuple[Run, list[Case]]],
+        solver: Solver,
+        jobs: int,
+        keep_going: bool,
+        out: Path,
+    ) -> None:
+        """Fills results and rows, writes histories and logs; stops at a failure unless keep_going."""
+        cases = {run.name: cases for run, cases in runs}
+        progress = Progress(len(runs))
+        with closing(run_all([run for run, _ in runs], solver, jobs, progress.watch)) as ended:
+            for done, run in enumerate(ended, start=1):
+                failure = run.failure() or self.take(run, cases[run.name])
+                progress.finished(done, run, failure)
+                self.publish(run, cases[run.name], out, failure)
+                if failure and not keep_going:
+                    return
 
     def take(self, run: Run, cases: Sequence[Case]) -> str | None:
         """Keeps the results and rows of a run; why it cannot, if so."""

@@ -8,12 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable, Sequence
 
-import matplotlib
 import numpy as np
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
-from matplotlib.lines import Line2D  # noqa: E402
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
 
 Force = Callable[[np.ndarray], np.ndarray]
 
@@ -50,7 +47,8 @@ def force_figure(
     lines: Sequence[Line] = (),
 ) -> None:
     """Computed forces as markers over their closed forms; SI in, microseconds on the axis."""
-    figure, axes = plt.subplots(figsize=(9.0, 4.6), layout="constrained")
+    figure = Figure(figsize=(9.0, 4.6), layout="constrained")
+    axes = figure.subplots()
     t = np.linspace(0.0, 1.04 * max(contact_end(curve) for curve in curves), 801)
     for curve, colour, marker in zip(curves, COLOURS, MARKERS):
         axes.plot(1e6 * t, curve.exact(t), color=colour, linewidth=1.3)
@@ -84,9 +82,8 @@ def contact_end(curve: Curve) -> float:
     return curve.t[curve.F > 0.0][-1]
 
 
-def save(figure, path: Path) -> None:
+def save(figure: Figure, path: Path) -> None:
     """Writes the picture as a whole or not at all."""
     partial = path.with_name(path.name + ".partial")
     figure.savefig(partial, dpi=180, format="png")
-    plt.close(figure)
     os.replace(partial, path)

@@ -6,14 +6,14 @@ from __future__ import annotations
 import shutil
 import sys
 import time
-from typing import Sequence, TextIO
+from typing import Sequence
 
 
 class Progress:
-    def __init__(self, total: int, stream: TextIO = sys.stderr):
+    def __init__(self, total: int):
         self.total = total
-        self.stream = stream
-        self.terminal = stream.isatty()
+        self.stream = sys.stderr
+        self.terminal = self.stream.isatty()
         self.started = time.monotonic()
 
     def watch(self, done: int, running: Sequence) -> None:

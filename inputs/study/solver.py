@@ -88,11 +88,10 @@ def run_all(
     solver: Solver,
     jobs: int,
     watch: Callable[[int, Sequence[Run]], None],
-    keep_going: bool,
 ) -> Iterator[Run]:
-    """Runs `jobs` at a time, yields each as it ends; after a failure none starts unless keep_going.
+    """Runs `jobs` at a time and yields each as it ends; to close the generator stops what runs.
 
-    `watch(done, running)` is called a few times a second.  Leaving the loop early stops what runs.
+    `watch(done, running)` is called a few times a second.
     """
     waiting, running, done = deque(runs), [], 0
     try:
@@ -105,8 +104,6 @@ def run_all(
             for run in [run for run in running if run.finished()]:
                 running.remove(run)
                 done += 1
-                if run.failure() and not keep_going:
-                    waiting.clear()
                 yield run
     finally:
         for run in running:

@@ -99,7 +99,8 @@ def check_values(deck: str, rows: dict) -> None:
             check(rows[case, "curve_error"]["value"] <= 5e-3, f"{case}: curve_error")
     for key, (reference, tolerance) in expected.items():
         error = abs(rows[key]["value"] / reference - 1.0)
-        check(error <= tolerance, f"{key}: {rows[key]['value']}, expected {reference} +- {tolerance}")
+        value = rows[key]["value"]
+        check(error <= tolerance, f"{key}: {value}, expected {reference} +- {tolerance}")
     for case in BALANCE[deck]:
         drift = rows[case, "momentum_balance"]["value"]
         check(0.0 < drift <= 1e-12, f"{case}: momentum_balance {drift}")

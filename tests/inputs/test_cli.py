@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/run as a user meets it, with a stand-in for the solver."""
 
+import contextlib
+import io
 import json
 import os
 import signal
@@ -9,6 +11,10 @@ import tempfile
 import time
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
+from unittest import mock
+
+from study import cli
 
 HERE = Path(__file__).resolve().parent
 RUN = HERE.parents[1] / "inputs/run"
@@ -21,12 +27,22 @@ class CommandLine(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.out = Path(folder.name)
 
-    def command(self, *words):
-        return [RUN, *words, "--solver", SOLVER, "--out", self.out]
+    def words(self, *words):
+        return [*words, "--solver", str(SOLVER), "--out", str(self.out)]
 
     def run_study(self, *words, **environment):
-        options = dict(capture_output=True, text=True, env={**os.environ, **environment}, cwd="/")
-        return subprocess.run(self.command(*words), check=False, **options)
+        """What inputs/run does once python has started."""
+        out, err = io.StringIO(), io.StringIO()
+        with (
+            mock.patch.dict(os.environ, environment),
+            contextlib.redirect_stdout(out),
+            contextlib.redirect_stderr(err),
+        ):
+            try:
+                code = cli.main(self.words(*words))
+            except SystemExit as end:
+                code = end.code
+        return SimpleNamespace(returncode=code, stdout=out.getvalue(), stderr=err.getvalue())
 
     def rows(self):
         rows = json.loads((self.out / "summary.json").read_text())["rows"]
@@ -117,7 +133,8 @@ class CommandLine(unittest.TestCase):
 
     def test_interrupt(self):
         process = subprocess.Popen(
-            self.command("ball_plate", "--case", "table2"),
+            [RUN, *self.words("ball_plate", "--case", "table2")],
+            cwd="/",
             env={**os.environ, "HANG": "1"},
             stderr=subprocess.PIPE,
             text=True,
@@ -152,9 +169,8 @@ class CommandLine(unittest.TestCase):
                 self.assertEqual(self.left_behind(), [])
 
     def test_no_executable(self):
-        done = subprocess.run(
-            [RUN, "thin_plate", "--solver", "/no/such"], capture_output=True, text=True, check=False
-        )
+        command = [RUN, "thin_plate", "--solver", "/no/such"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
         self.assertEqual(done.returncode, 2)
         self.assertIn("--solver /no/such", done.stderr)
 

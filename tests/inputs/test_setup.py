@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""inputs/setup --packages with stand-ins for Debian's tools: installs what is missing, only then."""
+"""inputs/setup --packages with stand-ins for Debian's tools."""
 
 import shutil
 import subprocess

@@ -1,1 +1,190 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "nurbs/geometry_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace nurbs {
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+GeometryFile parsed(const std::string& text) { return parse_geometry_file(text, "wall.yaml"); }
+
+const std::string kBox =
+    "units: si\n"
+    "geometry:\n"
+    "  box: {origin: [0, 0, -1], size: [2, 3, 1], elements: [4, 3, 2], degree: [2, 3, 1]}\n"
+    "surfaces: {top: zeta+, side: xi-}\n";
+
+const std::string kPlane =
+    "units: mm-g-ms\n"
+    "geometry:\n"
+    "  plane: {origin: [1, 0, 0], edges: [[2, 0, 0], [0, 4, 0]], breaks: [[0, 0.25, 1], [0, 1]], degree: 2}\n"
+    "surfaces: {floor: all}\n";
+
+const std::string kPatch =
+    "units: cgs\n"
+    "geometry:\n"
+    "  patches:\n"
+    "    - degrees: [2, 1]\n"
+    "      knots: [[0, 0, 0, 1, 1, 1], [0, 0, 1, 1]]\n"
+    "      control_points: [[1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 0, 2], [1, 1, 2], [0, 1, 2]]\n"
+    "      weights: [1, 0.7071067811865476, 1, 1, 0.7071067811865476, 1]\n"
+    "surfaces: {quarter: all}\n";
+
+TEST(GeometryFile, Box) {
+  const GeometryFile file = parsed(kBox);
+  EXPECT_EQ(file.units, Units::si);
+  const Volume& volume = std::get<Volume>(file.patch);
+  EXPECT_EQ(volume.space.element_count(), 24);
+  EXPECT_EQ(volume.space.degree(1), 3);
+  EXPECT_NEAR(
+      (interpolate(volume.space, volume.control_points, {0.5, 0.5, 0.5}) - Vector3(1, 1.5, -0.5)).norm(), 0.0,
+      1e-15);
+  const NamedSurface top = named_surface(file, "top", "wall.yaml");
+  EXPECT_EQ(top.outward_sign, 1);
+  EXPECT_NEAR(
+      (interpolate(top.surface.space, top.surface.control_points, {0.25, 1.0}) - Vector3(0.5, 3, 0)).norm(),
+      0.0, 1e-15);
+  const NamedSurface side = named_surface(file, "side", "wall.yaml");
+  EXPECT_EQ(side.outward_sign, -1);
+  EXPECT_NEAR(
+      (interpolate(side.surface.space, side.surface.control_points, {1.0, 0.0}) - Vector3(0, 3, -1)).norm(),
+      0.0, 1e-15);
+}
+
+TEST(GeometryFile, GradedPlane) {
+  const GeometryFile file = parsed(kPlane);
+  EXPECT_STREQ(units_name(file.units), "mm-g-ms");
+  const NamedSurface floor = named_surface(file, "floor", "wall.yaml");
+  EXPECT_EQ(floor.outward_sign, 0);
+  EXPECT_EQ(floor.surface.space.knots(0).breaks(), (std::vector<double>{0, 0.25, 1}));
+  EXPECT_NEAR(
+      (interpolate(floor.surface.space, floor.surface.control_points, {0.25, 0.5}) - Vector3(1.5, 2, 0))
+          .norm(),
+      0.0, 1e-15);
+}
+
+TEST(GeometryFile, PatchIsAnExactQuarterCircle) {
+  const NamedSurface quarter = named_surface(parsed(kPatch), "quarter", "wall.yaml");
+  for (double xi : {0.0, 0.2, 0.5, 0.9})
+    EXPECT_NEAR(
+        interpolate(quarter.surface.space, quarter.surface.control_points, {xi, 0.3}).head<2>().norm(), 1.0,
+        1e-15);
+}
+
+TEST(GeometryFile, VolumePatch) {
+  const GeometryFile file = parsed(
+      "units: si\ngeometry:\n  patches:\n    - degrees: [1, 1, 1]\n      knots: [[0, 0, 1, 1], [0, 0, 1, 1], "
+      "[0, 0, 1, 1]]\n"
+      "      control_points: [[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],[0,1,1],[1,1,1]]\n"
+      "surfaces: {bottom: zeta-}\n");
+  EXPECT_EQ(std::get<Volume>(file.patch).space.element_count(), 1);
+  EXPECT_EQ(named_surface(file, "bottom", "wall.yaml").outward_sign, -1);
+}
+
+TEST(GeometryFile, ModelFilesMayHaveOtherKeys) {
+  const YamlMap document = YamlMap::parse(kBox + "material: {law: linear_elastic}\n", "model.yaml");
+  EXPECT_EQ(read_geometry(document).surfaces.size(), 2u);
+  EXPECT_THROW(parse_geometry_file(kBox + "material: {law: linear_elastic}\n", "wall.yaml"), InputError);
+}
+
+// A good file with one thing changed, and the complaint.
+struct BadFile {
+  std::string good, from, to, place, message;
+};
+
+TEST(GeometryFile, SaysWhatWasGivenAndWhatWasExpected) {
+  const std::vector<BadFile> table = {
+      {kBox, "units: si\n", "", "wall.yaml:1: ", "units is missing"},
+      {kBox, "units: si", "units: inch", "wall.yaml:1: ", "units is inch, expected one of: si, cgs, mm-g-ms"},
+      {kBox, "geometry:", "geometri:", "wall.yaml:2: ", "unknown key 'geometri', did you mean 'geometry'?"},
+      {kBox, "box:", "bix:", "wall.yaml:3: ", "unknown key 'bix' in geometry, did you mean 'box'?"},
+      {kBox, "size:", "sise:", "wall.yaml:3: ", "unknown key 'sise' in geometry.box, did you mean 'size'?"},
+      {kBox, "origin: [0, 0, -1], ", "", "wall.yaml:3: ", "geometry.box.origin is missing"},
+      {kBox, "origin: [0, 0, -1]", "origin: [0, 0, .inf]",
+       "wall.yaml:3: ", "geometry.box.origin is .inf, expected a finite number"},
+      {kBox, "[2, 3, 1]", "[2, 0, 1]", "wall.yaml:3: ", "size is [2, 0, 1], expected 3 numbers > 0"},
+      {kBox, "[2, 3, 1]", "[2, 3, -1]", "wall.yaml:3: ", "size is [2, 3, -1], expected 3 numbers > 0"},
+      {kBox, "[4, 3, 2]", "[4, 0, 2]", "wall.yaml:3: ", "elements is 0, expected a whole number from 1 to"},
+      {kBox, "[4, 3, 2]", "[4, 3]", "wall.yaml:3: ", "elements is a list of 2, expected 3"},
+      {kBox, "degree: [2, 3, 1]", "degree: 7",
+       "wall.yaml:3: ", "degree is 7, expected a whole number from 1 to 6"},
+      {kBox, "degree: [2, 3, 1]", "degree: [2, 0, 1]",
+       "wall.yaml:3: ", "degree is 0, expected a whole number from 1"},
+      {kBox, "degree: [2, 3, 1]", "degree: [2, 3]", "wall.yaml:3: ", "degree is a list of 2, expected 3"},
+      {kBox,
+       "degree:", "breaks: [[0, 1], [0, 1], [0, 1]], degree:", "wall.yaml:3: ", "'elements' and 'breaks'"},
+      {kBox, "elements: [4, 3, 2], ", "", "wall.yaml:3: ", "'elements' and 'breaks'"},
+      {kBox, "zeta+", "top",
+       "wall.yaml:4: ", "surfaces.top: unknown face 'top', expected xi-, xi+, eta-, eta+, zeta- or zeta+"},
+      {kBox, "side: xi-", "\"s\\nt\": top", "wall.yaml:4: ", "surfaces.s t: unknown face 'top'"},
+      {kBox, "side:", "top:", "wall.yaml:4: ", "surface 'top' is given twice, expected once"},
+      {kBox, "surfaces: {top: zeta+, side: xi-}", "surfaces: zeta+",
+       "wall.yaml:4: ", "surfaces is zeta+, expected a mapping"},
+      {kBox, "units: si\n", "units: si\nunits: cgs\n",
+       "wall.yaml:2: ", "units is given twice, expected once"},
+      {kPlane, "[0, 4, 0]", "[4, 0, 0]",
+       "wall.yaml:3: ", "are zero or parallel, expected two different directions"},
+      {kPlane, "[0, 4, 0]", "[0, 0, 0]", "wall.yaml:3: ", "are zero or parallel"},
+      {kPlane, "[0, 4, 0]", "[0, 4]", "wall.yaml:3: ", "edge of 2 numbers, expected 3"},
+      {kPlane, ", [0, 4, 0]", "", "wall.yaml:3: ", "edges is a list of 1, expected 2"},
+      {kPlane, "[0, 0.25, 1]", "[0, 0.25, 2]", "wall.yaml:3: ", "expected a list from 0 to 1"},
+      {kPlane, "[0, 0.25, 1]", "[0, 0.5, 0.5, 1]", "wall.yaml:3: ", "expected strictly increasing ones"},
+      {kPlane, "floor: all", "floor: xi-",
+       "wall.yaml:4: ", "unknown face 'xi-' of a surface patch, expected all"},
+      {kPatch, "[0, 0, 0, 1, 1, 1]", "[0, 0, 0.5, 1, 1, 1]", "wall.yaml:5: ",
+       "knots of direction 1: knot vector is not open: first knot 2 times and last knot 3 times"},
+      {kPatch, "[0, 0, 1, 1]", "[0, 0, 1, 0.5]",
+       "wall.yaml:5: ", "knots of direction 2: knot 4 is 0.5 after 1"},
+      {kPatch, "[0, 0, 1, 1]]", "[0, 0, 0.5, 0.5, 1, 1]]",
+       "wall.yaml:5: ", "interior knot 0.5 stands 2 times, degree 1 expects at most 1 times"},
+      {kPatch, "[0, 0, 0, 1, 1, 1]", "[0, 0, 0, .nan, 1, 1, 1]",
+       "wall.yaml:5: ", "is .nan, expected a finite number"},
+      {kPatch, ", [0, 0, 1, 1]]", "]", "wall.yaml:5: ", "knots is a list of 1, expected 2"},
+      {kPatch, ", [0, 1, 2]]", "]", "wall.yaml:6: ", "5 control points given, expected 6"},
+      {kPatch, "[0, 1, 2]]", "[0, 1]]", "wall.yaml:6: ", "control point 6 has 2 coordinates, expected 3"},
+      {kPatch, "[1, 1, 2]", "[1, x, 2]", "wall.yaml:6: ", "control_points[4] is x, expected a finite number"},
+      {kPatch, ", 1]\nsurfaces", "]\nsurfaces", "wall.yaml:7: ", "5 weights given, expected 6"},
+      {kPatch, "weights: [1,", "weights: [0,", "wall.yaml:7: ", "weight 1 is 0, expected a number > 0"},
+      {kPatch, "weights: [1,", "weights: [-1,", "wall.yaml:7: ", "weight 1 is -1, expected a number > 0"},
+      {kPatch, "degrees: [2, 1]", "degrees: [2]",
+       "wall.yaml:4: ", "degrees is a list of 1, expected 2 (a surface) or 3"},
+      {kPatch, "degrees: [2, 1]", "degrees: [2, 0]",
+       "wall.yaml:4: ", "is 0, expected a whole number from 1 to 6"},
+      {kPatch, "surfaces", "    - {}\n    - {}\nsurfaces", "wall.yaml:3: ", "1 patch supported, 3 given"},
+      {kPatch, "geometry:\n", "geometry:\n  box: {}\n",
+       "wall.yaml:3: ", "2 geometries given, expected one of"},
+      {kPatch, "degrees: [2, 1]", "degrees: [2, 1", "wall.yaml:", "broken YAML"},
+  };
+  for (const BadFile& bad : table) {
+    std::string text = bad.good;
+    const size_t at = text.find(bad.from);
+    ASSERT_NE(at, std::string::npos) << bad.from;
+    text.replace(at, bad.from.size(), bad.to);
+    SCOPED_TRACE(text);
+    try {
+      parsed(text);
+      ADD_FAILURE() << "accepted";
+    } catch (const InputError& error) {
+      EXPECT_THAT(error.what(), StartsWith(bad.place));
+      EXPECT_THAT(error.what(), HasSubstr(bad.message));
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+    }
+  }
+}
+
+TEST(GeometryFile, UnknownSurfaceListsThoseThereAre) {
+  try {
+    named_surface(parsed(kBox), "botom", "wall.yaml");
+    ADD_FAILURE() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), EndsWith("unknown surface 'botom', expected one of: side, top"));
+  }
+}
+
+}  // namespace
+}  // namespace nurbs

@@ -2,6 +2,7 @@
 // Supports, loads and probes.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <stdexcept>
 
@@ -51,11 +52,16 @@ TEST(TractionLoad, OnACurvedFaceSumsToTractionTimesArea) {
   EXPECT_LT((total - std::acos(-1.0) * traction).norm(), 1e-7);  // radius 2, quarter, height 1
 }
 
-TEST(GravityLoad, SumsToTheWeightAndHasItsMoment) {
-  const nurbs::Volume patch = models::distorted(models::block({1, 2, 3}, {2, 2, 2}, 2), 0.05);
-  const Solid solid(patch, models::elastic(1.0, 0.3, 2.5));
-  const Vector3 g(0, 0, -9.81);
-  EXPECT_LT((structure::gravity_load(solid, g).rowwise().sum() - 2.5 * solid.volume() * g).norm(), 1e-12);
+// Row sums reproduce the first moment of mass: integral of density x = sum m_A X_A.
+TEST(GravityLoad, HasTheForceAndTheMomentOfTheWeightAtTheCentreOfMass) {
+  const Solid solid(models::block({1, 2, 3}, {2, 3, 1}, 2), models::elastic(1.0, 0.3, 2.5));
+  const Vector3 g(1, 2, -9.81), weight = 2.5 * 6.0 * g, centre(0.5, 1.0, 1.5);
+  const NodalVectors f = structure::gravity_load(solid, g);
+  Vector3 moment = Vector3::Zero();
+  for (int A = 0; A < f.cols(); ++A)
+    moment += Vector3(solid.patch().control_points.col(A)).cross(Vector3(f.col(A)));
+  EXPECT_LT((f.rowwise().sum() - weight).norm(), 1e-12);
+  EXPECT_LT((moment - centre.cross(weight)).norm(), 1e-12);
 }
 
 TEST(FacePoint, LiesOnTheFaceAtTheRelativeParameters) {
