@@ -12,8 +12,9 @@ namespace coupling {
 using nurbs::NodalVectors;
 using nurbs::Vector3;
 
-/// Linear map from solver nodes to surface control points: x_surface = S x_nodes, f_nodes = S^T f_surface.  One matrix
-/// serves both ways, so the power of a force is the same on both sides.  A volume's face is a selection of its nodes.
+/// Linear map from solver nodes to surface control points: x_surface = S x_nodes, f_nodes = S^T f_surface.
+/// One matrix serves both ways, so the power of a force is the same on both sides.  A volume's face is a
+/// selection of its nodes.
 class SurfaceMap {
  public:
   /// S is n_control_points x n_nodes [-].
@@ -23,7 +24,8 @@ class SurfaceMap {
   /// Control point i is node[i].
   static SurfaceMap selection(const std::vector<int>& node, int nodes);
 
-  /// surface (3 x n_control_points) = values of the control points where `nodal` (3 x n_nodes) are those of the nodes.
+  /// surface (3 x n_control_points) = values of the control points where `nodal` (3 x n_nodes) are those of
+  /// the nodes.
   void to_surface(const NodalVectors& nodal, NodalVectors& surface) const;
   /// Adds S^T times control-point forces (3 x n_control_points) to nodal forces (3 x n_nodes).
   void add_to_nodes(const NodalVectors& surface, NodalVectors& nodal) const;

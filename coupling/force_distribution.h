@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Point force to control points and control-point velocities to the point: one transposed pair,
 //   f_A = R_A(xi) F   and   v(xi) = sum_A R_A(xi) v_A,   so   F . v(xi) = sum_A f_A . v_A.
-// Source: Gao & Feng (2019), eqs. 29 and 34 (F here is the force on the surface, so eq. 34's minus sign is in F).
+// Source: Gao & Feng (2019), eqs. 29 and 34 (F here is the force on the surface, so eq. 34's minus sign is in
+// F).
 #pragma once
 
 #include "coupling/contact_surface.h"

@@ -20,7 +20,8 @@ ContactSurface surface_of(const nurbs::Space<3>& volume, nurbs::Face face) {
 
 }  // namespace
 
-IgaStructure::IgaStructure(structure::ExplicitSolver solver, nurbs::Face face, std::vector<structure::Probe> probes)
+IgaStructure::IgaStructure(structure::ExplicitSolver solver, nurbs::Face face,
+                           std::vector<structure::Probe> probes)
     : solver_(std::move(solver)),
       surface_(surface_of(solver_.solid().patch().space, face)),
       probes_(std::move(probes)) {}
@@ -28,9 +29,9 @@ IgaStructure::IgaStructure(structure::ExplicitSolver solver, nurbs::Face face, s
 void IgaStructure::set_time_step(double dt) {
   const double stable = solver_.stable_time_step();
   if (dt > structure::kStableStepSafety * stable)
-    throw std::invalid_argument(
-        fmt::format("timestep {:.6g} is above {} of the structure's stable step {:.6g}; use a timestep of at most {:.3g}",
-                    dt, structure::kStableStepSafety, stable, 0.9 * stable));
+    throw std::invalid_argument(fmt::format(
+        "timestep {:.6g} is above {} of the structure's stable step {:.6g}; use a timestep of at most {:.3g}",
+        dt, structure::kStableStepSafety, stable, 0.9 * stable));
   solver_.set_time_step(dt);
 }
 
@@ -41,7 +42,8 @@ std::optional<SurfaceMaterial> IgaStructure::material() const {
 
 std::vector<Probe> IgaStructure::probes() const {
   std::vector<Probe> values;
-  for (const structure::Probe& probe : probes_) values.push_back({probe.name, solver_.displacement(probe.xi)});
+  for (const structure::Probe& probe : probes_)
+    values.push_back({probe.name, solver_.displacement(probe.xi)});
   return values;
 }
 

@@ -26,7 +26,8 @@ std::string read_text_on_all_ranks(MPI_Comm comm, const std::string& path) {
   }
   MPI_Bcast(&length_or_error, 1, MPI_LONG, 0, comm);
   if (length_or_error < 0)
-    throw nurbs::InputError("cannot read '" + path + "': " + std::strerror(static_cast<int>(-length_or_error)));
+    throw nurbs::InputError("cannot read '" + path +
+                            "': " + std::strerror(static_cast<int>(-length_or_error)));
   text.resize(length_or_error);
   MPI_Bcast(text.data(), static_cast<int>(length_or_error), MPI_CHAR, 0, comm);
   return text;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// From a file named in a deck to the solver behind the port.  A new kind of structure is one more function here.
+// From a file named in a deck to the solver behind the port.  A new kind of structure is one more function
+// here.
 #pragma once
 
 #include <mpi.h>
@@ -21,8 +22,8 @@ struct OpenedStructure {
 /// Rigid wall: the named surface of a geometry file.  Collective; throws nurbs::InputError on every rank.
 OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface);
 
-/// Deforming solid of iga-solver: the named surface of a model file.  Collective; throws nurbs::InputError on every
-/// rank.  Lives in the library coupling_iga, so that a rigid wall links no structural code.
+/// Deforming solid of iga-solver: the named surface of a model file.  Collective; throws nurbs::InputError on
+/// every rank.  Lives in the library coupling_iga, so that a rigid wall links no structural code.
 OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface);
 
 }  // namespace coupling

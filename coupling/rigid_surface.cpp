@@ -14,7 +14,8 @@ RigidSurface::RigidSurface(nurbs::Surface surface, int outward_sign)
 double RigidSurface::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
 
 void RigidSurface::load(const std::vector<double>& state) {
-  if (!state.empty()) throw std::invalid_argument("a rigid surface has no state, but the restart file holds one");
+  if (!state.empty())
+    throw std::invalid_argument("a rigid surface has no state, but the restart file holds one");
 }
 
 }  // namespace coupling

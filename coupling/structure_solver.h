@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The port to a structure solver: all that contact needs to know of a deforming (or rigid) body.
-// One step is velocity Verlet, which is the central difference scheme; particles and surface share one time level:
+// One step is velocity Verlet, which is the central difference scheme; particles and surface share one time
+// level:
 //   begin_step  v(n+1/2) = v(n) + dt/2 a(n),  x(n+1) = x(n) + dt v(n+1/2)
 //   [contact forces F(n+1) from x(n+1), v(n+1/2)]
 //   end_step    a(n+1) = M^-1 (F(n+1) + f_ext - f_int(x(n+1))),  v(n+1) = v(n+1/2) + dt/2 a(n+1)
@@ -36,8 +37,8 @@ class StructureSolver {
   virtual ~StructureSolver() = default;
 
   virtual const ContactSurface& surface() const = 0;
-  /// Of the solver's own nodes, 3 x node_count: current positions [length] and velocities [length/time].  During a
-  /// step (after begin_step) the velocities are those of the half step.
+  /// Of the solver's own nodes, 3 x node_count: current positions [length] and velocities [length/time].
+  /// During a step (after begin_step) the velocities are those of the half step.
   virtual const NodalVectors& positions() const = 0;
   virtual const NodalVectors& velocities() const = 0;
 
@@ -54,8 +55,8 @@ class StructureSolver {
   virtual bool moves() const = 0;
   virtual Eigen::VectorXd control_node_mass() const = 0;  ///< [mass], one per node; empty for a rigid surface
   virtual Energies energies() const = 0;
-  virtual Vector3 linear_momentum() const = 0;                        ///< sum m_A v_A
-  virtual Vector3 angular_momentum(const Vector3& about) const = 0;   ///< sum (x_A - about) x m_A v_A
+  virtual Vector3 linear_momentum() const = 0;                       ///< sum m_A v_A
+  virtual Vector3 angular_momentum(const Vector3& about) const = 0;  ///< sum (x_A - about) x m_A v_A
   virtual std::optional<SurfaceMaterial> material() const = 0;
   virtual std::vector<Probe> probes() const = 0;
 

@@ -54,7 +54,8 @@ void SurfaceExchange::gather(const std::vector<ContactForce>& local) {
   }
   contacts_.resize(total / sizeof(ContactForce));
   if (total == 0) return;
-  MPI_Allgatherv(local.data(), mine, MPI_BYTE, contacts_.data(), bytes_.data(), offset_.data(), MPI_BYTE, comm_);
+  MPI_Allgatherv(local.data(), mine, MPI_BYTE, contacts_.data(), bytes_.data(), offset_.data(), MPI_BYTE,
+                 comm_);
 }
 
 }  // namespace coupling

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // All transfer between the ranks of the particles and the ranks of the structure.
-// Today's plan is "every rank integrates the whole structure and needs the whole surface": import is a local copy, export
-// gathers the contacts of all ranks.  Nothing outside this class may rely on that.
+// Today's plan is "every rank integrates the whole structure and needs the whole surface": import is a local
+// copy, export gathers the contacts of all ranks.  Nothing outside this class may rely on that.
 #pragma once
 
 #include <mpi.h>
@@ -15,10 +15,10 @@ namespace coupling {
 
 /// One contact as the rank of its particle reports it.  Plain data: it travels as bytes.
 struct ContactForce {
-  long tag;       ///< particle's global id
-  int branch;     ///< which of the particle's contacts with this wall
-  double xi[2];   ///< foot on the surface
-  double F[3];    ///< force on the surface [force]
+  long tag;      ///< particle's global id
+  int branch;    ///< which of the particle's contacts with this wall
+  double xi[2];  ///< foot on the surface
+  double F[3];   ///< force on the surface [force]
 };
 
 class SurfaceExchange {
@@ -26,14 +26,15 @@ class SurfaceExchange {
   /// The solver must outlive the exchange.
   SurfaceExchange(MPI_Comm comm, StructureSolver& solver);
 
-  /// Brings positions and velocities of the surface's control points to this rank; call after every change of the
-  /// solver's state.
+  /// Brings positions and velocities of the surface's control points to this rank; call after every change of
+  /// the solver's state.
   void import_surface();
   const NodalVectors& positions() const { return positions_; }    ///< 3 x n_control_points [length]
   const NodalVectors& velocities() const { return velocities_; }  ///< 3 x n_control_points [length/time]
 
-  /// Collective.  Returns the nodal forces (3 x n_nodes) of the contacts of all ranks: each is spread to its control
-  /// points (eq. 34) in the order of (tag, branch), so the sums do not depend on how many ranks there are.
+  /// Collective.  Returns the nodal forces (3 x n_nodes) of the contacts of all ranks: each is spread to its
+  /// control points (eq. 34) in the order of (tag, branch), so the sums do not depend on how many ranks there
+  /// are.
   const NodalVectors& export_add(const std::vector<ContactForce>& local);
 
  private:
@@ -43,8 +44,8 @@ class SurfaceExchange {
   StructureSolver& solver_;
   NodalVectors positions_, velocities_;
   NodalVectors surface_forces_, nodal_forces_;
-  std::vector<ContactForce> contacts_;   ///< of all ranks
-  std::vector<int> bytes_, offset_;      ///< per rank
+  std::vector<ContactForce> contacts_;  ///< of all ranks
+  std::vector<int> bytes_, offset_;     ///< per rank
 };
 
 }  // namespace coupling

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Memory of one contact between a particle and the wall, as it lies in a row of `fix property/atom` (which carries it
-// through sorting, migration between ranks and restart):
+// Memory of one contact between a particle and the wall, as it lies in a row of `fix property/atom` (which
+// carries it through sorting, migration between ranks and restart):
 //   [patch, xi, eta, history of LIGGGHTS' contact models ...]
-// The foot is the warm start of the next projection.  Patch < 0 marks an empty slot, so a fresh row must hold -1 there.
+// The foot is the warm start of the next projection.  Patch < 0 marks an empty slot, so a fresh row must hold
+// -1 there.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +27,8 @@ class ContactSlot {
     values_[2] = xi[1];
   }
 
-  /// Where the contact models keep their values (world-frame shear displacement, ...); null if they keep none.
+  /// Where the contact models keep their values (world-frame shear displacement, ...); null if they keep
+  /// none.
   double* history() { return history_count_ > 0 ? values_ + kFootValues : nullptr; }
   void forget_history() { std::fill_n(values_ + kFootValues, history_count_, 0.0); }
   void clear() {

@@ -28,57 +28,7 @@ using liggghts_pkg::Candidate;
 using liggghts_pkg::ContactSlot;
 using nurbs::Vector3;
 
-namespace {
-
-// FixWallGran takes the granular path only for styles that start with wall/gran.
-const char *const kStockStyle = "wall/gran/nurbs";
-
-std::string message_for(const char *id, const std::string &what) {
-  return fmt::format("Fix wall/nurbs (id {}): {}", id, what);
-}
-
-std::vector<std::string> stock_command_line(char **arg, const liggghts_pkg::WallNurbsOptions &options) {
-  std::vector<std::string> words = {arg[0], arg[1], kStockStyle};
-  words.insert(words.end(), options.model_words.begin(), options.model_words.end());
-  // A plane that is thrown away at once: FixWallGran insists on a mesh or a primitive.
-  for (const std::string &word :
-       {std::string("primitive"), std::string("type"), std::to_string(options.atom_type), std::string("zplane"),
-        std::string("0.")})
-    words.push_back(word);
-  if (options.store_force) words.insert(words.end(), {"store_force", "yes"});
-  words.insert(words.end(), options.setting_words.begin(), options.setting_words.end());
-  return words;
-}
-
-}  // namespace
-
-/* ---------------------------------------------------------------------- */
-
-WallNurbsSetup::WallNurbsSetup(LAMMPS *lmp, int narg, char **arg) {
-  using liggghts_pkg::WallNurbsOptions;
-  try {
-    options_ = liggghts_pkg::parse_wall_nurbs(std::vector<std::string>(arg + 3, arg + narg));
-    if (options_.atom_type > lmp->atom->ntypes)
-      throw std::invalid_argument(fmt::format("type is {}, expected 1 to {}, the number of types in create_box",
-                                              options_.atom_type, lmp->atom->ntypes));
-    opened_ = options_.body == WallNurbsOptions::Body::iga
-                  ? coupling::open_iga_structure(lmp->world, options_.file, options_.surface)
-                  : coupling::open_rigid_surface(lmp->world, options_.file, options_.surface);
-    if (std::strcmp(nurbs::units_name(opened_.units), lmp->update->unit_style) != 0)
-      throw std::invalid_argument(fmt::format("'{}' has units {}, the deck has units {}: they must be the same",
-                                              options_.file, nurbs::units_name(opened_.units),
-                                              lmp->update->unit_style));
-  } catch (const std::exception &problem) {
-    lmp->error->all(FLERR, message_for(arg[0], problem.what()).c_str());
-  }
-
-  stock_words_ = stock_command_line(arg, options_);
-  for (std::string &word : stock_words_) stock_arg_.push_back(word.data());
-}
-
-/* ---------------------------------------------------------------------- */
-
-FixWallNurbs::FixWallNurbs(LAMMPS *lmp, int narg, char **arg)
+FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
     : WallNurbsSetup(lmp, narg, arg),
       FixWallGran(lmp, static_cast<int>(stock_arg_.size()), stock_arg_.data()),
       structure_(*opened_.solver),
@@ -87,7 +37,8 @@ FixWallNurbs::FixWallNurbs(LAMMPS *lmp, int narg, char **arg)
       all_totals_() {
   delete primitiveWall_;
   primitiveWall_ = nullptr;
-  if (store_force_contact_stress_) fail("fix continuum/weighted needs per-contact forces, which this wall does not store");
+  if (store_force_contact_stress_)
+    fail("fix continuum/weighted needs per-contact forces, which this wall does not store");
 
   vector_flag = 1;
   size_vector = kTotalColumns + kStructureColumns + 3 * static_cast<int>(structure_.probes().size());
@@ -97,8 +48,8 @@ FixWallNurbs::FixWallNurbs(LAMMPS *lmp, int narg, char **arg)
   late_surface_ = std::getenv("LIGGGHTS_NURBS_TEST_LATE_SURFACE") != nullptr;
 }
 
-void FixWallNurbs::fail(const std::string &message) const {
-  error->all(FLERR, message_for(id, message).c_str());
+void FixWallNurbs::fail(const std::string& message) const {
+  error->all(FLERR, wall_nurbs_message(id, message).c_str());
   std::abort();  // error->all does not return, but is not declared so
 }
 
@@ -112,13 +63,14 @@ int FixWallNurbs::setmask() {
 ------------------------------------------------------------------------- */
 
 void FixWallNurbs::post_create() {
-  const auto add_property = [this](const std::string &name, const char *restart, const std::vector<std::string> &initial) {
+  const auto add_property = [this](const std::string& name, const char* restart,
+                                   const std::vector<std::string>& initial) {
     std::vector<std::string> words = {name, "all", "property/atom", name, "vector", restart, "no", "no"};
     words.insert(words.end(), initial.begin(), initial.end());
-    std::vector<char *> arg;
-    for (std::string &word : words) arg.push_back(word.data());
+    std::vector<char*> arg;
+    for (std::string& word : words) arg.push_back(word.data());
     modify->add_fix(static_cast<int>(arg.size()), arg.data());
-    return static_cast<FixPropertyAtom *>(modify->find_fix_property(
+    return static_cast<FixPropertyAtom*>(modify->find_fix_property(
         name.c_str(), "property/atom", "vector", static_cast<int>(initial.size()), 0, style));
   };
 
@@ -137,7 +89,8 @@ void FixWallNurbs::pre_delete(bool unfixflag) {
 
 void FixWallNurbs::init() {
   if (update->whichflag == 2) fail("minimize is not supported; use run");
-  if (std::strstr(update->integrate_style, "respa")) fail("run_style respa is not supported; use run_style verlet");
+  if (std::strstr(update->integrate_style, "respa"))
+    fail("run_style respa is not supported; use run_style verlet");
   FixWallGran::init();
   check_material();
   check_time_step();
@@ -152,7 +105,7 @@ void FixWallNurbs::check_time_step() {
   dt_ = update->dt;
   try {
     structure_.set_time_step(dt_);
-  } catch (const std::exception &problem) {
+  } catch (const std::exception& problem) {
     fail(problem.what());
   }
 }
@@ -164,28 +117,31 @@ void FixWallNurbs::check_material() {
   check_property("poissonsRatio", material->poissons_ratio);
 }
 
-void FixWallNurbs::check_property(const char *property, double model_value) {
-  Fix *fix = modify->find_fix_property(property, "property/global", "peratomtype", 0, 0, style, false);
+void FixWallNurbs::check_property(const char* property, double model_value) {
+  Fix* fix = modify->find_fix_property(property, "property/global", "peratomtype", 0, 0, style, false);
   if (!fix) return;  // the contact model does not use it
-  const double deck_value = static_cast<FixPropertyGlobal *>(fix)->get_values()[atom_type_wall_ - 1];
+  const double deck_value = static_cast<FixPropertyGlobal*>(fix)->get_values()[atom_type_wall_ - 1];
   if (std::abs(deck_value - model_value) > 1e-6 * std::abs(model_value))
-    fail(fmt::format("{} of atom type {} is {:.10g} in the deck but {:.10g} in '{}'; make them equal, or write 'material "
-                     "independent' to keep both",
-                     property, atom_type_wall_, deck_value, model_value, options_.file));
+    fail(fmt::format(
+        "{} of atom type {} is {:.10g} in the deck but {:.10g} in '{}'; make them equal, or write 'material "
+        "independent' to keep both",
+        property, atom_type_wall_, deck_value, model_value, options_.file));
 }
 
 void FixWallNurbs::check_periodic_images() {
-  const auto &x = exchange_.positions();
+  const auto& x = exchange_.positions();
   const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
   for (int d = 0; d < 3; ++d) {
     const double tolerance = 1e-9 * (domain->boxhi[d] - domain->boxlo[d]);
     const bool sticks_out = x.row(d).minCoeff() < domain->boxlo[d] - tolerance ||
                             x.row(d).maxCoeff() > domain->boxhi[d] + tolerance;
     if (periodic[d] && sticks_out && comm->me == 0)
-      error->warning(FLERR, message_for(id, fmt::format("the wall reaches beyond the periodic boundary in {}: particles "
-                                                        "do not meet its periodic image",
-                                                        "xyz"[d]))
-                                .c_str());
+      error->warning(
+          FLERR,
+          wall_nurbs_message(id, fmt::format("the wall reaches beyond the periodic boundary in {}: particles "
+                                             "do not meet its periodic image",
+                                             "xyz"[d]))
+              .c_str());
   }
 }
 
@@ -206,7 +162,8 @@ void FixWallNurbs::initial_integrate(int) {
   structure_.begin_step();
   if (!late_surface_) exchange_.import_surface();
   // The list is good until the wall has moved half a skin; it is then rebuilt before this step's forces.
-  if (candidates_.motion_since_build(exchange_.positions()) > 0.5 * neighbor->skin) rebuild_candidates_ = true;
+  if (candidates_.motion_since_build(exchange_.positions()) > 0.5 * neighbor->skin)
+    rebuild_candidates_ = true;
 }
 
 void FixWallNurbs::pre_neighbor() { rebuild_candidates_ = true; }
@@ -226,11 +183,12 @@ void FixWallNurbs::post_force(int vflag) {
 void FixWallNurbs::final_integrate() { structure_.end_step(*nodal_forces_); }
 
 /* ----------------------------------------------------------------------
-   global search: a particle may come closer by half a skin on either side of where it was when LIGGGHTS built its
-   lists, and the wall by half a skin more
+   global search: a particle may come closer by half a skin on either side of where it was when LIGGGHTS built
+its lists, and the wall by half a skin more
 ------------------------------------------------------------------------- */
 
 void FixWallNurbs::build_candidates() {
+  search_cold_ = true;
   candidates_.build(structure_.surface().space, exchange_.positions(), atom->nlocal, atom->x, atom->radius,
                     neighbor->contactDistanceFactor, 1.5 * neighbor->skin);
   forget_lost_contacts();
@@ -238,7 +196,7 @@ void FixWallNurbs::build_candidates() {
 
 void FixWallNurbs::forget_lost_contacts() {
   is_candidate_.assign(atom->nlocal, false);
-  for (const Candidate &candidate : candidates_.candidates()) is_candidate_[candidate.particle] = true;
+  for (const Candidate& candidate : candidates_.candidates()) is_candidate_[candidate.particle] = true;
   for (int i = 0; i < atom->nlocal; ++i)
     if (!is_candidate_[i]) slot(i).clear();
 }
@@ -254,7 +212,7 @@ void FixWallNurbs::post_force_primitive(int) {
   totals_ = Totals();
   const double close = neighbor->contactDistanceFactor - 1.0;
 
-  for (const Candidate &candidate : candidates_.candidates()) {
+  for (const Candidate& candidate : candidates_.candidates()) {
     const int i = candidate.particle;
     if (!(atom->mask[i] & groupbit)) continue;
 
@@ -266,15 +224,19 @@ void FixWallNurbs::post_force_primitive(int) {
     else
       slot(i).forget_history();
   }
+  search_cold_ = false;
 }
 
-nurbs::Projection FixWallNurbs::project(const Candidate &candidate) {
-  const nurbs::Space<2> &space = structure_.surface().space;
+// From the foot of the last step; after each rebuild of the list anew, since another part of a curved wall
+// may have come nearer.
+nurbs::Projection FixWallNurbs::project(const Candidate& candidate) {
+  const nurbs::Space<2>& space = structure_.surface().space;
   const Vector3 centre = Vector3::Map(atom->x[candidate.particle]);
   const ContactSlot memory = slot(candidate.particle);
 
-  if (!memory.empty()) {
-    const nurbs::Projection warm = nurbs::closest_point_from(space, exchange_.positions(), centre, memory.xi());
+  if (!memory.empty() && !search_cold_) {
+    const nurbs::Projection warm =
+        nurbs::closest_point_from(space, exchange_.positions(), centre, memory.xi());
     if (warm.status != nurbs::ProjectionStatus::not_converged) return warm;
   }
   const nurbs::Projection cold = nurbs::closest_point_on_elements(
@@ -283,18 +245,19 @@ nurbs::Projection FixWallNurbs::project(const Candidate &candidate) {
   return cold;
 }
 
-bool FixWallNurbs::inside_body(const nurbs::Projection &foot, const double *centre) const {
-  const coupling::ContactSurface &surface = structure_.surface();
+bool FixWallNurbs::inside_body(const nurbs::Projection& foot, const double* centre) const {
+  const coupling::ContactSurface& surface = structure_.surface();
   if (surface.outward_sign == 0 || foot.status != nurbs::ProjectionStatus::interior) return false;
   nurbs::RationalBasis<2> basis;
   nurbs::evaluate(surface.space, foot.xi, 1, basis);
   Vector3 tangent[2] = {Vector3::Zero(), Vector3::Zero()};
   for (int a = 0; a < basis.count; ++a)
-    for (int d = 0; d < 2; ++d) tangent[d] += basis.dR[d][a] * exchange_.positions().col(basis.control_point[a]);
+    for (int d = 0; d < 2; ++d)
+      tangent[d] += basis.dR[d][a] * exchange_.positions().col(basis.control_point[a]);
   return surface.outward_sign * tangent[0].cross(tangent[1]).dot(Vector3::Map(centre) - foot.foot) < 0.0;
 }
 
-void FixWallNurbs::apply_contact(int i, const nurbs::Projection &foot, double gap) {
+void FixWallNurbs::apply_contact(int i, const nurbs::Projection& foot, double gap) {
   const coupling::FootBasis basis(structure_.surface().space, foot.xi);
   Vector3 wall_velocity = basis.interpolate(exchange_.velocities());
   const Vector3 delta = Vector3::Map(atom->x[i]) - foot.foot;
@@ -337,19 +300,23 @@ void FixWallNurbs::post_run() {
   MPI_Allreduce(counts, largest, 3, MPI_LONG, MPI_MAX, world);
   if (comm->me != 0) return;
   if (sum[0] > 0)
-    error->warning(FLERR, message_for(id, fmt::format("{} closest-point projections did not converge", sum[0])).c_str());
+    error->warning(
+        FLERR,
+        wall_nurbs_message(id, fmt::format("{} closest-point projections did not converge", sum[0])).c_str());
   if (sum[1] > 0)
-    error->warning(FLERR, message_for(id, fmt::format("the centre of particle {} got inside the solid ({} contacts of this "
-                                                      "kind in this run): use a smaller timestep or a stiffer contact",
-                                                      largest[2], sum[1]))
-                              .c_str());
+    error->warning(FLERR,
+                   wall_nurbs_message(
+                       id, fmt::format("the centre of particle {} got inside the solid ({} contacts of this "
+                                       "kind in this run): use a smaller timestep or a stiffer contact",
+                                       largest[2], sum[1]))
+                       .c_str());
 }
 
 /* ----------------------------------------------------------------------
    f_ID[1..]: see doc/fix_wall_nurbs.md
 ------------------------------------------------------------------------- */
 
-const FixWallNurbs::Totals &FixWallNurbs::totals_of_all_ranks() {
+const FixWallNurbs::Totals& FixWallNurbs::totals_of_all_ranks() {
   if (!totals_are_summed_) {
     static_assert(sizeof(Totals) == kTotalColumns * sizeof(double), "Totals is a row of columns");
     MPI_Allreduce(&totals_, &all_totals_, kTotalColumns - 1, MPI_DOUBLE, MPI_SUM, world);
@@ -360,7 +327,7 @@ const FixWallNurbs::Totals &FixWallNurbs::totals_of_all_ranks() {
 }
 
 double FixWallNurbs::compute_vector(int column) {
-  if (column < kTotalColumns) return reinterpret_cast<const double *>(&totals_of_all_ranks())[column];
+  if (column < kTotalColumns) return reinterpret_cast<const double*>(&totals_of_all_ranks())[column];
   return structure_column(column - kTotalColumns);
 }
 
@@ -378,7 +345,7 @@ double FixWallNurbs::structure_column(int column) const {
    restart: the structure's state; contact memory restarts with its fix property/atom
 ------------------------------------------------------------------------- */
 
-void FixWallNurbs::write_restart(FILE *file) {
+void FixWallNurbs::write_restart(FILE* file) {
   std::vector<double> state = structure_.save();
   state.insert(state.begin(), static_cast<double>(state.size()));
   if (comm->me != 0) return;
@@ -387,14 +354,14 @@ void FixWallNurbs::write_restart(FILE *file) {
   std::fwrite(state.data(), sizeof(double), state.size(), file);
 }
 
-void FixWallNurbs::restart(char *buffer) {
+void FixWallNurbs::restart(char* buffer) {
   double size;
   std::memcpy(&size, buffer, sizeof(double));
   std::vector<double> state(static_cast<std::size_t>(size));
   std::memcpy(state.data(), buffer + sizeof(double), state.size() * sizeof(double));
   try {
     structure_.load(state);
-  } catch (const std::exception &problem) {
+  } catch (const std::exception& problem) {
     fail(problem.what());
   }
   exchange_.import_surface();

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix wall/nurbs: a granular wall that is a NURBS surface, rigid or the skin of a deforming isogeometric solid.
-// Command page: doc/fix_wall_nurbs.md.  Method: Gao & Feng (2019), section 4.
+// fix wall/nurbs: a granular wall that is a NURBS surface, rigid or the skin of a deforming isogeometric
+// solid. Command page: doc/fix_wall_nurbs.md.  Method: Gao & Feng (2019), section 4.
 #ifdef FIX_CLASS
+// clang-format off
 FixStyle(wall/nurbs,FixWallNurbs)
+// clang-format on
 #else
 
 #ifndef LMP_FIX_WALL_NURBS_H
@@ -16,29 +18,16 @@ FixStyle(wall/nurbs,FixWallNurbs)
 
 #include "candidate_list.h"
 #include "contact_slot.h"
-#include "coupling/open_structure.h"
 #include "coupling/surface_exchange.h"
 #include "fix_wall_gran.h"
 #include "nurbs/closest_point.h"
-#include "wall_nurbs_options.h"
+#include "wall_nurbs_setup.h"
 
 namespace LAMMPS_NS {
 
-/// What must exist before the base class is built: the checked words, the opened structure, and a stock command line
-/// from which FixWallGran builds LIGGGHTS' contact models.
-class WallNurbsSetup {
- protected:
-  WallNurbsSetup(class LAMMPS *lmp, int narg, char **arg);
-
-  liggghts_pkg::WallNurbsOptions options_;
-  coupling::OpenedStructure opened_;
-  std::vector<std::string> stock_words_;
-  std::vector<char *> stock_arg_;
-};
-
 class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
  public:
-  FixWallNurbs(class LAMMPS *, int, char **);
+  FixWallNurbs(class LAMMPS*, int, char**);
 
   int setmask();
   void post_create();
@@ -53,8 +42,8 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   void createMulticontactData();
 
   double compute_vector(int column);
-  void write_restart(FILE *file);
-  void restart(char *buffer);
+  void write_restart(FILE* file);
+  void restart(char* buffer);
 
  protected:
   void pre_neighbor();
@@ -64,39 +53,41 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
  private:
   /// Sums over this rank's particles, then over all ranks.
   struct Totals {
-    double force[3];    // on the wall
-    double torque[3];   // on the wall, about the origin
+    double force[3];   // on the wall
+    double torque[3];  // on the wall, about the origin
     double contacts;
-    double overlap;     // largest; 0 without contact
+    double overlap;  // largest; 0 without contact
   };
   static const int kTotalColumns = 8;
   static const int kStructureColumns = 9;
 
   void check_time_step();
   void check_material();
-  void check_property(const char *property, double model_value);
+  void check_property(const char* property, double model_value);
   void check_periodic_images();
   void build_candidates();
   void forget_lost_contacts();
   liggghts_pkg::ContactSlot slot(int particle);
-  nurbs::Projection project(const liggghts_pkg::Candidate &candidate);
-  bool inside_body(const nurbs::Projection &foot, const double *centre) const;
-  void apply_contact(int particle, const nurbs::Projection &foot, double gap);
-  const Totals &totals_of_all_ranks();
+  nurbs::Projection project(const liggghts_pkg::Candidate& candidate);
+  bool inside_body(const nurbs::Projection& foot, const double* centre) const;
+  void apply_contact(int particle, const nurbs::Projection& foot, double gap);
+  const Totals& totals_of_all_ranks();
   double structure_column(int column) const;
-  [[noreturn]] void fail(const std::string &message) const;
+  [[noreturn]] void fail(const std::string& message) const;
 
-  coupling::StructureSolver &structure_;
+  coupling::StructureSolver& structure_;
   coupling::SurfaceExchange exchange_;
   liggghts_pkg::CandidateList candidates_;
   bool rebuild_candidates_ = true;
-  bool late_surface_;  // for tests alone: contact sees the surface one step late, which must show as first order
+  bool search_cold_ = true;  // the next projections must look at all candidate elements
+  bool late_surface_;  // for tests alone: contact sees the surface one step late, which must show as first
+                       // order
 
-  class FixPropertyAtom *fix_memory_ = nullptr;  // one ContactSlot per particle
+  class FixPropertyAtom* fix_memory_ = nullptr;  // one ContactSlot per particle
   std::vector<bool> is_candidate_;
 
-  std::vector<coupling::ContactForce> contacts_;   // of this rank's particles, this step
-  const coupling::NodalVectors *nodal_forces_ = nullptr;
+  std::vector<coupling::ContactForce> contacts_;  // of this rank's particles, this step
+  const coupling::NodalVectors* nodal_forces_ = nullptr;
   Totals totals_, all_totals_;
   bool totals_are_summed_ = false;
 

@@ -15,7 +15,8 @@ namespace liggghts_pkg {
 
 namespace {
 
-const std::vector<std::string> kKeywords = {"type", "structure", "geometry", "surface", "material", "store_force"};
+const std::vector<std::string> kKeywords = {"type",    "structure", "geometry",
+                                            "surface", "material",  "store_force"};
 const std::vector<std::string> kModelKeywords = {"model", "tangential", "cohesion", "rolling_friction"};
 
 [[noreturn]] void fail(const std::string& message) { throw std::invalid_argument(message); }
@@ -31,7 +32,9 @@ class Reader {
 
   bool at_end() const { return next_ == words_.size(); }
   std::string keyword() { return words_[next_++]; }
-  bool value_is_switch() const { return next_ < words_.size() && (words_[next_] == "on" || words_[next_] == "off"); }
+  bool value_is_switch() const {
+    return next_ < words_.size() && (words_[next_] == "on" || words_[next_] == "off");
+  }
 
   std::string value(const std::string& keyword, const std::string& expected) {
     if (at_end()) fail(fmt::format("'{}' is the last word, expected {} after it", keyword, expected));
@@ -59,21 +62,28 @@ int parse_type(const std::string& word) {
 
 [[noreturn]] void fail_unknown(const std::string& word) {
   if (contains(kModelKeywords, word))
-    fail(fmt::format("'{}' stands too late: model, tangential, cohesion, rolling_friction and the surface model come "
-                     "first, in this order",
-                     word));
+    fail(fmt::format(
+        "'{}' stands too late: model, tangential, cohesion, rolling_friction and the surface model come "
+        "first, in this order",
+        word));
   const std::string near = nurbs::nearest_word(word, kKeywords);
-  fail(fmt::format("unknown keyword '{}'{}, expected one of {}, or a contact model's setting with on or off", word,
-                   near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near), fmt::join(kKeywords, ", ")));
+  fail(fmt::format("unknown keyword '{}'{}, expected one of {}, or a contact model's setting with on or off",
+                   word, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near),
+                   fmt::join(kKeywords, ", ")));
 }
 
 void check_complete(const WallNurbsOptions& options) {
-  if (options.atom_type == 0) fail("keyword 'type' is missing, expected 'type T', the atom type of the wall's material");
+  if (options.atom_type == 0)
+    fail("keyword 'type' is missing, expected 'type T', the atom type of the wall's material");
   if (options.file.empty())
-    fail("keyword 'structure' or 'geometry' is missing, expected 'structure FILE surface NAME' for a deforming wall or "
-         "'geometry FILE surface NAME' for a rigid one");
+    fail(
+        "keyword 'structure' or 'geometry' is missing, expected 'structure FILE surface NAME' for a "
+        "deforming wall or "
+        "'geometry FILE surface NAME' for a rigid one");
   if (options.surface.empty())
-    fail("keyword 'surface' is missing, expected 'surface NAME' after the file, a name under 'surfaces' in that file");
+    fail(
+        "keyword 'surface' is missing, expected 'surface NAME' after the file, a name under 'surfaces' in "
+        "that file");
 }
 
 }  // namespace

@@ -10,13 +10,13 @@ namespace liggghts_pkg {
 struct WallNurbsOptions {
   enum class Body { rigid, iga };
 
-  std::vector<std::string> model_words;     ///< `model ... surface ...`, for LIGGGHTS' contact model factory
-  std::vector<std::string> setting_words;   ///< on/off settings of these models, for LIGGGHTS
-  int atom_type = 0;                        ///< the wall's material, 1-based
+  std::vector<std::string> model_words;    ///< `model ... surface ...`, for LIGGGHTS' contact model factory
+  std::vector<std::string> setting_words;  ///< on/off settings of these models, for LIGGGHTS
+  int atom_type = 0;                       ///< the wall's material, 1-based
   Body body = Body::rigid;
-  std::string file;                         ///< model file (iga) or geometry file (rigid)
-  std::string surface;                      ///< name of the surface in that file
-  bool material_independent = false;        ///< the deck's E and nu may differ from the model file's
+  std::string file;                   ///< model file (iga) or geometry file (rigid)
+  std::string surface;                ///< name of the surface in that file
+  bool material_independent = false;  ///< the deck's E and nu may differ from the model file's
   bool store_force = false;
 };
 

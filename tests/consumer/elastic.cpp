@@ -9,7 +9,8 @@ units: si
 geometry: {box: {origin: [0, 0, 0], size: [1, 1, 1], elements: [2, 2, 2], degree: 2}}
 material: {law: linear_elastic, youngs_modulus: 1, poissons_ratio: 0.3, density: 1}
 surfaces: {top: zeta+}
-)", "block.yaml");
+)",
+                                                   "block.yaml");
   coupling::IgaStructure block(io::build_solver(model), nurbs::Face::zeta_plus);
   block.set_time_step(0.1);
   coupling::NodalVectors forces = coupling::NodalVectors::Constant(3, block.positions().cols(), 1.0);

@@ -20,13 +20,15 @@ coupling::IgaStructure block() {
   const auto knots = [](int n) { return nurbs::KnotVector::uniform(2, n); };
   nurbs::Volume patch = nurbs::box({-3e-3, -3e-3, -3e-3}, {6e-3, 6e-3, 3e-3}, {knots(6), knots(6), knots(3)});
   auto steel = std::make_shared<structure::LinearElastic>(210.6e9, 0.286, 7850.0);
-  coupling::IgaStructure solver(structure::ExplicitSolver({std::move(patch), steel}, {}), nurbs::Face::zeta_plus);
+  coupling::IgaStructure solver(structure::ExplicitSolver({std::move(patch), steel}, {}),
+                                nurbs::Face::zeta_plus);
   solver.set_time_step(kStep);
   return solver;
 }
 
 /// Nodal forces of a point force F at parameters xi of the surface.
-NodalVectors nodal_forces(const coupling::IgaStructure& solver, const nurbs::Parameter<2>& xi, const Vector3& F) {
+NodalVectors nodal_forces(const coupling::IgaStructure& solver, const nurbs::Parameter<2>& xi,
+                          const Vector3& F) {
   NodalVectors on_surface = NodalVectors::Zero(3, solver.surface().space.control_point_count());
   coupling::FootBasis(solver.surface().space, xi).distribute(F, on_surface);
   NodalVectors on_nodes = NodalVectors::Zero(3, solver.positions().cols());

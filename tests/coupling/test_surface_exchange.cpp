@@ -28,7 +28,8 @@ struct Ranks {
   int me, count;
 };
 
-/// Contact of particle `tag`: forces of very different size, so that the order of summation shows in the last bits.
+/// Contact of particle `tag`: forces of very different size, so that the order of summation shows in the last
+/// bits.
 ContactForce contact(long tag) {
   const double t = static_cast<double>(tag);
   return {tag,
@@ -83,8 +84,8 @@ TEST(OpenRigidSurface, MissingFileIsAnErrorOnEveryRank) {
     coupling::open_rigid_surface(MPI_COMM_WORLD, "no_such_file.yaml", "floor");
     FAIL() << "expected nurbs::InputError";
   } catch (const nurbs::InputError& problem) {
-    EXPECT_THAT(problem.what(), testing::AllOf(testing::HasSubstr("no_such_file.yaml"),
-                                               testing::HasSubstr("No such file")));
+    EXPECT_THAT(problem.what(),
+                testing::AllOf(testing::HasSubstr("no_such_file.yaml"), testing::HasSubstr("No such file")));
   }
 }
 

@@ -14,7 +14,8 @@ using coupling::NodalVectors;
 using coupling::SurfaceMap;
 using coupling::Vector3;
 
-const nurbs::Parameter<2> kFeet[] = {{0.0, 0.0}, {1.0, 1.0}, {0.2, 0.3}, {0.37, 0.81}, {0.999, 0.001}, {0.55, 0.7}};
+const nurbs::Parameter<2> kFeet[] = {{0.0, 0.0},   {1.0, 1.0},     {0.2, 0.3},
+                                     {0.37, 0.81}, {0.999, 0.001}, {0.55, 0.7}};
 
 TEST(ForceDistribution, ControlNodeForcesSumToTheForce) {
   const nurbs::Surface surface = test::wavy_surface();

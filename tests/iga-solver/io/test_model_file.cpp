@@ -177,7 +177,7 @@ TEST(ModelFile, RefusesASurfaceWhereASolidIsNeeded) {
 TEST(ModelFile, NamesAFileThatCannotBeRead) {
   for (const char* path : {"no/such/plate.yaml", "/"})
     EXPECT_THAT([&] { io::read_model_file(path); },
-                testing::ThrowsMessage<nurbs::InputError>(HasSubstr(path)));
+                testing::ThrowsMessage<nurbs::InputError>(HasSubstr(path + std::string(": cannot read"))));
 }
 
 }  // namespace

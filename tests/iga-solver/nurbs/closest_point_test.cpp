@@ -117,6 +117,17 @@ TEST(ClosestPoint, FullCylinderAcrossArcs) {
   }
 }
 
+// A foot exactly on the border of two arcs is as interior as any other.
+TEST(ClosestPoint, SmoothCreaseIsInterior) {
+  const Surface cylinder = shapes::revolve(shapes::line(2.0, 5.0), kQuarter, 4);
+  for (double rho : {1.0, 3.0})
+    for (double start : {0.7, 1.0, 1.4}) {
+      const Projection p = closest_from(cylinder, {0.0, rho, 2.5}, {start, 0.2});
+      EXPECT_NEAR(p.xi[0], 1.0, 1e-15);
+      EXPECT_EQ(p.status, Status::interior);
+    }
+}
+
 // On a flat, affinely parametrised patch the foot is the point's shadow to pure round-off of the patch size.
 TEST(ClosestPoint, FlatPatchToRoundOff) {
   shapes::Random random(2);

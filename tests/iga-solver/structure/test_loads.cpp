@@ -54,14 +54,15 @@ TEST(TractionLoad, OnACurvedFaceSumsToTractionTimesArea) {
 
 // Row sums reproduce the first moment of mass: integral of density x = sum m_A X_A.
 TEST(GravityLoad, HasTheForceAndTheMomentOfTheWeightAtTheCentreOfMass) {
-  const Solid solid(models::block({1, 2, 3}, {2, 3, 1}, 2), models::elastic(1.0, 0.3, 2.5));
-  const Vector3 g(1, 2, -9.81), weight = 2.5 * 6.0 * g, centre(0.5, 1.0, 1.5);
+  const Solid solid(models::quarter_ring(2, 4), models::elastic(1.0, 0.3, 2.5));
+  const double pi = std::acos(-1.0), x = 28.0 / (9.0 * pi);
+  const Vector3 g(1, 2, -9.81), weight = 2.5 * 0.75 * pi * g, centre(x, x, 0.5);
   const NodalVectors f = structure::gravity_load(solid, g);
   Vector3 moment = Vector3::Zero();
   for (int A = 0; A < f.cols(); ++A)
     moment += Vector3(solid.patch().control_points.col(A)).cross(Vector3(f.col(A)));
-  EXPECT_LT((f.rowwise().sum() - weight).norm(), 1e-12);
-  EXPECT_LT((moment - centre.cross(weight)).norm(), 1e-12);
+  EXPECT_LT((f.rowwise().sum() - weight).norm(), 1e-6);
+  EXPECT_LT((moment - centre.cross(weight)).norm(), 1e-6);
 }
 
 TEST(FacePoint, LiesOnTheFaceAtTheRelativeParameters) {

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "wall_nurbs_setup.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <stdexcept>
+
+#include "atom.h"
+#include "error.h"
+#include "lammps.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+using liggghts_pkg::WallNurbsOptions;
+
+namespace {
+
+// FixWallGran takes the granular path only for styles that start with wall/gran.
+const char* const kStockStyle = "wall/gran/nurbs";
+
+std::vector<std::string> stock_command_line(char** arg, const liggghts_pkg::WallNurbsOptions& options) {
+  std::vector<std::string> words = {arg[0], arg[1], kStockStyle};
+  words.insert(words.end(), options.model_words.begin(), options.model_words.end());
+  // A plane that is thrown away at once: FixWallGran insists on a mesh or a primitive.
+  for (const std::string& word :
+       {std::string("primitive"), std::string("type"), std::to_string(options.atom_type),
+        std::string("zplane"), std::string("0.")})
+    words.push_back(word);
+  if (options.store_force) words.insert(words.end(), {"store_force", "yes"});
+  words.insert(words.end(), options.setting_words.begin(), options.setting_words.end());
+  return words;
+}
+
+void check_type(int type, int types) {
+  if (type > types)
+    throw std::invalid_argument(
+        fmt::format("type is {}, expected 1 to {}, the number of types in create_box", type, types));
+}
+
+void check_units(const WallNurbsOptions& options, nurbs::Units units, const char* deck_units) {
+  if (std::strcmp(nurbs::units_name(units), deck_units) != 0)
+    throw std::invalid_argument(fmt::format("'{}' has units {}, the deck has units {}: they must be the same",
+                                            options.file, nurbs::units_name(units), deck_units));
+}
+
+}  // namespace
+
+std::string LAMMPS_NS::wall_nurbs_message(const char* id, const std::string& what) {
+  return fmt::format("Fix wall/nurbs (id {}): {}", id, what);
+}
+
+WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
+  try {
+    options_ = liggghts_pkg::parse_wall_nurbs(std::vector<std::string>(arg + 3, arg + narg));
+    check_type(options_.atom_type, lmp->atom->ntypes);
+    opened_ = options_.body == WallNurbsOptions::Body::iga
+                  ? coupling::open_iga_structure(lmp->world, options_.file, options_.surface)
+                  : coupling::open_rigid_surface(lmp->world, options_.file, options_.surface);
+    check_units(options_, opened_.units, lmp->update->unit_style);
+  } catch (const std::exception& problem) {
+    lmp->error->all(FLERR, wall_nurbs_message(arg[0], problem.what()).c_str());
+  }
+  stock_words_ = stock_command_line(arg, options_);
+  for (std::string& word : stock_words_) stock_arg_.push_back(word.data());
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What must exist before FixWallNurbs' base class is built.
+#ifndef LMP_WALL_NURBS_SETUP_H
+#define LMP_WALL_NURBS_SETUP_H
+
+#include <mpi.h>
+
+#include <string>
+#include <vector>
+
+#include "coupling/open_structure.h"
+#include "wall_nurbs_options.h"
+
+namespace LAMMPS_NS {
+
+/// "Fix wall/nurbs (id plate): ...", the head of all of the fix's messages.
+std::string wall_nurbs_message(const char* id, const std::string& what);
+
+/// The checked words, the opened structure, and a stock command line from which FixWallGran builds LIGGGHTS'
+/// contact models.  Anything wrong ends the program here, with one line.
+class WallNurbsSetup {
+ protected:
+  WallNurbsSetup(class LAMMPS* lmp, int narg, char** arg);
+
+  liggghts_pkg::WallNurbsOptions options_;
+  coupling::OpenedStructure opened_;
+  std::vector<char*> stock_arg_;  // points into stock_words_
+
+ private:
+  std::vector<std::string> stock_words_;
+};
+
+}  // namespace LAMMPS_NS
+
+#endif
