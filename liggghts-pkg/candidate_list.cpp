@@ -22,7 +22,8 @@ void CandidateList::build(const nurbs::Space<2>& space, const nurbs::NodalVector
 }
 
 double CandidateList::motion_since_build(const nurbs::NodalVectors& control_points) const {
-  return std::sqrt((control_points - control_points_at_build_).colwise().squaredNorm().maxCoeff());
+  return std::sqrt(
+      (control_points - control_points_at_build_).colwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>());
 }
 
 }  // namespace liggghts_pkg

@@ -162,8 +162,13 @@ void FixWallNurbs::initial_integrate(int) {
   structure_.begin_step();
   if (!late_surface_) exchange_.import_surface();
   // The list is good until the wall has moved half a skin; it is then rebuilt before this step's forces.
-  if (candidates_.motion_since_build(exchange_.positions()) > 0.5 * neighbor->skin)
-    rebuild_candidates_ = true;
+  const double motion = candidates_.motion_since_build(exchange_.positions());
+  if (!std::isfinite(motion))
+    fail(
+        fmt::format("the structure in '{}' has blown up: its positions are not finite at step {}; use a "
+                    "smaller timestep or look at the loads",
+                    options_.file, update->ntimestep));
+  if (motion > 0.5 * neighbor->skin) rebuild_candidates_ = true;
 }
 
 void FixWallNurbs::pre_neighbor() { rebuild_candidates_ = true; }

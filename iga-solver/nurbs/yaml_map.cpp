@@ -36,6 +36,7 @@ std::string described(Range range) {
   return "a finite number";
 }
 
+// False for infinite numbers and nan, too: an open end of a range is excluded.
 bool contains(Range range, double x) {
   return (range.low_included ? x >= range.low : x > range.low) &&
          (range.high_included ? x <= range.high : x < range.high);
@@ -230,7 +231,7 @@ YAML::Node YamlMap::list(const std::string& key, const std::string& of) const {
 
 double YamlMap::read_number(const YAML::Node& node, const std::string& name, Range range) const {
   double x = 0.0;
-  if (!node.IsScalar() || !parse_number(node.Scalar(), x) || !std::isfinite(x) || !contains(range, x))
+  if (!node.IsScalar() || !parse_number(node.Scalar(), x) || !contains(range, x))
     fail_at(node, fmt::format("{} is {}, expected {}", name, described(node), described(range)));
   return x;
 }

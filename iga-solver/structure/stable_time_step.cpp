@@ -16,10 +16,10 @@ namespace structure {
 
 namespace {
 
-/// Entries in [-1, 1], the same on every machine.
+/// Entries in [-1, 1], the same on every machine (std::uniform_real_distribution would differ between
+/// libraries).
 NodalVectors start_vector(int nodes) {
-  std::mt19937 generator(
-      1);  // std::uniform_real_distribution differs between libraries, the generator does not
+  std::mt19937 generator(1);
   NodalVectors v(3, nodes);
   for (double& value : v.reshaped()) value = 2.0 * generator() / double(std::mt19937::max()) - 1.0;
   return v;

@@ -244,6 +244,20 @@ TEST(ClosestPoint, FocalPoints) {
   }
 }
 
+// A long facet (0,0)-(10,0) and one that folds back over it.  The nearest sample of the first is their common
+// edge, from where the way down leads along the second; the foot on the first is nearer all the same.
+TEST(ClosestPoint, EveryElementIsSearchedForItself) {
+  Surface fold{Space<2>({KnotVector(1, {0, 0, 1, 2, 2}), KnotVector::uniform(1, 1)}), {}};
+  fold.control_points.resize(3, 6);
+  fold.control_points << 0, 10, 9, 0, 10, 9,  //
+      0, 0, 0, 1, 1, 1,                       //
+      0, 0, 4, 0, 0, 4;
+  const int elements[] = {1, 0};
+  const Projection p = closest_point_on_elements(fold.space, fold.control_points, {8, 0.4, 1.5}, elements, 2);
+  EXPECT_NEAR(p.distance, 1.5, 1e-15);
+  EXPECT_NEAR(p.xi[0], 0.8, 1e-15);
+}
+
 TEST(ClosestPoint, ScalingAllLengthsChangesNothing) {
   shapes::Random random(3);
   const Surface hills = shapes::random_hills(
