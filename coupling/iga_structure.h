@@ -30,7 +30,8 @@ class IgaStructure final : public StructureSolver {
 
   bool moves() const override { return true; }
   Eigen::VectorXd control_node_mass() const override { return solver_.mass().nodal_mass(); }
-  Energies energies() const override { return {solver_.kinetic_energy(), solver_.strain_energy()}; }
+  double kinetic_energy() const override { return solver_.kinetic_energy(); }
+  double strain_energy() const override { return solver_.strain_energy(); }
   Vector3 linear_momentum() const override { return solver_.linear_momentum(); }
   Vector3 angular_momentum(const Vector3& about) const override { return solver_.angular_momentum(about); }
   std::optional<SurfaceMaterial> material() const override;

@@ -23,7 +23,8 @@ class RigidSurface final : public StructureSolver {
 
   bool moves() const override { return false; }
   Eigen::VectorXd control_node_mass() const override { return {}; }
-  Energies energies() const override { return {0.0, 0.0}; }
+  double kinetic_energy() const override { return 0.0; }
+  double strain_energy() const override { return 0.0; }
   Vector3 linear_momentum() const override { return Vector3::Zero(); }
   Vector3 angular_momentum(const Vector3&) const override { return Vector3::Zero(); }
   std::optional<SurfaceMaterial> material() const override { return std::nullopt; }

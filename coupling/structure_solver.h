@@ -15,11 +15,6 @@
 
 namespace coupling {
 
-struct Energies {
-  double kinetic;  ///< [J]
-  double strain;   ///< [J]
-};
-
 /// Elastic constants of the surface's material, to be compared with the deck's.
 struct SurfaceMaterial {
   double youngs_modulus;  ///< [Pa]
@@ -54,8 +49,9 @@ class StructureSolver {
 
   virtual bool moves() const = 0;
   virtual Eigen::VectorXd control_node_mass() const = 0;  ///< [mass], one per node; empty for a rigid surface
-  virtual Energies energies() const = 0;
-  virtual Vector3 linear_momentum() const = 0;                       ///< sum m_A v_A
+  virtual double kinetic_energy() const = 0;              ///< sum m_A |v_A|^2 / 2 [energy]
+  virtual double strain_energy() const = 0;               ///< [energy]; may cost as much as a step
+  virtual Vector3 linear_momentum() const = 0;            ///< sum m_A v_A
   virtual Vector3 angular_momentum(const Vector3& about) const = 0;  ///< sum (x_A - about) x m_A v_A
   virtual std::optional<SurfaceMaterial> material() const = 0;
   virtual std::vector<Probe> probes() const = 0;

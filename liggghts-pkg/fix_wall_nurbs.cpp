@@ -15,12 +15,11 @@
 #include "domain.h"
 #include "error.h"
 #include "fix_property_atom.h"
-#include "fix_property_global.h"
-#include "force.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "primitive_wall.h"
 #include "update.h"
+#include "wall_nurbs_checks.h"
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
@@ -51,6 +50,10 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
 void FixWallNurbs::fail(const std::string& message) const {
   error->all(FLERR, wall_nurbs_message(id, message).c_str());
   std::abort();  // error->all does not return, but is not declared so
+}
+
+void FixWallNurbs::warn(const std::string& message) const {
+  if (comm->me == 0) error->warning(FLERR, wall_nurbs_message(id, message).c_str());
 }
 
 int FixWallNurbs::setmask() {
@@ -88,60 +91,29 @@ void FixWallNurbs::pre_delete(bool unfixflag) {
 /* ---------------------------------------------------------------------- */
 
 void FixWallNurbs::init() {
-  if (update->whichflag == 2) fail("minimize is not supported; use run");
-  if (std::strstr(update->integrate_style, "respa"))
-    fail("run_style respa is not supported; use run_style verlet");
-  FixWallGran::init();
-  check_material();
-  check_time_step();
-  check_periodic_images();
+  try {
+    liggghts_pkg::check_run_style(*update);
+    FixWallGran::init();
+    if (!options_.material_independent)
+      liggghts_pkg::check_wall_material(*modify, atom_type_wall_, structure_.material(), options_.file);
+  } catch (const std::exception& problem) {
+    fail(problem.what());
+  }
+  reset_dt();
+  const std::string beyond = liggghts_pkg::periodic_directions_left(*domain, exchange_.positions());
+  if (!beyond.empty())
+    warn(fmt::format("the wall reaches beyond the periodic boundary in {}: particles do not meet its image",
+                     beyond));
   not_converged_ = inside_steps_ = 0;
   inside_tag_ = 0;
 }
 
-void FixWallNurbs::reset_dt() { check_time_step(); }
-
-void FixWallNurbs::check_time_step() {
+void FixWallNurbs::reset_dt() {
   dt_ = update->dt;
   try {
     structure_.set_time_step(dt_);
   } catch (const std::exception& problem) {
     fail(problem.what());
-  }
-}
-
-void FixWallNurbs::check_material() {
-  const auto material = structure_.material();
-  if (!material || options_.material_independent) return;
-  check_property("youngsModulus", material->youngs_modulus);
-  check_property("poissonsRatio", material->poissons_ratio);
-}
-
-void FixWallNurbs::check_property(const char* property, double model_value) {
-  Fix* fix = modify->find_fix_property(property, "property/global", "peratomtype", 0, 0, style, false);
-  if (!fix) return;  // the contact model does not use it
-  const double deck_value = static_cast<FixPropertyGlobal*>(fix)->get_values()[atom_type_wall_ - 1];
-  if (std::abs(deck_value - model_value) > 1e-6 * std::abs(model_value))
-    fail(fmt::format(
-        "{} of atom type {} is {:.10g} in the deck but {:.10g} in '{}'; make them equal, or write 'material "
-        "independent' to keep both",
-        property, atom_type_wall_, deck_value, model_value, options_.file));
-}
-
-void FixWallNurbs::check_periodic_images() {
-  const auto& x = exchange_.positions();
-  const int periodic[3] = {domain->xperiodic, domain->yperiodic, domain->zperiodic};
-  for (int d = 0; d < 3; ++d) {
-    const double tolerance = 1e-9 * (domain->boxhi[d] - domain->boxlo[d]);
-    const bool sticks_out = x.row(d).minCoeff() < domain->boxlo[d] - tolerance ||
-                            x.row(d).maxCoeff() > domain->boxhi[d] + tolerance;
-    if (periodic[d] && sticks_out && comm->me == 0)
-      error->warning(
-          FLERR,
-          wall_nurbs_message(id, fmt::format("the wall reaches beyond the periodic boundary in {}: particles "
-                                             "do not meet its periodic image",
-                                             "xyz"[d]))
-              .c_str());
   }
 }
 
@@ -188,8 +160,8 @@ void FixWallNurbs::post_force(int vflag) {
 void FixWallNurbs::final_integrate() { structure_.end_step(*nodal_forces_); }
 
 /* ----------------------------------------------------------------------
-   global search: a particle may come closer by half a skin on either side of where it was when LIGGGHTS built
-its lists, and the wall by half a skin more
+   global search: since LIGGGHTS built its lists a particle may be half a skin to either side, and the wall
+   may move half a skin more
 ------------------------------------------------------------------------- */
 
 void FixWallNurbs::build_candidates() {
@@ -303,18 +275,12 @@ void FixWallNurbs::post_run() {
   long counts[3] = {not_converged_, inside_steps_, inside_tag_}, sum[3], largest[3];
   MPI_Allreduce(counts, sum, 3, MPI_LONG, MPI_SUM, world);
   MPI_Allreduce(counts, largest, 3, MPI_LONG, MPI_MAX, world);
-  if (comm->me != 0) return;
-  if (sum[0] > 0)
-    error->warning(
-        FLERR,
-        wall_nurbs_message(id, fmt::format("{} closest-point projections did not converge", sum[0])).c_str());
+  if (sum[0] > 0) warn(fmt::format("{} closest-point projections did not converge", sum[0]));
   if (sum[1] > 0)
-    error->warning(FLERR,
-                   wall_nurbs_message(
-                       id, fmt::format("the centre of particle {} got inside the solid ({} contacts of this "
-                                       "kind in this run): use a smaller timestep or a stiffer contact",
-                                       largest[2], sum[1]))
-                       .c_str());
+    warn(fmt::format(
+        "the centre of particle {} got inside the solid ({} contacts of this kind in this run): use a "
+        "smaller timestep or a stiffer contact",
+        largest[2], sum[1]));
 }
 
 /* ----------------------------------------------------------------------
@@ -339,8 +305,8 @@ double FixWallNurbs::compute_vector(int column) {
 double FixWallNurbs::structure_column(int column) const {
   if (column < 3) return structure_.linear_momentum()[column];
   if (column < 6) return structure_.angular_momentum(Vector3::Zero())[column - 3];
-  if (column == 6) return structure_.energies().kinetic;
-  if (column == 7) return structure_.energies().strain;
+  if (column == 6) return structure_.kinetic_energy();
+  if (column == 7) return structure_.strain_energy();
   if (column == 8) return structure_.stable_time_step();
   const int probe = (column - kStructureColumns) / 3, direction = (column - kStructureColumns) % 3;
   return structure_.probes()[probe].displacement[direction];

@@ -61,10 +61,6 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   static const int kTotalColumns = 8;
   static const int kStructureColumns = 9;
 
-  void check_time_step();
-  void check_material();
-  void check_property(const char* property, double model_value);
-  void check_periodic_images();
   void build_candidates();
   void forget_lost_contacts();
   liggghts_pkg::ContactSlot slot(int particle);
@@ -74,6 +70,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   const Totals& totals_of_all_ranks();
   double structure_column(int column) const;
   [[noreturn]] void fail(const std::string& message) const;
+  void warn(const std::string& message) const;
 
   coupling::StructureSolver& structure_;
   coupling::SurfaceExchange exchange_;

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The layers of the tree hold: liggghts-pkg -> coupling -> iga-solver/structure -> iga-solver/nurbs, never backwards;
-no LIGGGHTS header outside liggghts-pkg; no mpi.h in the geometry kernel; an SPDX line in every source file."""
+no LIGGGHTS header outside liggghts-pkg; no mpi.h in the geometry kernel; an SPDX line in every source file; .clang-format
+kept."""
 
 import re
+import subprocess
 import unittest
 from pathlib import Path
 
@@ -60,6 +62,14 @@ class Layers(unittest.TestCase):
             if named:
                 head = "\n".join(path.read_text().splitlines()[:4])
                 self.assertIn("SPDX-License-Identifier: GPL-2.0-or-later", head, str(path.relative_to(ROOT)))
+
+
+    def test_sources_are_formatted(self):
+        files = [str(p) for folder in (*FORBIDDEN, "liggghts-pkg", "tests") for p in sources(folder)]
+        done = subprocess.run(
+            ["clang-format", "--dry-run", "-Werror", *files], capture_output=True, text=True, check=False
+        )
+        self.assertEqual(done.returncode, 0, done.stderr[-2000:])
 
 
 if __name__ == "__main__":

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What fix wall/nurbs asks of the deck before each run.  The checks throw std::invalid_argument: what was
+// given, what was expected.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "coupling/structure_solver.h"
+
+namespace LAMMPS_NS {
+class Domain;
+class Modify;
+class Update;
+}  // namespace LAMMPS_NS
+
+namespace liggghts_pkg {
+
+/// Velocity Verlet only: minimisation and respa do not call the fix as its time step needs.
+void check_run_style(const LAMMPS_NS::Update& update);
+
+/// The deck's Young's modulus and Poisson's ratio of the wall's type are those of the solid, within 1e-6,
+/// where the deck defines them and there is a solid.
+void check_wall_material(LAMMPS_NS::Modify& modify, int wall_type,
+                         const std::optional<coupling::SurfaceMaterial>& material, const std::string& file);
+
+/// Periodic directions in which control points (3 x n) lie outside the box, as "x", "x, z", ...; else "".
+std::string periodic_directions_left(const LAMMPS_NS::Domain& domain,
+                                     const coupling::NodalVectors& control_points);
+
+}  // namespace liggghts_pkg
