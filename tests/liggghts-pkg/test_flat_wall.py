@@ -36,6 +36,11 @@ fix m3 all property/global coefficientRestitution peratomtypepair 2 {e} {e} {e} 
 fix m4 all property/global coefficientFriction peratomtypepair 2 {mu} {mu} {mu} {mu}
 fix m5 all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1
 fix m6 all property/global cohesionEnergyDensity peratomtypepair 2 1e6 1e6 1e6 1e6
+fix m7 all property/global characteristicVelocity scalar 1.0
+fix m8 all property/global kn2kcMax peratomtypepair 2 1.5 1.5 1.5 1.5
+fix m9 all property/global kn2k1 peratomtypepair 2 1.5 1.5 1.5 1.5
+fix m10 all property/global phiF peratomtypepair 2 0.05 0.05 0.05 0.05
+fix m11 all property/global f_adh peratomtypepair 2 0.1 0.1 0.1 0.1
 pair_style gran {models}
 pair_coeff * *
 timestep 1e-8
@@ -75,6 +80,8 @@ MODELS = {
     "hertz": ("model hertz tangential no_history", 1.0, 0.0),
     "history": ("model hertz tangential history", 0.7, 0.3),
     "epsd2": ("model hertz tangential history rolling_friction epsd2", 0.7, 0.3),
+    "hooke": ("model hooke tangential history rolling_friction epsd2", 0.7, 0.3),
+    "hysteresis": ("model hooke/hysteresis tangential history", 0.7, 0.3),
     "cohesion": ("model hertz tangential history cohesion sjkr rolling_friction cdt", 0.7, 0.3),
 }
 
@@ -150,7 +157,7 @@ class FlatWall(unittest.TestCase):
     def test_bounce_equals_stock_plane(self):
         for name, (models, e, mu) in MODELS.items():
             stock = self.bounce(decks.STOCK, models, e, mu, 1)
-            self.assertGreater(stock["fz"].max(), 5.0)
+            self.assertGreater(stock["fz"].max(), 1.0, "the ball touches")
             for ranks in (1, 2):
                 ours = self.bounce(decks.NURBS, models, e, mu, ranks)
                 for column, reference in stock.items():
