@@ -37,10 +37,9 @@ fix m4 all property/global coefficientFriction peratomtypepair 2 {mu} {mu} {mu} 
 fix m5 all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1
 fix m6 all property/global cohesionEnergyDensity peratomtypepair 2 1e6 1e6 1e6 1e6
 fix m7 all property/global characteristicVelocity scalar 1.0
-fix m8 all property/global kn2kcMax peratomtypepair 2 1.5 1.5 1.5 1.5
-fix m9 all property/global kn2k1 peratomtypepair 2 1.5 1.5 1.5 1.5
-fix m10 all property/global phiF peratomtypepair 2 0.05 0.05 0.05 0.05
-fix m11 all property/global f_adh peratomtypepair 2 0.1 0.1 0.1 0.1
+fix m8 all property/global coefficientMaxElasticStiffness peratomtypepair 2 1.5 1.5 1.5 1.5
+fix m9 all property/global coefficientAdhesionStiffness peratomtypepair 2 0.1 0.1 0.1 0.1
+fix m10 all property/global coefficientPlasticityDepth peratomtypepair 2 0.05 0.05 0.05 0.05
 pair_style gran {models}
 pair_coeff * *
 timestep 1e-8
