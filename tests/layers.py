@@ -55,7 +55,7 @@ class Layers(unittest.TestCase):
                     self.assertNotRegex(name, r"^(structure|io)/", f"{path.relative_to(ROOT)} includes {name}")
 
     def test_every_file_names_its_licence(self):
-        suffixes = (".h", ".cpp", ".py", ".cmake", ".in", ".sh", ".yaml", ".map")
+        suffixes = (".h", ".cpp", ".py", ".cmake", ".in", ".yaml", ".map", ".md", ".svg")
         folders = ("iga-solver", "coupling", "liggghts-pkg", "inputs", "tests", ".ci")
         for path in (p for folder in folders for p in (ROOT / folder).rglob("*") if p.is_file()):
             named = path.suffix in suffixes or path.name in ("CMakeLists.txt", "run", "setup") or path.name.startswith("in.")
