@@ -210,10 +210,13 @@ bool FootSearch::cross_crease() {
 bool FootSearch::leave_saddle() {
   constexpr double kClearlyNegative = -1e-6;
   Matrix2 C = Matrix2::Identity();  // curvature of phi per unit length, left at 1 where there is no room
+  const auto free = [&](int i) {    // a slope of round-off holds nothing
+    return at_.speed[i] > 0.0 &&
+           (!held(at_, i) || std::abs(at_.gradient[i]) <= 64.0 * kRoundOff * at_.scale * at_.speed[i]);
+  };
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j)
-      if (!held(at_, i) && !held(at_, j) && at_.speed[i] * at_.speed[j] > 0.0)
-        C(i, j) = at_.hessian(i, j) / (at_.speed[i] * at_.speed[j]);
+      if (free(i) && free(j)) C(i, j) = at_.hessian(i, j) / (at_.speed[i] * at_.speed[j]);
   const double bound = std::min(C(0, 0), C(1, 1)) - std::abs(C(0, 1));  // of the eigenvalues (Gershgorin)
   if (bound > kClearlyNegative) return false;
   Eigen::SelfAdjointEigenSolver<Matrix2> eigen;

@@ -6,143 +6,33 @@
 
 #include <algorithm>
 
-#include "nurbs/primitives.h"
+#include "nurbs/shape_reader.h"
 
 namespace nurbs {
 namespace {
 
 constexpr const char* kUnitsNames[] = {"si", "cgs", "mm-g-ms"};
 constexpr const char* kWholeSurface = "all";  // a surface patch has no faces to choose from
-constexpr int kMaxElements = 1000000;         // per direction; guards against a slip of the finger
 
-// Runs `build`; what it finds wrong with its arguments is an error of the file at `key`.
-template <class Build>
-auto blame(const YamlMap& map, const std::string& key, const std::string& prefix, Build build) {
-  try {
-    return build();
-  } catch (const std::invalid_argument& error) {
-    map.fail(key, prefix + error.what());
-  }
-}
-
-void expect_count(const YamlMap& map, const std::string& key, size_t given, size_t expected) {
-  if (given != expected) map.fail(key, fmt::format("{} is a list of {}, expected {}", key, given, expected));
-}
-
-// `degree`: one number for all directions or one for each.
-std::vector<int> read_degrees(const YamlMap& map, int dim) {
-  if (!map.is_list("degree")) return std::vector<int>(dim, map.integer("degree", 1, kMaxDegree));
-  const std::vector<int> degrees = map.integers("degree", 1, kMaxDegree);
-  expect_count(map, "degree", degrees.size(), dim);
-  return degrees;
-}
-
-KnotVector knots_from_breaks(const YamlMap& map, int degree, const std::vector<double>& breaks,
-                             int direction) {
-  const std::string prefix = fmt::format("breaks of direction {}: ", direction + 1);
-  if (breaks.empty() || breaks.front() != 0.0 || breaks.back() != 1.0)
-    map.fail("breaks", prefix + fmt::format("[{}], expected a list from 0 to 1", fmt::join(breaks, ", ")));
-  return blame(map, "breaks", prefix, [&] { return KnotVector::from_breaks(degree, breaks); });
-}
-
-// `degree` with `elements` (equal ones) or `breaks` (graded).
-std::vector<KnotVector> read_mesh(const YamlMap& map, int dim) {
-  const std::vector<int> degrees = read_degrees(map, dim);
-  std::vector<KnotVector> knots;
-  if (map.has("elements") == map.has("breaks"))
-    map.fail("elements", "'elements' and 'breaks' are both given or both missing, expected one of them");
-  if (map.has("elements")) {
-    const std::vector<int> elements = map.integers("elements", 1, kMaxElements);
-    expect_count(map, "elements", elements.size(), dim);
-    for (int d = 0; d < dim; ++d) knots.push_back(KnotVector::uniform(degrees[d], elements[d]));
-  } else {
-    const std::vector<std::vector<double>> breaks = map.table("breaks");
-    expect_count(map, "breaks", breaks.size(), dim);
-    for (int d = 0; d < dim; ++d) knots.push_back(knots_from_breaks(map, degrees[d], breaks[d], d));
-  }
-  return knots;
-}
-
-Volume read_box(const YamlMap& map) {
-  map.allow_only({"origin", "size", "elements", "breaks", "degree"});
-  const std::vector<KnotVector> knots = read_mesh(map, 3);
-  const Vector3 origin = map.vector3("origin"), size = map.vector3("size");
-  return blame(map, "size", "", [&] { return box(origin, size, {knots[0], knots[1], knots[2]}); });
-}
-
-Surface read_plane(const YamlMap& map) {
-  map.allow_only({"origin", "edges", "elements", "breaks", "degree"});
-  const std::vector<KnotVector> knots = read_mesh(map, 2);
-  const Vector3 origin = map.vector3("origin");
-  const std::vector<std::vector<double>> edges = map.table("edges");
-  expect_count(map, "edges", edges.size(), 2);
-  for (const std::vector<double>& edge : edges)
-    if (edge.size() != 3) map.fail("edges", fmt::format("edge of {} numbers, expected 3", edge.size()));
-  return blame(map, "edges", "", [&] {
-    return plane(origin, Vector3(edges[0].data()), Vector3(edges[1].data()), {knots[0], knots[1]});
-  });
-}
-
-NodalVectors read_control_points(const YamlMap& map, int expected) {
-  const std::vector<std::vector<double>> rows = map.table("control_points");
-  if (static_cast<int>(rows.size()) != expected)
-    map.fail("control_points", fmt::format("{} control points given, expected {}", rows.size(), expected));
-  NodalVectors control_points(3, expected);
-  for (int a = 0; a < expected; ++a) {
-    if (rows[a].size() != 3)
-      map.fail("control_points",
-               fmt::format("control point {} has {} coordinates, expected 3", a + 1, rows[a].size()));
-    control_points.col(a) = Vector3(rows[a].data());
-  }
-  return control_points;
-}
-
-template <int Dim, size_t... Direction>
-Patch<Dim> read_patch(const YamlMap& map, std::index_sequence<Direction...>) {
-  const std::vector<int> degrees = map.integers("degrees", 1, kMaxDegree);
-  const std::vector<std::vector<double>> knots = map.table("knots");
-  expect_count(map, "knots", knots.size(), Dim);
-  const auto knot_vector = [&](size_t d) {
-    const std::string prefix = fmt::format("knots of direction {}: ", d + 1);
-    return blame(map, "knots", prefix, [&] { return KnotVector(degrees[d], knots[d]); });
-  };
-  const std::array<KnotVector, Dim> directions{knot_vector(Direction)...};
-  const std::vector<double> weights = map.has("weights") ? map.numbers("weights") : std::vector<double>{};
-  Space<Dim> space = blame(map, "weights", "", [&] { return Space<Dim>(directions, weights); });
-  NodalVectors control_points = read_control_points(map, space.control_point_count());
-  return {std::move(space), std::move(control_points)};
-}
-
-std::variant<Surface, Volume> read_patches(const YamlMap& geometry) {
-  const std::vector<YamlMap> patches = geometry.list_of_maps("patches");
-  if (patches.size() != 1)
-    geometry.fail("patches", fmt::format("1 patch supported, {} given", patches.size()));
-  const YamlMap& patch = patches.front();
-  patch.allow_only({"degrees", "knots", "control_points", "weights"});
-  const size_t dim = patch.integers("degrees", 1, kMaxDegree).size();
-  if (dim == 2) return read_patch<2>(patch, std::make_index_sequence<2>());
-  if (dim == 3) return read_patch<3>(patch, std::make_index_sequence<3>());
-  patch.fail("degrees", fmt::format("degrees is a list of {}, expected 2 (a surface) or 3 (a volume)", dim));
-}
-
-std::variant<Surface, Volume> read_shape(const YamlMap& geometry) {
-  geometry.allow_only({"box", "plane", "patches"});
-  const size_t given = geometry.keys().size();
-  if (given != 1)
-    geometry.fail("geometry",
-                  fmt::format("{} geometries given, expected one of: box, plane, patches", given));
-  if (geometry.has("box")) return read_box(geometry.map("box"));
-  if (geometry.has("plane")) return read_plane(geometry.map("plane"));
-  return read_patches(geometry);
-}
-
-std::optional<Face> read_face(const YamlMap& surfaces, const std::string& name, bool volume) {
+Face read_volume_face(const YamlMap& surfaces, const std::string& name) {
   const std::string word = surfaces.word(name);
-  if (volume)
-    return blame(surfaces, name, fmt::format("surfaces.{}: ", name), [&] { return face_from_name(word); });
+  try {
+    return face_from_name(word);
+  } catch (const std::invalid_argument& error) {
+    surfaces.fail(name, fmt::format("surfaces.{}: {}", name, error.what()));
+  }
+}
+
+void expect_whole_surface(const YamlMap& surfaces, const std::string& name) {
+  const std::string word = surfaces.word(name);
   if (word != kWholeSurface)
     surfaces.fail(name, fmt::format("surfaces.{}: unknown face '{}' of a surface patch, expected {}", name,
                                     word, kWholeSurface));
+}
+
+std::optional<Face> read_face(const YamlMap& surfaces, const std::string& name, bool volume) {
+  if (volume) return read_volume_face(surfaces, name);
+  expect_whole_surface(surfaces, name);
   return std::nullopt;
 }
 

@@ -5,20 +5,33 @@
 //   geometry:                                   # one of:
 //     box: {origin: [x,y,z], size: [x,y,z], elements: [31,31,8], degree: 2}
 //     plane: {origin: [x,y,z], edges: [[x,y,z],[x,y,z]], elements: [10,10], degree: 2}
+//     cylinder: {origin: [x,y,z], axis: [x,y,z], radius: r, length: l, angle: [0,360], elements: [8,4]}
+//     cone: {origin, axis, radii: [r,r], length, angle, elements}         # a frustum; one radius may be 0
+//     sphere: {centre, axis, radius, longitude: [0,360], latitude: [-90,90], elements}
+//     torus: {centre, axis, radius, tube_radius, angle: [0,360], tube_angle: [0,360], elements}
+//     tube: {origin, axis, inner_radius, outer_radius, length, angle, elements: [8,4,2]}        # a solid
 //     patches: [{degrees: [2,2], knots: [[..],[..]], control_points: [[x,y,z],..], weights: [..]}]
 //   surfaces: {top: zeta+}                      # a volume's face; `all` for a surface patch
 //
-// `degree` is one number or one per direction; `breaks: [[0, .5, 1], ..]` (relative, from 0 to 1) may stand
-// in place of `elements` for graded meshes.
+// `degree` is one number or one per direction.  In a box or plane `breaks: [[0, .5, 1], ..]` (relative, from
+// 0 to 1) may stand in place of `elements` for graded meshes.
+//
+// Round shapes are exact.  Their first direction is the azimuth; the second is the length, the latitude or
+// the angle round the tube (0 outside, 90 on top); a tube's third runs from the inner to the outer radius.
+// Angles are in degrees, [from, to] with from < to <= from + 360, counted from the direction `reference`
+// round `axis` by the right hand; the reference may be left out (x for an axis along z, and so on in cyclic
+// order), so may the angles (the whole turn), a sphere's axis (z) and the degree (2).  An angle is cut into
+// arcs of at most 90 degrees, and `elements` of that direction is a multiple of their number.  In one whole
+// turn the first and the last edge touch, but are not joined: a whole `tube` is slit.
 #pragma once
 
 #include <map>
 #include <optional>
 #include <string>
-#include <variant>
 
 #include "nurbs/boundary.h"
 #include "nurbs/patch.h"
+#include "nurbs/shape_reader.h"
 #include "nurbs/yaml_map.h"
 
 namespace nurbs {
@@ -30,7 +43,7 @@ const char* units_name(Units units);
 /// itself.
 struct GeometryFile {
   Units units;
-  std::variant<Surface, Volume> patch;
+  Shape patch;
   std::map<std::string, std::optional<Face>> surfaces;
 };
 

@@ -4,10 +4,25 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <tuple>
+
+#include "nurbs/refinement.h"
 
 namespace nurbs {
 namespace {
+
+constexpr double kLeastSine = 1e-9;        // between two directions; below it round-off decides the normal
+constexpr double kDegreeRoundOff = 1e-12;  // of a difference of two angles [degree]
+
+std::string shown(const Vector3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
+
+void expect_positive(const char* name, double length) {
+  if (!(length > 0.0) || !std::isfinite(length))
+    throw std::invalid_argument(fmt::format("{} is {}, expected a number > 0", name, length));
+}
 
 // Greville abscissae mapped to [0, 1]: control points placed there make the patch affine (linear precision).
 std::vector<double> relative_greville(const KnotVector& knots) {
@@ -16,12 +31,60 @@ std::vector<double> relative_greville(const KnotVector& knots) {
   return t;
 }
 
+Curve segment(const Vector3& from, const Vector3& to, const KnotVector& knots) {
+  Curve line{Space<1>({knots}), NodalVectors(3, knots.control_point_count())};
+  int a = 0;
+  for (double t : relative_greville(knots)) line.control_points.col(a++) = (1.0 - t) * from + t * to;
+  return line;
+}
+
+// (cos, sin, 0), exact at multiples of 90 degrees: circles close and poles are one point.
+Vector3 on_unit_circle(double degrees) {
+  const double quarters = std::round(degrees / 90.0);
+  const double rest = (degrees - 90.0 * quarters) * (M_PI / 180.0);
+  const double c = std::cos(rest), s = std::sin(rest);
+  switch (static_cast<int>(std::fmod(quarters, 4.0) + 4.0) % 4) {
+    case 0:
+      return {c, s, 0.0};
+    case 1:
+      return {-s, c, 0.0};
+    case 2:
+      return {-c, -s, 0.0};
+    default:
+      return {s, -c, 0.0};
+  }
+}
+
+// `arcs` quadratic rational Bezier arcs: joints on the circle, and between them the corners of its tangents.
+Curve quadratic_arcs(double from, double to, int arcs) {
+  const int last = 2 * arcs;  // control point
+  const double w = on_unit_circle((to - from) / last).x();
+  std::vector<double> knots{0.0}, weights;
+  NodalVectors control_points(3, last + 1);
+  for (int i = 0; i <= last; ++i) {
+    const bool corner = i % 2 == 1;
+    weights.push_back(corner ? w : 1.0);
+    control_points.col(i) = on_unit_circle((from * (last - i) + to * i) / last) / weights.back();
+    if (!corner) knots.insert(knots.end(), 2, static_cast<double>(i) / last);
+  }
+  knots.push_back(1.0);
+  return {Space<1>({KnotVector(2, std::move(knots))}, std::move(weights)), std::move(control_points)};
+}
+
+// The circle of `angle` in the meridian plane about (centre, 0, 0).
+Curve meridian_circle(double centre, double radius, const Curve& angle) {
+  Curve circle = angle;
+  circle.control_points.row(0) = centre + radius * angle.control_points.row(0).array();
+  circle.control_points.row(1).setZero();
+  circle.control_points.row(2) = radius * angle.control_points.row(1);
+  return circle;
+}
+
 }  // namespace
 
 Volume box(const Vector3& origin, const Vector3& size, const std::array<KnotVector, 3>& knots) {
   if (!(size.minCoeff() > 0.0))
-    throw std::invalid_argument(
-        fmt::format("size is [{}, {}, {}], expected 3 numbers > 0", size.x(), size.y(), size.z()));
+    throw std::invalid_argument(fmt::format("size is {}, expected 3 numbers > 0", shown(size)));
   Volume volume{Space<3>(knots), {}};
   volume.control_points.resize(3, volume.space.control_point_count());
   const std::vector<double> x = relative_greville(knots[0]), y = relative_greville(knots[1]),
@@ -35,13 +98,10 @@ Volume box(const Vector3& origin, const Vector3& size, const std::array<KnotVect
 
 Surface plane(const Vector3& origin, const Vector3& edge_u, const Vector3& edge_v,
               const std::array<KnotVector, 2>& knots) {
-  constexpr double kLeastSine =
-      1e-9;  // of the angle between the edges; below it round-off decides the normal
   if (!(edge_u.cross(edge_v).norm() > kLeastSine * edge_u.norm() * edge_v.norm()))
     throw std::invalid_argument(
-        fmt::format("edges [{}, {}, {}] and [{}, {}, {}] are zero or parallel, "
-                    "expected two different directions",
-                    edge_u.x(), edge_u.y(), edge_u.z(), edge_v.x(), edge_v.y(), edge_v.z()));
+        fmt::format("edges {} and {} are zero or parallel, expected two different directions", shown(edge_u),
+                    shown(edge_v)));
   Surface surface{Space<2>(knots), {}};
   surface.control_points.resize(3, surface.space.control_point_count());
   const std::vector<double> u = relative_greville(knots[0]), v = relative_greville(knots[1]);
@@ -49,6 +109,122 @@ Surface plane(const Vector3& origin, const Vector3& edge_u, const Vector3& edge_
   for (double tv : v)
     for (double tu : u) surface.control_points.col(a++) = origin + tu * edge_u + tv * edge_v;
   return surface;
+}
+
+Frame frame(const Vector3& origin, const Vector3& axis, const Vector3& reference) {
+  if (!(axis.stableNorm() > 0.0))
+    throw std::invalid_argument(fmt::format("axis is {}, expected a direction", shown(axis)));
+  const Vector3 z = axis.stableNormalized();
+  const Vector3 towards = reference.stableNormalized();
+  const Vector3 y = z.cross(towards);
+  if (!(y.norm() > kLeastSine))
+    throw std::invalid_argument(fmt::format("reference is {}, expected a direction other than the axis {}",
+                                            shown(reference), shown(axis)));
+  Frame result{origin, {}};
+  result.axes.col(2) = z;
+  result.axes.col(1) = y.normalized();
+  result.axes.col(0) = result.axes.col(1).cross(z).normalized();
+  return result;
+}
+
+Frame frame(const Vector3& origin, const Vector3& axis) {
+  Eigen::Index largest;
+  axis.cwiseAbs().maxCoeff(&largest);
+  return frame(origin, axis, Vector3::Unit((largest + 1) % 3));
+}
+
+Curve arc(double from, double to) {
+  const double sweep = to - from;
+  if (!(sweep > 0.0) || !(sweep <= 360.0 + kDegreeRoundOff))
+    throw std::invalid_argument(fmt::format(
+        "angles are [{}, {}], expected [from, to] in degrees with from < to <= from + 360", from, to));
+  const double quarters = std::ceil((sweep - kDegreeRoundOff) / 90.0);
+  Curve circle = quadratic_arcs(from, to, std::max(1, static_cast<int>(quarters)));
+  const bool whole = sweep >= 360.0 - kDegreeRoundOff;
+  if (whole) circle.control_points.rightCols<1>() = circle.control_points.leftCols<1>();
+  return circle;
+}
+
+Curve refined(const Curve& curve, int elements, int degree) {
+  const int own_degree = curve.space.degree(0), own_elements = curve.space.element_count();
+  if (degree < own_degree || degree > kMaxDegree)
+    throw std::invalid_argument(
+        fmt::format("degree is {}, expected {} to {}", degree, own_degree, kMaxDegree));
+  if (elements < 1 || elements % own_elements != 0)
+    throw std::invalid_argument(fmt::format("{} elements on a curve of {} pieces, expected a multiple of {}",
+                                            elements, own_elements, own_elements));
+  const std::vector<double>& breaks = curve.space.knots(0).breaks();
+  const int parts = elements / own_elements;
+  std::vector<double> inner;
+  for (int piece = 0; piece < own_elements; ++piece)
+    for (int part = 1; part < parts; ++part)
+      inner.push_back(breaks[piece] + (breaks[piece + 1] - breaks[piece]) * part / parts);
+  return insert_knots(elevate_degree(curve, 0, degree - own_degree), 0, inner);
+}
+
+template <int Dim>
+Patch<Dim + 1> revolve(const Patch<Dim>& meridian, const Curve& azimuth, const Frame& frame) {
+  const auto knots = std::apply(
+      [&](const auto&... own) {
+        return std::array<KnotVector, Dim + 1>{azimuth.space.knots(0), own...};
+      },
+      meridian.space.knots());
+  const int n = azimuth.space.control_point_count(), m = meridian.space.control_point_count();
+  NodalVectors control_points(3, n * m);
+  std::vector<double> weights(n * m);
+  for (int j = 0; j < m; ++j)
+    for (int i = 0; i < n; ++i) {
+      const Vector3 circle = azimuth.control_points.col(i), profile = meridian.control_points.col(j);
+      const Vector3 local(profile.x() * circle.x(), profile.x() * circle.y(), profile.z());
+      control_points.col(i + n * j) = frame.origin + frame.axes * local;
+      weights[i + n * j] = azimuth.space.weight(i) * meridian.space.weight(j);
+    }
+  return {Space<Dim + 1>(knots, std::move(weights)), std::move(control_points)};
+}
+template Surface revolve(const Curve&, const Curve&, const Frame&);
+template Volume revolve(const Surface&, const Curve&, const Frame&);
+
+Surface cone(const Frame& frame, const std::array<double, 2>& radii, double length, const Curve& azimuth,
+             const KnotVector& along) {
+  expect_positive("length", length);
+  if (!(std::min(radii[0], radii[1]) >= 0.0) || !(std::max(radii[0], radii[1]) > 0.0))
+    throw std::invalid_argument(
+        fmt::format("radii are [{}, {}], expected numbers >= 0, not both 0", radii[0], radii[1]));
+  return revolve(segment({radii[0], 0, 0}, {radii[1], 0, length}, along), azimuth, frame);
+}
+
+Surface cylinder(const Frame& frame, double radius, double length, const Curve& azimuth,
+                 const KnotVector& along) {
+  expect_positive("radius", radius);
+  return cone(frame, {radius, radius}, length, azimuth, along);
+}
+
+Surface sphere(const Frame& frame, double radius, const Curve& longitude, const Curve& latitude) {
+  expect_positive("radius", radius);
+  if (latitude.control_points.row(0).minCoeff() < 0.0)
+    throw std::invalid_argument("latitude goes over a pole, expected angles from -90 to 90");
+  return revolve(meridian_circle(0.0, radius, latitude), longitude, frame);
+}
+
+Surface torus(const Frame& frame, double radius, double tube_radius, const Curve& azimuth,
+              const Curve& tube_angle) {
+  expect_positive("tube_radius", tube_radius);
+  if (!(radius > tube_radius) || !std::isfinite(radius))
+    throw std::invalid_argument(
+        fmt::format("radius is {}, expected more than tube_radius {}", radius, tube_radius));
+  return revolve(meridian_circle(radius, tube_radius, tube_angle), azimuth, frame);
+}
+
+Volume tube(const Frame& frame, double inner_radius, double outer_radius, double length, const Curve& azimuth,
+            const std::array<KnotVector, 2>& along_and_through) {
+  expect_positive("inner_radius", inner_radius);
+  expect_positive("length", length);
+  if (!(outer_radius > inner_radius) || !std::isfinite(outer_radius))
+    throw std::invalid_argument(
+        fmt::format("outer_radius is {}, expected more than inner_radius {}", outer_radius, inner_radius));
+  const Surface section =
+      plane({inner_radius, 0, 0}, {0, 0, length}, {outer_radius - inner_radius, 0, 0}, along_and_through);
+  return revolve(section, azimuth, frame);
 }
 
 }  // namespace nurbs

@@ -96,16 +96,24 @@ KnotVector elevated(const KnotVector& knots) {
 }  // namespace
 
 template <int Dim>
-Patch<Dim> insert_knot(const Patch<Dim>& patch, int direction, double xi, int times) {
-  check_arguments(patch, direction, times);
+Patch<Dim> insert_knots(const Patch<Dim>& patch, int direction, const std::vector<double>& added) {
+  check_arguments(patch, direction, 0);
   const KnotVector& coarse = patch.space.knots(direction);
-  if (!(coarse.front() < xi && xi < coarse.back()))
-    throw std::invalid_argument(
-        fmt::format("knot {} is outside, expected one between {} and {}", xi, coarse.front(), coarse.back()));
+  for (double xi : added)
+    if (!(coarse.front() < xi && xi < coarse.back()))
+      throw std::invalid_argument(fmt::format("knot {} is outside, expected one between {} and {}", xi,
+                                              coarse.front(), coarse.back()));
   std::vector<double> knots = coarse.knots();
-  knots.insert(std::upper_bound(knots.begin(), knots.end(), xi), times, xi);
+  knots.insert(knots.end(), added.begin(), added.end());
+  std::sort(knots.begin(), knots.end());
   const KnotVector fine(coarse.degree(), std::move(knots));
   return transform(patch, direction, fine, insertion_rows(coarse, fine));
+}
+
+template <int Dim>
+Patch<Dim> insert_knot(const Patch<Dim>& patch, int direction, double xi, int times) {
+  check_arguments(patch, direction, times);
+  return insert_knots(patch, direction, std::vector<double>(times, xi));
 }
 
 template <int Dim>
@@ -119,8 +127,9 @@ Patch<Dim> elevate_degree(const Patch<Dim>& patch, int direction, int times) {
   return result;
 }
 
-#define INSTANTIATE(Dim)                                                \
-  template Patch<Dim> insert_knot(const Patch<Dim>&, int, double, int); \
+#define INSTANTIATE(Dim)                                                                \
+  template Patch<Dim> insert_knots(const Patch<Dim>&, int, const std::vector<double>&); \
+  template Patch<Dim> insert_knot(const Patch<Dim>&, int, double, int);                 \
   template Patch<Dim> elevate_degree(const Patch<Dim>&, int, int);
 INSTANTIATE(1)
 INSTANTIATE(2)

@@ -5,12 +5,18 @@
 // operations are those of Piegl & Tiller (1997), sections 5.2-5.5.
 #pragma once
 
+#include <vector>
+
 #include "nurbs/patch.h"
 
 namespace nurbs {
 
-/// Inserts `xi` `times` times in one direction.  Throws std::invalid_argument if xi lies outside the open
-/// domain or its multiplicity would exceed the degree.
+/// Inserts knots in one direction, in any order, repeated ones too, all at once.  Throws
+/// std::invalid_argument if one lies outside the open domain or its multiplicity would exceed the degree.
+template <int Dim>
+Patch<Dim> insert_knots(const Patch<Dim>& patch, int direction, const std::vector<double>& added);
+
+/// Inserts `xi` `times` times in one direction; throws as insert_knots.
 template <int Dim>
 Patch<Dim> insert_knot(const Patch<Dim>& patch, int direction, double xi, int times = 1);
 

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace nurbs {
 namespace {
 
@@ -86,6 +88,79 @@ TEST(GeometryFile, VolumePatch) {
   EXPECT_EQ(named_surface(file, "bottom", "wall.yaml").outward_sign, -1);
 }
 
+// ------------------------------------------------------------------------------------------------ round
+// shapes
+
+std::string with_shape(const std::string& shape) {
+  return "units: si\ngeometry:\n  " + shape + "\nsurfaces: {wall: all}\n";
+}
+
+const std::string kCylinder =
+    with_shape("cylinder: {origin: [1, 0, 0], axis: [0, 2, 0], radius: 3, length: 5, elements: [8, 4]}");
+const std::string kCone = with_shape(
+    "cone: {origin: [0, 0, 1], axis: [0, 0, -1], reference: [0, 1, 0], radii: [2, 0], length: 4,\n"
+    "    angle: [0, 90], elements: [3, 2], degree: [3, 1]}");
+const std::string kSphere = with_shape(
+    "sphere: {centre: [0, 0, 0], radius: 2, latitude: [-90, 0], longitude: [0, 180], elements: [4, 2]}");
+const std::string kTorus = with_shape(
+    "torus: {centre: [0, 0, 0], axis: [0, 0, 1], radius: 3, tube_radius: 1, angle: [0, 90],\n"
+    "    tube_angle: [90, 180], elements: [2, 2]}");
+const std::string kTube =
+    "units: si\ngeometry:\n"
+    "  tube: {origin: [0, 0, 0], axis: [0, 0, 1], inner_radius: 1, outer_radius: 2, length: 3,\n"
+    "    angle: [0, 90], elements: [4, 3, 2]}\nsurfaces: {bore: zeta-, skin: zeta+, end: eta+}\n";
+
+Vector3 point(const NamedSurface& named, const Parameter<2>& xi) {
+  return interpolate(named.surface.space, named.surface.control_points, xi);
+}
+NamedSurface wall_of(const std::string& text) { return named_surface(parsed(text), "wall", "wall.yaml"); }
+
+TEST(GeometryFile, Cylinder) {
+  const NamedSurface wall = wall_of(kCylinder);  // axis y, so angles count from z towards x
+  EXPECT_EQ(wall.outward_sign, 0);
+  EXPECT_EQ(wall.surface.space.degree(0), 2);
+  EXPECT_EQ(wall.surface.space.degree(1), 2);
+  EXPECT_EQ(wall.surface.space.element_count(), 32);
+  EXPECT_NEAR((point(wall, {0.0, 0.4}) - Vector3(1, 2, 3)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((point(wall, {0.25, 1.0}) - Vector3(4, 5, 0)).norm(), 0.0, 1e-14);
+}
+
+TEST(GeometryFile, Cone) {
+  const NamedSurface wall = wall_of(kCone);  // downwards, so angles count from y towards x
+  EXPECT_EQ(wall.surface.space.degree(0), 3);
+  EXPECT_EQ(wall.surface.space.degree(1), 1);
+  EXPECT_NEAR((point(wall, {0.0, 0.0}) - Vector3(0, 2, 1)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((point(wall, {1.0, 0.5}) - Vector3(1, 0, -1)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((point(wall, {0.3, 1.0}) - Vector3(0, 0, -3)).norm(), 0.0, 1e-14);
+}
+
+TEST(GeometryFile, Sphere) {
+  const NamedSurface wall = wall_of(kSphere);
+  EXPECT_NEAR((point(wall, {0.5, 1.0}) - Vector3(0, 2, 0)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((point(wall, {0.0, 0.5}) - Vector3(1, 0, -1) * std::sqrt(2)).norm(), 0.0, 1e-14);
+  const NamedSurface whole =
+      wall_of(with_shape("sphere: {centre: [0, 0, 0], axis: [1, 0, 0], radius: 2, elements: [4, 2]}"));
+  EXPECT_NEAR((point(whole, {0.6, 0.0}) - Vector3(-2, 0, 0)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((point(whole, {0.25, 0.5}) - Vector3(0, 0, 2)).norm(), 0.0, 1e-14);
+}
+
+TEST(GeometryFile, Torus) {
+  const NamedSurface wall = wall_of(kTorus);
+  EXPECT_NEAR((point(wall, {0.0, 0.0}) - Vector3(3, 0, 1)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((point(wall, {1.0, 1.0}) - Vector3(0, 2, 0)).norm(), 0.0, 1e-14);
+}
+
+TEST(GeometryFile, Tube) {
+  const GeometryFile file = parsed(kTube);
+  EXPECT_EQ(std::get<Volume>(file.patch).space.element_indices(23), (Indices<3>{3, 2, 1}));
+  const NamedSurface bore = named_surface(file, "bore", ""), skin = named_surface(file, "skin", "");
+  EXPECT_EQ(bore.outward_sign, -1);
+  EXPECT_EQ(skin.outward_sign, 1);
+  EXPECT_NEAR((point(bore, {0.0, 0.5}) - Vector3(1, 0, 1.5)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR((point(skin, {1.0, 0.5}) - Vector3(0, 2, 1.5)).norm(), 0.0, 1e-14);
+  EXPECT_NEAR(point(named_surface(file, "end", ""), {0.7, 0.5}).z(), 3.0, 1e-14);
+}
+
 TEST(GeometryFile, ModelFilesMayHaveOtherKeys) {
   const YamlMap document = YamlMap::parse(kBox + "material: {law: linear_elastic}\n", "model.yaml");
   EXPECT_EQ(read_geometry(document).surfaces.size(), 2u);
@@ -159,6 +234,36 @@ TEST(GeometryFile, SaysWhatWasGivenAndWhatWasExpected) {
       {kPatch, "geometry:\n", "geometry:\n  box: {}\n",
        "wall.yaml:3: ", "2 geometries given, expected one of"},
       {kPatch, "degrees: [2, 1]", "degrees: [2, 1", "wall.yaml:", "broken YAML"},
+      {kCylinder, "cylinder:", "cylindre:", "wall.yaml:3: ", "did you mean 'cylinder'?"},
+      {kCylinder,
+       "radius:", "radios:", "wall.yaml:3: ", "unknown key 'radios' in geometry.cylinder, did you"},
+      {kCylinder, "radius: 3, ", "", "wall.yaml:3: ", "geometry.cylinder.radius is missing"},
+      {kCylinder, "radius: 3", "radius: -3", "wall.yaml:3: ", "radius is -3, expected a number > 0"},
+      {kCylinder, "length: 5", "length: 0", "wall.yaml:3: ", "length is 0, expected a number > 0"},
+      {kCylinder, "[0, 2, 0]", "[0, 0, 0]", "wall.yaml:3: ", "axis is [0, 0, 0], expected a direction"},
+      {kCylinder, "[0, 2, 0]", "[0, 2]", "wall.yaml:3: ", "axis is a list of 2, expected 3 numbers"},
+      {kCylinder, "axis: [0, 2, 0], ", "", "wall.yaml:3: ", "geometry.cylinder.axis is missing"},
+      {kCylinder, "[8, 4]", "[6, 4]",
+       "wall.yaml:3: ", "angle: 6 elements on a curve of 4 pieces, expected a multiple of 4"},
+      {kCylinder, "[8, 4]", "[8]", "wall.yaml:3: ", "elements is a list of 1, expected 2"},
+      {kCylinder, "elements:", "breaks:", "wall.yaml:3: ", "unknown key 'breaks' in geometry.cylinder"},
+      {kCylinder, "[8, 4]", "[8, 4], degree: 1", "wall.yaml:3: ", "degree of an arc is 1, expected 2 to 6"},
+      {kCone, "[2, 0]", "[0, 0]", "wall.yaml:3: ", "radii are [0, 0], expected numbers >= 0, not both 0"},
+      {kCone, "[2, 0]", "[2]", "wall.yaml:3: ", "radii is a list of 1, expected 2"},
+      {kCone, "[0, 1, 0]", "[0, 0, 3]",
+       "wall.yaml:3: ", "reference is [0, 0, 3], expected a direction other than the axis [0, 0, -1]"},
+      {kCone, "[0, 90]", "[90, 0]",
+       "wall.yaml:4: ", "angle: angles are [90, 0], expected [from, to] in degrees with from < to"},
+      {kCone, "[0, 90]", "[0, 90, 180]", "wall.yaml:4: ", "angle is a list of 3, expected 2"},
+      {kCone, "[0, 90]", "90", "wall.yaml:4: ", "geometry.cone.angle is 90, expected a list of numbers"},
+      {kSphere, "[-90, 0]", "[-100, 0]",
+       "wall.yaml:3: ", "latitude goes over a pole, expected angles from -90 to 90"},
+      {kSphere, "[0, 180]", "[0, 400]", "wall.yaml:3: ", "longitude: angles are [0, 400], expected"},
+      {kTorus, "tube_radius: 1", "tube_radius: 3",
+       "wall.yaml:3: ", "radius is 3, expected more than tube_radius 3"},
+      {kTube, "inner_radius: 1", "inner_radius: 2",
+       "wall.yaml:3: ", "outer_radius is 2, expected more than inner_radius 2"},
+      {kTube, "[4, 3, 2]", "[4, 3]", "wall.yaml:4: ", "elements is a list of 2, expected 3"},
   };
   for (const BadFile& bad : table) {
     std::string text = bad.good;

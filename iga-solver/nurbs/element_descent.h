@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Minimisation of phi = |S - d|^2 / 2 in the local coordinates of elements (power_element.h): Newton with the
+// exact Hessian; where that is not positive definite, with its diagonal, reflected; backtracking, and an
+// active set on the borders (Bertsekas 1982, "Projected Newton methods", SIAM J. Control Optim. 20).  A step
+// may end in another element; a crease is crossed where the far side leads downhill.
+#pragma once
+
+#include "nurbs/power_element.h"
+
+namespace nurbs {
+
+/// The elements of a surface, each converted to power form when it is first used after its control points
+/// moved.
+class ElementStore {
+ public:
+  explicit ElementStore(const Space<2>& space);
+  void set_control_points(const NodalVectors& control_points) {
+    control_points_ = control_points;
+    ++version_;
+  }
+  const AxisElement& axis(int i, int e) const { return axes_[i][e]; }
+  int count(int i) const { return static_cast<int>(axes_[i].size()); }
+  const ElementKernel& kernel() const { return kernel_; }
+  const NodalVectors& control_points() const { return control_points_; }
+  bool rational() const { return rational_; }
+
+  struct Element {
+    const Vector4* a;  ///< power coefficients
+    Vector4 origin;    ///< fourth entry 0
+    double size;       ///< length of the half extents, roughly
+  };
+  Element element(const int (&e)[2]) const {
+    const int index = e[0] + count(0) * e[1];
+    if (built_[index] != version_) build(e, index);
+    return {&power_[static_cast<size_t>(index) * functions_], origin_[index], size_[index]};
+  }
+  /// Homogeneous control points (w (P - origin), w), or (P - origin, 0) of a polynomial patch; returns the
+  /// origin.
+  Vector4 homogeneous_points(const int (&e)[2], Vector4* out) const;
+
+ private:
+  void build(const int (&e)[2], int index) const;
+
+  const Space<2>& space_;
+  std::vector<AxisElement> axes_[2];
+  ElementKernel kernel_;
+  bool rational_;
+  int functions_;
+  NodalVectors control_points_;
+  unsigned version_ = 1;
+  mutable std::vector<unsigned> built_;
+  mutable std::vector<Vector4> power_, origin_;
+  mutable std::vector<double> size_;
+};
+
+/// A point of the surface: element per direction, and where in it.
+struct LocalPoint {
+  int e[2];
+  double s[2];
+};
+/// Part of one element.
+struct LocalBox {
+  double low[2], high[2];
+};
+
+struct DescentResult {
+  LocalPoint at;
+  Vector3 r;       ///< S - d
+  bool crease[2];  ///< held on a crease, which is a kink here
+  bool minimum;    ///< false: a pole, saddle or degenerate point, or the iteration limit
+  int iterations;
+};
+
+/// Local minimum reached from `start`, over the surface, or over `box` where given.
+DescentResult descend(const ElementStore& elements, const Vector3& d, const LocalPoint& start,
+                      const LocalBox* box = nullptr);
+
+}  // namespace nurbs

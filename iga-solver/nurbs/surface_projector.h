@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Closest-point projection of points on a NURBS surface: exact, bounded and fast.
+//
+// Warm: Newton's method with the exact Hessian on the elements' power form (power_element.h,
+// element_descent.h).  Cold: branch and bound over a tree of Bezier-net boxes, and inside an element over
+// Bernstein bounds of the squared distance (distance_polynomial.h), so that no minimum is overlooked.
+// What is left of the hard cases (poles, saddles, degenerate minima) goes to closest_point_from.
+// Source: Piegl & Tiller (1997), section 6.1; Johnson & Cohen (1998), "A framework for efficient minimum
+// distance computations"; Chen et al. (2008), "Computing the minimum distance between a point and a NURBS
+// curve" (the Bernstein form of the squared distance).
+#pragma once
+
+#include <vector>
+
+#include "nurbs/box_tree.h"
+#include "nurbs/closest_point.h"
+#include "nurbs/element_descent.h"
+
+namespace nurbs {
+
+class DistancePolynomial;
+struct ProductTerm;
+
+/// All lengths in those of the control points.  Results do not depend on earlier calls.  Elements and tree
+/// are brought up to date when first used, by const members too: one object must not be shared by threads.
+class SurfaceProjector {
+ public:
+  /// Keeps a reference to `space`, which must outlive it.
+  explicit SurfaceProjector(const Space<2>& space);
+  SurfaceProjector(const SurfaceProjector&) = delete;
+  SurfaceProjector& operator=(const SurfaceProjector&) = delete;
+  ~SurfaceProjector();
+
+  /// New coordinates (3 x n, copied).  Throws std::invalid_argument unless there is one column per control
+  /// point.
+  void set_control_points(const NodalVectors& control_points);
+
+  /// Local minimum reached from `guess`; no allocation.
+  Projection warm(const Vector3& d, const Parameter<2>& guess) const;
+  /// Global minimum, by the tree.
+  Projection cold(const Vector3& d) const;
+  /// Global minimum, warm: the tree proves that nothing is nearer than the minimum reached from `guess`.
+  Projection nearest(const Vector3& d, const Parameter<2>& guess) const;
+  /// Minimum over candidate elements.  The candidates must include all elements nearer than the result, as
+  /// those of BoxTree::query do whose reach is not smaller.  Throws std::invalid_argument if there are none.
+  Projection cold_on(const Vector3& d, const int* elements, int count) const;
+  /// All local minima nearer than `reach`, each once, nearest first.
+  void all_minima(const Vector3& d, double reach, std::vector<Projection>& out) const;
+
+ private:
+  struct Node {
+    Box box;
+    int element;      // leaf; -1 for an inner node
+    int children[2];  // indices larger than the node's own
+  };
+  struct Search;
+
+  int add_node(const Indices<2>& begin, const Indices<2>& end);
+  void refit() const;
+  Box fill_bezier_net(int element, Vector4* net) const;
+  int element_near(int axis, double xi) const;
+  LocalPoint local(const Parameter<2>& xi) const;
+  Projection projection(const Vector3& d, const DescentResult& found) const;
+  Projection from(const Vector3& d, const LocalPoint& start) const;
+  void visit(int node, Search& search) const;
+  void examine_element(int element, Search& search) const;
+  void examine(const DistancePolynomial& F, Search& search) const;
+  void descend_in(const DistancePolynomial& F, Search& search) const;
+  bool on_region_border(const DistancePolynomial& F, int i, bool upper) const;
+  bool touches_region_border(const DistancePolynomial& F) const;
+  bool holds(const DistancePolynomial& F, const Parameter<2>& xi) const;
+  void start_from(const LocalPoint& start, Search& search) const;
+
+  const Space<2>& space_;
+  ElementStore elements_;
+  std::vector<ProductTerm> products_;
+  std::vector<double> binomials_;  // C(p, i) C(q, j)
+  std::vector<int> leaf_;          // node of each element
+  mutable std::vector<Node> nodes_;
+  mutable std::vector<Vector4> bezier_;  // nets, times binomials, of all elements
+  mutable bool boxes_current_ = false;
+};
+
+}  // namespace nurbs
