@@ -32,6 +32,8 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
       FixWallGran(lmp, static_cast<int>(stock_arg_.size()), stock_arg_.data()),
       structure_(*opened_.solver),
       exchange_(world, structure_),
+      projector_(structure_.surface().space),
+      search_(options_.search),
       totals_(),
       all_totals_() {
   delete primitiveWall_;
@@ -54,6 +56,12 @@ void FixWallNurbs::fail(const std::string& message) const {
 
 void FixWallNurbs::warn(const std::string& message) const {
   if (comm->me == 0) error->warning(FLERR, wall_nurbs_message(id, message).c_str());
+}
+
+// The screen or the log file may be switched off.
+void FixWallNurbs::print(const std::string& message) const {
+  for (FILE* file : {screen, logfile})
+    if (comm->me == 0 && file) std::fprintf(file, "%s\n", wall_nurbs_message(id, message).c_str());
 }
 
 int FixWallNurbs::setmask() {
@@ -104,7 +112,7 @@ void FixWallNurbs::init() {
   if (!beyond.empty())
     warn(fmt::format("the wall reaches beyond the periodic boundary in {}: particles do not meet its image",
                      beyond));
-  not_converged_ = inside_steps_ = 0;
+  inside_steps_ = 0;
   inside_tag_ = 0;
 }
 
@@ -123,16 +131,21 @@ void FixWallNurbs::createMulticontactData() { fail("surface multicontact is not 
    one time step, in the order LIGGGHTS calls it; setup evaluates forces and advances nothing
 ------------------------------------------------------------------------- */
 
-void FixWallNurbs::setup(int vflag) {
+void FixWallNurbs::import_surface() {
   exchange_.import_surface();
+  projector_.set_control_points(exchange_.positions());
+}
+
+void FixWallNurbs::setup(int vflag) {
+  import_surface();
   FixWallGran::setup(vflag);  // pre_neighbor, pre_force, post_force
   if (structure_.moves()) structure_.initialise_forces(*nodal_forces_);
 }
 
 void FixWallNurbs::initial_integrate(int) {
-  if (late_surface_) exchange_.import_surface();
+  if (late_surface_) import_surface();
   structure_.begin_step();
-  if (!late_surface_) exchange_.import_surface();
+  if (!late_surface_) import_surface();
   // The list is good until the wall has moved half a skin; it is then rebuilt before this step's forces.
   const double motion = candidates_.motion_since_build(exchange_.positions());
   if (!std::isfinite(motion))
@@ -207,19 +220,12 @@ void FixWallNurbs::post_force_primitive(int) {
 // From the foot of the last step; after each rebuild of the list anew, since another part of a curved wall
 // may have come nearer.
 nurbs::Projection FixWallNurbs::project(const Candidate& candidate) {
-  const nurbs::Space<2>& space = structure_.surface().space;
-  const Vector3 centre = Vector3::Map(atom->x[candidate.particle]);
   const ContactSlot memory = slot(candidate.particle);
-
-  if (!memory.empty() && !search_cold_) {
-    const nurbs::Projection warm =
-        nurbs::closest_point_from(space, exchange_.positions(), centre, memory.xi());
-    if (warm.status != nurbs::ProjectionStatus::not_converged) return warm;
-  }
-  const nurbs::Projection cold = nurbs::closest_point_on_elements(
-      space, exchange_.positions(), centre, candidates_.elements(candidate), candidate.count);
-  if (cold.status == nurbs::ProjectionStatus::not_converged) ++not_converged_;
-  return cold;
+  const nurbs::Parameter<2> last = memory.xi();
+  const bool warm = !memory.empty() && !search_cold_;
+  return search_.project({structure_.surface().space, exchange_.positions(), projector_,
+                          Vector3::Map(atom->x[candidate.particle]), candidates_.elements(candidate),
+                          candidate.count, warm ? &last : nullptr});
 }
 
 bool FixWallNurbs::inside_body(const nurbs::Projection& foot, const double* centre) const {
@@ -272,15 +278,21 @@ void FixWallNurbs::apply_contact(int i, const nurbs::Projection& foot, double ga
 }
 
 void FixWallNurbs::post_run() {
-  long counts[3] = {not_converged_, inside_steps_, inside_tag_}, sum[3], largest[3];
-  MPI_Allreduce(counts, sum, 3, MPI_LONG, MPI_SUM, world);
-  MPI_Allreduce(counts, largest, 3, MPI_LONG, MPI_MAX, world);
-  if (sum[0] > 0) warn(fmt::format("{} closest-point projections did not converge", sum[0]));
-  if (sum[1] > 0)
+  const liggghts_pkg::LocalSearch::Counts searches = liggghts_pkg::sum(search_.counts(), world);
+  search_.reset();
+  print(liggghts_pkg::report(searches));
+  if (searches.not_converged() > 0)
+    warn(fmt::format("{} closest-point projections did not converge", searches.not_converged()));
+
+  const long counts[2] = {inside_steps_, inside_tag_};
+  long sum[2], largest[2];
+  MPI_Allreduce(counts, sum, 2, MPI_LONG, MPI_SUM, world);
+  MPI_Allreduce(counts, largest, 2, MPI_LONG, MPI_MAX, world);
+  if (sum[0] > 0)
     warn(fmt::format(
         "the centre of particle {} got inside the solid ({} contacts of this kind in this run): use a "
         "smaller timestep or a stiffer contact",
-        largest[2], sum[1]));
+        largest[1], sum[0]));
 }
 
 /* ----------------------------------------------------------------------
@@ -335,5 +347,5 @@ void FixWallNurbs::restart(char* buffer) {
   } catch (const std::exception& problem) {
     fail(problem.what());
   }
-  exchange_.import_surface();
+  import_surface();
 }

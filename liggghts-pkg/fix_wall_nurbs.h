@@ -20,6 +20,7 @@ FixStyle(wall/nurbs,FixWallNurbs)
 #include "contact_slot.h"
 #include "coupling/surface_exchange.h"
 #include "fix_wall_gran.h"
+#include "local_search.h"
 #include "nurbs/closest_point.h"
 #include "wall_nurbs_setup.h"
 
@@ -63,6 +64,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
 
   void build_candidates();
   void forget_lost_contacts();
+  void import_surface();
   liggghts_pkg::ContactSlot slot(int particle);
   nurbs::Projection project(const liggghts_pkg::Candidate& candidate);
   bool inside_body(const nurbs::Projection& foot, const double* centre) const;
@@ -71,10 +73,13 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   double structure_column(int column) const;
   [[noreturn]] void fail(const std::string& message) const;
   void warn(const std::string& message) const;
+  void print(const std::string& message) const;
 
   coupling::StructureSolver& structure_;
   coupling::SurfaceExchange exchange_;
+  nurbs::SurfaceProjector projector_;  // of the imported control points
   liggghts_pkg::CandidateList candidates_;
+  liggghts_pkg::LocalSearch search_;
   bool rebuild_candidates_ = true;
   bool search_cold_ = true;  // the next projections must look at all candidate elements
   bool late_surface_;  // for tests alone: contact sees the surface one step late, which must show as first
@@ -89,7 +94,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   bool totals_are_summed_ = false;
 
   // counted over one run, reported after it
-  long not_converged_ = 0, inside_steps_ = 0;
+  long inside_steps_ = 0;
   int inside_tag_ = 0;
 };
 

@@ -15,8 +15,8 @@ namespace liggghts_pkg {
 
 namespace {
 
-const std::vector<std::string> kKeywords = {"type",    "structure", "geometry",
-                                            "surface", "material",  "store_force"};
+const std::vector<std::string> kKeywords = {"type",     "structure",   "geometry", "surface",
+                                            "material", "store_force", "search"};
 const std::vector<std::string> kModelKeywords = {"model", "tangential", "cohesion", "rolling_friction"};
 
 [[noreturn]] void fail(const std::string& message) { throw std::invalid_argument(message); }
@@ -113,6 +113,10 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words) {
       options.material_independent = true;
     } else if (keyword == "store_force") {
       options.store_force = reader.value_of(keyword, {"yes", "no"}) == "yes";
+    } else if (keyword == "search") {
+      options.search = reader.value_of(keyword, {"newton", "simplex_brent"}) == "newton"
+                           ? SearchMethod::newton
+                           : SearchMethod::simplex_brent;
     } else if (reader.value_is_switch()) {
       options.setting_words.push_back(keyword);
       options.setting_words.push_back(reader.keyword());

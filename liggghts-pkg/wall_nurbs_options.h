@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "local_search.h"
+
 namespace liggghts_pkg {
 
 struct WallNurbsOptions {
@@ -18,6 +20,7 @@ struct WallNurbsOptions {
   std::string surface;                ///< name of the surface in that file
   bool material_independent = false;  ///< the deck's E and nu may differ from the model file's
   bool store_force = false;
+  SearchMethod search = SearchMethod::newton;
 };
 
 /// Parses the words after `wall/nurbs`.  Throws std::invalid_argument: what was given, what was expected.

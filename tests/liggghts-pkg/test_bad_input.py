@@ -20,9 +20,17 @@ geometry:
       weights: [1, 1, 1, 1, 1, 1]
 surfaces: {floor: all}
 """
+ROUND = """
+units: si
+geometry:
+  cylinder: {origin: [0, 0, 0], axis: [1, 0, 0], radius: 0.01, length: 0.02,
+    angle: [0, 180], elements: [4, 2]}
+surfaces: {wall: all}
+"""
 MODELS = "model hertz tangential no_history"
 GOOD = f"{MODELS} type 2 structure block.yaml surface top"
 RIGID = f"{MODELS} type 2 geometry flat.yaml surface floor"
+PIPE = f"{MODELS} type 2 geometry round.yaml surface wall"
 
 
 def in_block(old: str, new: str) -> dict[str, str]:
@@ -34,6 +42,11 @@ def in_block(old: str, new: str) -> dict[str, str]:
 def in_flat(old: str, new: str) -> dict[str, str]:
     assert old in FLAT, old
     return {"flat.yaml": FLAT.replace(old, new)}
+
+
+def in_round(old: str, new: str) -> dict[str, str]:
+    assert old in ROUND, old
+    return {"round.yaml": ROUND.replace(old, new)}
 
 
 # name: (words after `wall/nurbs`, files that differ, what the error line must say, ...)
@@ -69,6 +82,12 @@ MODEL_FILES = {
     "a control point with 2 coordinates": (RIGID, in_flat("[2, 1, 0]", "[2, 1]"), ["flat.yaml:7", "2", "3"]),
     "a weight too many": (RIGID, in_flat("[1, 1, 1, 1, 1, 1]", "[1, 1, 1, 1, 1, 1, 1]"), ["flat.yaml:8", "7", "6"]),
     "weight zero": (RIGID, in_flat("[1, 1, 1, 1, 1, 1]", "[1, 1, 0, 1, 1, 1]"), ["flat.yaml:8", "weight", "0"]),
+    "cylinder's radius negative": (PIPE, in_round("0.01", "-0.01"), ["round.yaml:4", "radius", "-0.01", "> 0"]),
+    "cylinder's radius misspelt": (PIPE, in_round("radius", "raduis"), ["round.yaml:4", "raduis", "did you mean 'radius'"]),
+    "cylinder without an axis": (PIPE, in_round("axis: [1, 0, 0], ", ""), ["round.yaml:4", "cylinder.axis is missing"]),
+    "cylinder's axis zero": (PIPE, in_round("[1, 0, 0]", "[0, 0, 0]"), ["round.yaml:4", "axis is", "direction"]),
+    "cylinder's angles reversed": (PIPE, in_round("[0, 180]", "[180, 0]"), ["round.yaml:5", "180, 0", "from < to"]),
+    "elements that split no arc": (PIPE, in_round("[4, 2]", "[3, 2]"), ["round.yaml:5", "3 elements", "multiple of 2"]),
     "material in a rigid wall's file": (RIGID, {"flat.yaml": FLAT + "material: {law: linear_elastic}\n"}, ["material"]),
     "surface patch as a solid": (f"{MODELS} type 2 structure flat.yaml surface floor", {}, ["flat.yaml"]),
     "units differ from the deck's": (GOOD, in_block("units: si", "units: cgs"), ["cgs", "si"]),
@@ -93,6 +112,7 @@ DECK_WORDS = {
     "last word lacks its value": (f"{MODELS} type 2 structure", ["'structure' is the last word"]),
     "material of another word": (GOOD + " material any", ["'any'", "'independent'"]),
     "store_force of another word": (GOOD + " store_force maybe", ["'maybe'", "'yes' or 'no'"]),
+    "search of another word": (GOOD + " search brent", ["'brent'", "'newton' or 'simplex_brent'"]),
     "unknown normal model": (GOOD.replace("hertz", "herz"), ["herz", "hertz"]),
     "unknown tangential model": (GOOD.replace("no_history", "historie"), ["historie", "history"]),
     "surface multicontact": (GOOD.replace("no_history", "no_history surface multicontact"), ["multicontact"]),
@@ -117,7 +137,8 @@ DECKS = {
 
 
 def attempt(deck: str, files: dict[str, str], ranks: int) -> decks.Run:
-    return decks.run(deck, files={"block.yaml": BLOCK, "flat.yaml": FLAT} | files, ranks=ranks, timeout=60)
+    good_files = {"block.yaml": BLOCK, "flat.yaml": FLAT, "round.yaml": ROUND}
+    return decks.run(deck, files=good_files | files, ranks=ranks, timeout=60)
 
 
 class BadInput(unittest.TestCase):
@@ -160,8 +181,8 @@ class BadInput(unittest.TestCase):
         })
 
     def test_the_good_deck_is_good(self):
-        for words in (GOOD, RIGID, GOOD + " material independent store_force yes tangential_damping on"):
-            files = {"block.yaml": BLOCK, "flat.yaml": FLAT}
+        for words in (GOOD, RIGID, PIPE, GOOD + " material independent store_force yes tangential_damping on"):
+            files = {"block.yaml": BLOCK, "flat.yaml": FLAT, "round.yaml": ROUND}
             decks.good(bob.prelude() + f"fix plate all wall/nurbs {words}\nthermo 1\nrun 1\n", files=files)
 
 
