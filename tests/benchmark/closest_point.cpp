@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Times the closest-point search, the rebuild of its elements and the distribution of contact forces, beside
+// other codes on the same surfaces and points.  Names are WHAT/METHOD/SURFACE/N for N x N elements; one
+// iteration is one point, element or contact.  The counter `right` is the fraction of all points whose foot
+// is within 1e-6 of an element.
+#include <benchmark/benchmark.h>
+
+#include <memory>
+#include <optional>
+
+#include "coupling/force_distribution.h"
+#include "nurbs/simplex_brent.h"
+#include "nurbs/surface_projector.h"
+#include "opencascade.h"
+#include "surfaces.h"
+
+namespace benchmarks {
+namespace {
+
+using nurbs::Vector3;
+
+/// Instruction set that our code was compiled for.
+#if defined(__AVX512F__)
+constexpr const char* kCompiledFor = "AVX-512";
+#elif defined(__AVX2__)
+constexpr const char* kCompiledFor = "AVX2";
+#else
+constexpr const char* kCompiledFor = "the compiler's portable default";
+#endif
+
+constexpr int kPoints = 20000;
+constexpr int kBatch = 100;  // points between two looks at the clock
+
+struct Case {
+  Case(const std::string& name, int n)
+      : label("/" + name + "/" + std::to_string(n)),
+        n(n),
+        surface(make_surface(name, n)),
+        queries(make_queries(surface, kPoints)),
+        ours(surface.space),
+        opencascade(surface) {
+    ours.set_control_points(surface.control_points);
+  }
+
+  std::string label;
+  int n;
+  nurbs::Surface surface;
+  std::vector<Query> queries;
+  nurbs::SurfaceProjector ours;
+  OpenCascade opencascade;
+};
+
+template <class Search>
+double fraction_right(const Case& c, const Search& search) {
+  int right = 0;
+  for (const Query& query : c.queries) right += (search(query) - query.foot).norm() <= 1e-6 / c.n;
+  return right / double(c.queries.size());
+}
+
+/// `search` gives the foot of a query.  Checked when first run, before any timing.
+template <class Search>
+void add_search(Case& c, const std::string& name, Search search) {
+  auto right = std::make_shared<std::optional<double>>();
+  benchmark::RegisterBenchmark((name + c.label).c_str(), [&c, right, search](benchmark::State& state) {
+    if (!*right) *right = fraction_right(c, search);
+    size_t i = 0;
+    while (state.KeepRunningBatch(kBatch))
+      for (int k = 0; k < kBatch; ++k) {
+        benchmark::DoNotOptimize(search(c.queries[i]));
+        if (++i == c.queries.size()) i = 0;
+      }
+    state.counters["right"] = **right;
+  });
+}
+
+void add_searches(Case& c) {
+  add_search(c, "warm/ours", [&c](const Query& q) { return c.ours.warm(q.d, q.guess).foot; });
+  add_search(c, "nearest/ours", [&c](const Query& q) { return c.ours.nearest(q.d, q.guess).foot; });
+  add_search(c, "warm/opencascade", [&c](const Query& q) { return c.opencascade.warm(q.d, q.guess); });
+  add_search(c, "warm/simplex_brent", [&c](const Query& q) {
+    return nurbs::closest_point_simplex_brent(c.surface.space, c.surface.control_points, q.d, q.guess, true)
+        .foot;
+  });
+  add_search(c, "cold/ours", [&c](const Query& q) { return c.ours.cold(q.d).foot; });
+  add_search(c, "cold/opencascade", [&c](const Query& q) { return c.opencascade.cold(q.d); });
+}
+
+/// Power form of all elements; the projector does the same, for each element when it is first used.
+void add_rebuild(Case& c) {
+  benchmark::RegisterBenchmark(("rebuild/ours" + c.label).c_str(), [&c](benchmark::State& state) {
+    nurbs::ElementStore elements(c.surface.space);
+    while (state.KeepRunningBatch(c.surface.space.element_count())) {
+      elements.set_control_points(c.surface.control_points);
+      for (int j = 0; j < c.n; ++j)
+        for (int i = 0; i < c.n; ++i) benchmark::DoNotOptimize(elements.element({i, j}).size);
+    }
+  });
+}
+
+/// Boxes of all elements and their tree, which the first cold search brings up to date.
+void add_refit(Case& c) {
+  benchmark::RegisterBenchmark(("refit/ours" + c.label).c_str(), [&c](benchmark::State& state) {
+    while (state.KeepRunningBatch(c.surface.space.element_count())) {
+      c.ours.set_control_points(c.surface.control_points);
+      benchmark::DoNotOptimize(c.ours.cold(c.queries.front().d));
+    }
+  });
+}
+
+void add_distribution(Case& c) {
+  benchmark::RegisterBenchmark(("distribution/ours" + c.label).c_str(), [&c](benchmark::State& state) {
+    nurbs::NodalVectors f = nurbs::NodalVectors::Zero(3, c.surface.space.control_point_count());
+    size_t i = 0;
+    while (state.KeepRunningBatch(kBatch))
+      for (int k = 0; k < kBatch; ++k) {
+        const Query& query = c.queries[i];
+        coupling::FootBasis(c.surface.space, query.guess).distribute(query.d - query.foot, f);
+        if (++i == c.queries.size()) i = 0;
+      }
+    benchmark::DoNotOptimize(f.data());
+  });
+}
+
+/// All that a step of a run does for its contacts: the surface has moved, every contact's foot is found again
+/// from the last one, and its force goes to the control points.
+void add_step(Case& c) {
+  benchmark::RegisterBenchmark(("step/ours" + c.label).c_str(), [&c](benchmark::State& state) {
+    nurbs::NodalVectors f(3, c.surface.space.control_point_count());
+    while (state.KeepRunningBatch(kPoints)) {
+      c.ours.set_control_points(c.surface.control_points);
+      f.setZero();
+      for (const Query& query : c.queries) {
+        const nurbs::Projection contact = c.ours.warm(query.d, query.guess);
+        coupling::FootBasis(c.surface.space, contact.xi).distribute(contact.foot - query.d, f);
+      }
+      benchmark::DoNotOptimize(f.data());
+    }
+  });
+}
+
+}  // namespace
+}  // namespace benchmarks
+
+int main(int argc, char** argv) {
+  benchmark::Initialize(&argc, argv);
+  benchmark::AddCustomContext("compiled_for", benchmarks::kCompiledFor);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  std::vector<std::unique_ptr<benchmarks::Case>> cases;
+  for (int n : {31, 124})
+    for (const char* name : {"plate", "wavy", "cylinder", "saddle"}) {
+      benchmarks::Case& c = *cases.emplace_back(std::make_unique<benchmarks::Case>(name, n));
+      benchmarks::add_searches(c);
+      benchmarks::add_rebuild(c);
+      benchmarks::add_refit(c);
+      benchmarks::add_distribution(c);
+      benchmarks::add_step(c);
+    }
+  benchmark::RunSpecifiedBenchmarks();
+}
