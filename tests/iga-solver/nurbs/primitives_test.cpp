@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Round shapes against their implicit equations, closed-form areas and volumes, and closed-form closest
-// points.
+// Round shapes against their implicit equations and closed-form areas and volumes; their feet are in
+// primitives_feet_test.cpp.
 #include "nurbs/primitives.h"
 
 #include <gmock/gmock.h>
@@ -10,10 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numeric>
 
 #include "nurbs/boundary.h"
-#include "nurbs/closest_point.h"
 #include "shapes.h"
 
 namespace nurbs {
@@ -38,8 +36,7 @@ void expect_everywhere(const Patch<Dim>& patch, const std::function<double(const
   }
 }
 
-// ------------------------------------------------------------------------------------------------ arcs,
-// frames
+// Arcs, frames.
 
 TEST(Primitives, ArcsLieOnTheUnitCircle) {
   shapes::Random random(2);
@@ -103,8 +100,7 @@ TEST(Primitives, FrameIsOrthonormal) {
   }
 }
 
-// ------------------------------------------------------------------------------------- surfaces and their
-// sizes
+// Surfaces and their sizes.
 
 // A surface, the signed distance of a point from the exact one (positive outside), and the exact area.
 struct Round {
@@ -225,8 +221,7 @@ TEST(Primitives, Areas) {
   }
 }
 
-// ------------------------------------------------------------------------------------------------- tube, a
-// solid
+// Tube, a solid.
 
 TEST(Primitives, TubeIsAnExactSolid) {
   const Frame f = tilted();
@@ -251,8 +246,7 @@ TEST(Primitives, TubeIsAnExactSolid) {
   }
 }
 
-// --------------------------------------------------------------------------------------------- seams and
-// poles
+// Seams and poles.
 
 TEST(Primitives, AWholeTurnClosesToTheLastBit) {
   const Frame f = tilted();
@@ -282,95 +276,7 @@ TEST(Primitives, APoleIsOnePoint) {
   EXPECT_NEAR((ball.control_points.col(0) - (f.origin - 1.3 * f.axes.col(2))).norm(), 0.0, 1e-15);
 }
 
-// ---------------------------------------------------------------------------------- closest points, closed
-// forms
-
-Projection closest(const Surface& surface, const Vector3& d) {
-  std::vector<int> elements(surface.space.element_count());
-  std::iota(elements.begin(), elements.end(), 0);
-  return closest_point_on_elements(surface.space, surface.control_points, d, elements.data(),
-                                   static_cast<int>(elements.size()));
-}
-
-struct Foot {
-  Vector3 d;
-  double xi, eta, distance;
-};
-
-// The feet in the shape's own frame, and the same wherever the shape stands: parameters and distance to
-// 1e-10.
-void expect_feet(const std::function<Surface(const Frame&)>& shape, const std::vector<Foot>& feet) {
-  for (const Frame& f : {upright(), tilted()}) {
-    const Surface surface = shape(f);
-    for (const Foot& foot : feet) {
-      SCOPED_TRACE(testing::Message() << "d = " << foot.d.transpose());
-      const Projection p = closest(surface, f.origin + f.axes * foot.d);
-      EXPECT_NEAR(p.xi[0], foot.xi, 1e-10);
-      EXPECT_NEAR(p.xi[1], foot.eta, 1e-10);
-      EXPECT_NEAR(p.distance, foot.distance, 1e-10);
-      EXPECT_NE(p.status, ProjectionStatus::not_converged);
-    }
-  }
-}
-
-TEST(Primitives, FeetOnAQuarterCylinder) {
-  for (const int degree : {2, 3})
-    expect_feet(
-        [&](const Frame& f) {
-          return cylinder(f, 10, 20, meshed_arc(0, 90, 5, degree), KnotVector::uniform(degree, 7));
-        },
-        {{{9, 7, 5}, .424848249847, .25, 1.401754250991},
-         {{3, 12, 13.7}, .834349222369, .685, 2.369316876853},
-         {{2, 1, 4}, .304113535976, .2, 7.763932022500},
-         {{10.9, .05, 19.99}, .003240513453, .9995, .900114678296},
-         {{12, -1, 3}, 0.0, .15, 2.236067977500},
-         {{5, 9, 21}, .669061273414, 1.0, 1.042783381273}});
-}
-
-TEST(Primitives, FeetOnASphereOctant) {
-  for (const int degree : {2, 3})
-    expect_feet(
-        [&](const Frame& f) {
-          return sphere(f, 5, meshed_arc(0, 90, 4, degree), meshed_arc(0, 90, 5, degree));
-        },
-        {{{3, 4, 2}, .585786437627, .252232036080, .385164807135},
-         {{1, 2, 5.5}, .695886464024, .744222253589, .937171043519},
-         {{.3, .4, 5.2}, .585786437627, .933486896879, .223983154644}});
-}
-
-TEST(Primitives, FeetOnAQuarterTorus) {
-  for (const int degree : {2, 3})
-    expect_feet(
-        [&](const Frame& f) {
-          return torus(f, 10, 3, meshed_arc(0, 90, 3, degree), meshed_arc(0, 90, 4, degree));
-        },
-        {{{9, 9, 2}, .5, .407619741171, .382537327635},
-         {{12, 3, 3}, .165650777631, .570650879220, .822782031838}});
-}
-
-// Whole shapes, from inside and outside, near seams and poles: the distance is the signed one's size.
-TEST(Primitives, DistancesFromWholeShapes) {
-  shapes::Random random(5);
-  const Surface ball = sphere(upright(), 1.0, meshed_arc(0, 360, 8), meshed_arc(-90, 90, 4));
-  const Surface ring = torus(upright(), 1.0, 0.4, meshed_arc(0, 360, 8), meshed_arc(0, 360, 8));
-  const auto near = [&] { return std::pow(10.0, shapes::uniform(random, -12, 0)); };
-  for (int k = 0; k < 200; ++k) {
-    const double azimuth = (k % 2 ? 1 : -1) * near();
-    const double latitude = (k % 4 < 2 ? 1 : -1) * (M_PI / 2 - near());
-    const double scale = shapes::uniform(random, 0.3, 2.0);
-    const Vector3 towards(std::cos(azimuth) * std::cos(latitude), std::sin(azimuth) * std::cos(latitude),
-                          std::sin(latitude));
-    EXPECT_NEAR(closest(ball, scale * towards).distance, std::abs(scale - 1.0), 1e-13);
-
-    const double around = (k % 4 < 2 ? 1 : -1) * near(), r = shapes::uniform(random, 0.1, 0.8);
-    const double rho = 1 + r * std::cos(around);
-    const Vector3 d(rho * std::cos(azimuth), rho * std::sin(azimuth), r * std::sin(around));
-    EXPECT_NEAR(closest(ring, d).distance, std::abs(r - 0.4), 1e-13);
-  }
-}
-
-// --------------------------------------------------------------------------------------------- wrong
-// arguments
+// Wrong arguments.
 
 TEST(Primitives, SayWhatWasGivenAndWhatWasExpected) {
   const KnotVector line = KnotVector::uniform(2, 1);
