@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "nurbs/borders.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace nurbs {
+namespace {
+
+constexpr double kSameKnot = 1e-9;  // relative parameters closer than this are one knot
+constexpr double kNoNormal = 1e-9;  // a normal this much shorter than the longest one is none
+
+struct EdgePoint {
+  Vector3 S;
+  Vector3 outward;  // derivative across the edge, out of the patch [length / parameter]
+  Vector3 normal;   // dS/dxi x dS/deta
+};
+
+// An edge as a curve of the relative parameter t, 0 to 1 along the patch's own direction.
+class Edge {
+ public:
+  Edge(const Surface& surface, int side)
+      : surface_(&surface),
+        across_(side / 2),
+        upper_(side % 2 == 1),
+        knots_(&surface.space.knots(1 - across_)) {}
+
+  int degree() const { return knots_->degree(); }
+
+  std::vector<double> breaks() const {
+    std::vector<double> relative = knots_->breaks();
+    for (double& t : relative) t = (t - knots_->front()) / (knots_->back() - knots_->front());
+    return relative;
+  }
+
+  /// The point at t; `within` lies inside the knot span from which derivatives are taken.
+  EdgePoint at(double t, double within) const {
+    const int along = 1 - across_;
+    const KnotVector& cross = surface_->space.knots(across_);
+    Parameter<2> xi;
+    xi[along] = absolute(t);
+    xi[across_] = upper_ ? cross.back() : cross.front();
+    Parameter<2> in_element = xi;
+    in_element[along] = absolute(within);
+    RationalBasis<2> basis;
+    evaluate_on_element(surface_->space, surface_->space.element_at(in_element), xi, 1, basis);
+    EdgePoint point{interpolate(basis, surface_->control_points), {}, {}};
+    Vector3 S_d[2] = {Vector3::Zero(), Vector3::Zero()};
+    for (int d = 0; d < 2; ++d)
+      for (int a = 0; a < basis.count; ++a)
+        S_d[d] += basis.dR[d][a] * surface_->control_points.col(basis.control_point[a]);
+    point.outward = upper_ ? S_d[across_] : Vector3(-S_d[across_]);
+    point.normal = S_d[0].cross(S_d[1]);
+    return point;
+  }
+
+  Vector3 control_point(int i) const {
+    const int n_xi = surface_->space.control_point_count(0), n_eta = surface_->space.control_point_count(1);
+    return surface_->control_points.col(across_ == 0 ? (upper_ ? n_xi - 1 : 0) + n_xi * i
+                                                     : i + n_xi * (upper_ ? n_eta - 1 : 0));
+  }
+  Vector3 end(bool last) const { return control_point(last ? knots_->control_point_count() - 1 : 0); }
+
+  // A curve with positive weights is one point only if its control points are.
+  bool is_pole(double tolerance) const {
+    for (int i = 1; i < knots_->control_point_count(); ++i)
+      if ((control_point(i) - control_point(0)).norm() > tolerance) return false;
+    return true;
+  }
+
+ private:
+  double absolute(double t) const { return knots_->front() + t * (knots_->back() - knots_->front()); }
+
+  const Surface* surface_;
+  int across_;
+  bool upper_;
+  const KnotVector* knots_;
+};
+
+bool ends_meet(const Edge& a, const Edge& b, bool reversed, double tolerance) {
+  return (a.end(false) - b.end(reversed)).norm() <= tolerance &&
+         (a.end(true) - b.end(!reversed)).norm() <= tolerance;
+}
+
+// Breaks of both edges in the parameter of the first.
+std::vector<double> common_breaks(const Edge& a, const Edge& b, bool reversed) {
+  std::vector<double> breaks = a.breaks();
+  for (double t : b.breaks()) breaks.push_back(reversed ? 1.0 - t : t);
+  std::sort(breaks.begin(), breaks.end());
+  const auto same = [](double t, double u) { return u - t < kSameKnot; };
+  breaks.erase(std::unique(breaks.begin(), breaks.end(), same), breaks.end());
+  return breaks;
+}
+
+struct PointPair {
+  EdgePoint a, b;
+};
+
+// Points of both edges, or nothing where the edges part.  Between two knots, rational curves of degrees p and
+// q are the same if they meet in p + q + 1 points: their difference times the denominators has degree p + q.
+std::optional<std::vector<PointPair>> common_points(const Edge& a, const Edge& b, bool reversed,
+                                                    double tolerance) {
+  if (!ends_meet(a, b, reversed, tolerance)) return std::nullopt;
+  const auto mirrored = [reversed](double t) { return reversed ? 1.0 - t : t; };
+  const std::vector<double> breaks = common_breaks(a, b, reversed);
+  const int intervals = a.degree() + b.degree();
+  std::vector<PointPair> points;
+  for (size_t e = 0; e + 1 < breaks.size(); ++e) {
+    const double middle = 0.5 * (breaks[e] + breaks[e + 1]);
+    for (int i = 0; i <= intervals; ++i) {
+      const double t = breaks[e] + (breaks[e + 1] - breaks[e]) * i / intervals;
+      points.push_back({a.at(t, middle), b.at(mirrored(t), mirrored(middle))});
+      if ((points.back().a.S - points.back().b.S).norm() > tolerance) return std::nullopt;
+    }
+  }
+  return points;
+}
+
+double largest_angle(const std::vector<PointPair>& points, bool same_side) {
+  double longest[2] = {0.0, 0.0};
+  for (const PointPair& p : points) {
+    longest[0] = std::max(longest[0], p.a.normal.norm());
+    longest[1] = std::max(longest[1], p.b.normal.norm());
+  }
+  double largest = 0.0;
+  for (const PointPair& p : points) {
+    if (p.a.normal.norm() <= kNoNormal * longest[0] || p.b.normal.norm() <= kNoNormal * longest[1]) continue;
+    const Vector3 n = p.a.normal.normalized(), m = (same_side ? 1.0 : -1.0) * p.b.normal.normalized();
+    largest = std::max(largest, std::atan2(n.cross(m).norm(), n.dot(m)));
+  }
+  return largest;
+}
+
+// Of -outward of b against c * outward of a, c >= 0 by least squares.
+double largest_jump(const std::vector<PointPair>& points) {
+  double product = 0.0, square = 0.0, largest = 0.0, jump = 0.0;
+  for (const PointPair& p : points) {
+    product -= p.a.outward.dot(p.b.outward);
+    square += p.a.outward.squaredNorm();
+  }
+  const double c = square > 0.0 ? std::max(product / square, 0.0) : 0.0;
+  for (const PointPair& p : points) {
+    jump = std::max(jump, (p.b.outward + c * p.a.outward).norm());
+    largest = std::max(largest, p.b.outward.norm());
+  }
+  return largest > 0.0 ? jump / largest : 0.0;
+}
+
+struct Match {
+  int patch, side;
+  Border border;  // of that edge
+};
+
+double diagonal(const std::vector<Surface>& patches) {
+  Eigen::AlignedBox3d box;
+  for (const Surface& patch : patches)
+    for (Eigen::Index a = 0; a < patch.control_points.cols(); ++a) box.extend(patch.control_points.col(a));
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+}
+
+std::optional<Border> weld(const Edge& a, int side, const Edge& b, int other_patch, int other_side,
+                           double tolerance) {
+  for (const bool reversed : {false, true}) {
+    const auto points = common_points(a, b, reversed, tolerance);
+    if (!points) continue;
+    Border border{Border::welded, other_patch, other_side, reversed};
+    border.max_angle = largest_angle(*points, same_orientation(side, border));
+    border.max_jump = largest_jump(*points);
+    return border;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+const char* side_name(int side) {
+  constexpr const char* kNames[kSideCount] = {"xi-", "xi+", "eta-", "eta+"};
+  return kNames[side];
+}
+
+bool same_orientation(int side, const Border& border) {
+  // Along eta- and xi+ the patch lies to the left, seen from its normal.
+  const auto on_the_left = [](int s) { return s == 1 || s == 2; };
+  return (on_the_left(side) == on_the_left(border.side)) == border.reversed;
+}
+
+std::vector<std::array<Border, kSideCount>> find_borders(const std::vector<Surface>& patches,
+                                                         double relative_tolerance) {
+  const double tolerance = relative_tolerance * diagonal(patches);
+  const int edge_count = kSideCount * static_cast<int>(patches.size());
+  std::vector<Edge> edges;
+  for (const Surface& patch : patches)
+    for (int side = 0; side < kSideCount; ++side) edges.emplace_back(patch, side);
+
+  std::vector<std::array<Border, kSideCount>> borders(patches.size());
+  const auto border_of = [&](int edge) -> Border& { return borders[edge / kSideCount][edge % kSideCount]; };
+  for (int e = 0; e < edge_count; ++e)
+    if (edges[e].is_pole(tolerance)) border_of(e).kind = Border::pole;
+
+  std::vector<Match> matches;
+  for (int e = 0; e < edge_count; ++e)
+    for (int f = e + 1; f < edge_count; ++f) {
+      if (border_of(e).kind == Border::pole || border_of(f).kind == Border::pole) continue;
+      const auto border = weld(edges[e], e % kSideCount, edges[f], f / kSideCount, f % kSideCount, tolerance);
+      if (border) matches.push_back({e / kSideCount, e % kSideCount, *border});
+    }
+  std::stable_sort(matches.begin(), matches.end(),
+                   [](const Match& a, const Match& b) { return a.border.max_angle < b.border.max_angle; });
+  for (const Match& match : matches) {
+    Border& here = borders[match.patch][match.side];
+    Border& there = borders[match.border.patch][match.border.side];
+    if (here.kind != Border::free || there.kind != Border::free) continue;
+    here = there = match.border;
+    there.patch = match.patch;
+    there.side = match.side;
+  }
+  return borders;
+}
+
+}  // namespace nurbs
