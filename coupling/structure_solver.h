@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "coupling/contact_surface.h"
+#include "coupling/rigid_frame.h"
 
 namespace coupling {
 
@@ -32,10 +33,21 @@ class StructureSolver {
   virtual ~StructureSolver() = default;
 
   virtual const ContactSurface& surface() const = 0;
-  /// Of the solver's own nodes, 3 x node_count: current positions [length] and velocities [length/time].
-  /// During a step (after begin_step) the velocities are those of the half step.
+  /// Of the solver's own nodes, 3 x node_count, in the body frame: current positions [length] and velocities
+  /// relative to it [length/time].  During a step (after begin_step) the velocities are those of the half
+  /// step.
   virtual const NodalVectors& positions() const = 0;
   virtual const NodalVectors& velocities() const = 0;
+  /// Where the body frame is; the identity for a solver whose positions are in space.
+  virtual RigidFrame frame() const { return {}; }
+  /// What a surface that slides within itself (a conveyor belt) adds to the velocity of the wall at x in
+  /// space [length/time]; `normal` is the unit normal there, of either sign.
+  virtual Vector3 surface_velocity(const Vector3& /*x*/, const Vector3& /*normal*/) const {
+    return Vector3::Zero();
+  }
+
+  /// Before the first forces of each run: evaluates what the deck may have changed, advances nothing.
+  virtual void begin_run() {}
 
   /// Accelerations for the current state under the given nodal contact forces [force]; advances nothing.
   virtual void initialise_forces(const NodalVectors& forces) = 0;
@@ -48,6 +60,8 @@ class StructureSolver {
   virtual double stable_time_step() const = 0;
 
   virtual bool moves() const = 0;
+  /// Whether initialise_forces and end_step use the forces; if not, they may be called with forces of zero.
+  virtual bool needs_forces() const { return moves(); }
   virtual Eigen::VectorXd control_node_mass() const = 0;  ///< [mass], one per node; empty for a rigid surface
   virtual double kinetic_energy() const = 0;              ///< sum m_A |v_A|^2 / 2 [energy]
   virtual double strain_energy() const = 0;               ///< [energy]; may cost as much as a step

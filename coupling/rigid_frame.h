@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Where a rigid body is and how it moves: pose and velocity of its body frame.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "nurbs/box_tree.h"
+
+namespace coupling {
+
+/// Body point X is at x = rotation X + origin; the body's points move with
+/// v(x) = velocity + angular_velocity x (x - origin).  A body that is at rest, or whose positions are given
+/// in space, has the identity.
+struct RigidFrame {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();    ///< proper orthogonal [-]
+  nurbs::Vector3 origin = nurbs::Vector3::Zero();            ///< [length]
+  nurbs::Vector3 velocity = nurbs::Vector3::Zero();          ///< of the body point at `origin` [length/time]
+  nurbs::Vector3 angular_velocity = nurbs::Vector3::Zero();  ///< [1/time]
+
+  nurbs::Vector3 to_space(const nurbs::Vector3& X) const { return rotation * X + origin; }
+  nurbs::Vector3 to_body(const nurbs::Vector3& x) const { return rotation.transpose() * (x - origin); }
+  nurbs::Vector3 velocity_at(const nurbs::Vector3& x) const {
+    return velocity + angular_velocity.cross(x - origin);
+  }
+
+  /// Largest distance between the places that a body point of the box has in the two frames [length].  The
+  /// distance is a convex function of the point, so it is largest at a corner.
+  double max_displacement(const RigidFrame& other, const nurbs::Box& body_bounds) const {
+    double largest = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+      nurbs::Vector3 X;
+      for (int d = 0; d < 3; ++d) X[d] = (corner >> d) & 1 ? body_bounds.high[d] : body_bounds.low[d];
+      const double distance = (to_space(X) - other.to_space(X)).norm();
+      if (std::isnan(distance)) return distance;
+      largest = std::max(largest, distance);
+    }
+    return largest;
+  }
+};
+
+}  // namespace coupling
