@@ -5,7 +5,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "nurbs/patch.h"
+#include "nurbs/multi_patch.h"
 
 namespace coupling {
 
@@ -38,10 +38,11 @@ class SurfaceMap {
 };
 
 struct ContactSurface {
-  nurbs::Space<2> space;
+  nurbs::MultiPatch topology;
   SurfaceMap map;
-  /// +1 or -1 where the normal dS/dxi x dS/deta points out of or into the body; 0 for a two-sided surface.
-  int outward_sign = 0;
+  /// Per patch: +1 or -1 where the normal dS/dxi x dS/deta points out of or into the body; 0 for a two-sided
+  /// surface.
+  std::vector<int> outward_sign;
 };
 
 }  // namespace coupling

@@ -15,6 +15,9 @@ class FootBasis {
   FootBasis(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi) {
     nurbs::evaluate(space, xi, 0, basis_);
   }
+  FootBasis(const nurbs::MultiPatch& surface, const nurbs::SurfacePoint& foot) {
+    nurbs::evaluate(surface, foot, 0, basis_);
+  }
 
   /// Value at the foot of a control-point field q (3 x n).
   Vector3 interpolate(const NodalVectors& q) const { return nurbs::interpolate<2>(basis_, q); }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "structure/stable_time_step.h"
@@ -11,19 +12,58 @@ namespace coupling {
 
 namespace {
 
-ContactSurface surface_of(const nurbs::Space<3>& volume, nurbs::Face face) {
-  nurbs::BoundarySurface boundary = nurbs::boundary_surface(volume, face);
-  return {std::move(boundary.space),
-          SurfaceMap::selection(boundary.volume_control_point, volume.control_point_count()),
-          boundary.outward_sign};
+// Nodes along one side of a face.
+std::vector<int> side_nodes(const nurbs::BoundarySurface& face, int side) {
+  const int n_xi = face.space.control_point_count(0), n_eta = face.space.control_point_count(1);
+  const bool upper = side % 2 == 1;
+  std::vector<int> nodes;
+  if (side < 2)
+    for (int j = 0; j < n_eta; ++j)
+      nodes.push_back(face.volume_control_point[(upper ? n_xi - 1 : 0) + n_xi * j]);
+  else
+    for (int i = 0; i < n_xi; ++i)
+      nodes.push_back(face.volume_control_point[i + (upper ? n_xi * (n_eta - 1) : 0)]);
+  std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
+// Edges that only touch, as those of a slit tube, part when the solid moves: welded are those of the same
+// nodes.
+void unweld_edges_that_only_touch(const std::vector<nurbs::BoundarySurface>& faces, nurbs::Borders& borders) {
+  for (size_t p = 0; p < faces.size(); ++p)
+    for (int side = 0; side < nurbs::kSideCount; ++side) {
+      nurbs::Border& border = borders[p][side];
+      if (border.kind == nurbs::Border::welded &&
+          side_nodes(faces[p], side) != side_nodes(faces[border.patch], border.side))
+        border = nurbs::Border();
+    }
+}
+
+ContactSurface surface_of(const nurbs::Volume& volume, const std::vector<nurbs::Face>& names) {
+  std::vector<nurbs::BoundarySurface> faces;
+  std::vector<nurbs::Surface> patches;
+  std::vector<int> nodes, outward_sign;
+  for (const nurbs::Face name : names) {
+    const nurbs::BoundarySurface face = nurbs::boundary_surface(volume.space, name);
+    patches.push_back({face.space, volume.control_points(Eigen::all, face.volume_control_point)});
+    nodes.insert(nodes.end(), face.volume_control_point.begin(), face.volume_control_point.end());
+    outward_sign.push_back(face.outward_sign);
+    faces.push_back(face);
+  }
+  nurbs::MultiPatch topology = nurbs::join(patches).topology;
+  nurbs::Borders borders = topology.borders();
+  unweld_edges_that_only_touch(faces, borders);
+  topology.set_borders(std::move(borders));
+  return {std::move(topology), SurfaceMap::selection(nodes, volume.space.control_point_count()),
+          std::move(outward_sign)};
 }
 
 }  // namespace
 
-IgaStructure::IgaStructure(structure::ExplicitSolver solver, nurbs::Face face,
+IgaStructure::IgaStructure(structure::ExplicitSolver solver, const std::vector<nurbs::Face>& faces,
                            std::vector<structure::Probe> probes)
     : solver_(std::move(solver)),
-      surface_(surface_of(solver_.solid().patch().space, face)),
+      surface_(surface_of(solver_.solid().patch(), faces)),
       probes_(std::move(probes)) {}
 
 void IgaStructure::set_time_step(double dt) {

@@ -14,8 +14,9 @@ namespace coupling {
 
 class IgaStructure final : public StructureSolver {
  public:
-  /// Particles see the face `face` of the solver's volume patch.
-  IgaStructure(structure::ExplicitSolver solver, nurbs::Face face, std::vector<structure::Probe> probes = {});
+  /// Particles see the given faces of the solver's volume patch; faces that share an edge are welded there.
+  IgaStructure(structure::ExplicitSolver solver, const std::vector<nurbs::Face>& faces,
+               std::vector<structure::Probe> probes = {});
 
   const ContactSurface& surface() const override { return surface_; }
   const NodalVectors& positions() const override { return solver_.positions(); }

@@ -6,10 +6,16 @@
 
 namespace coupling {
 
-RigidSurface::RigidSurface(nurbs::Surface surface, int outward_sign)
-    : surface_{surface.space, SurfaceMap::identity(surface.space.control_point_count()), outward_sign},
+RigidSurface::RigidSurface(const std::vector<nurbs::Surface>& patches, std::vector<int> outward_sign)
+    : RigidSurface(nurbs::join(patches), std::move(outward_sign)) {}
+
+RigidSurface::RigidSurface(nurbs::PatchedSurface surface, std::vector<int> outward_sign)
+    : surface_{std::move(surface.topology), SurfaceMap::identity(surface.control_points.cols()),
+               std::move(outward_sign)},
       positions_(std::move(surface.control_points)),
-      velocities_(NodalVectors::Zero(3, positions_.cols())) {}
+      velocities_(NodalVectors::Zero(3, positions_.cols())) {
+  surface_.outward_sign.resize(surface_.topology.patch_count(), 0);
+}
 
 double RigidSurface::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
 

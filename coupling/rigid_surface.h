@@ -8,8 +8,8 @@ namespace coupling {
 
 class RigidSurface final : public StructureSolver {
  public:
-  /// `outward_sign` as in ContactSurface.
-  explicit RigidSurface(nurbs::Surface surface, int outward_sign = 0);
+  /// Patches whose edges coincide are welded.  `outward_sign` as in ContactSurface; empty: two-sided.
+  explicit RigidSurface(const std::vector<nurbs::Surface>& patches, std::vector<int> outward_sign = {});
 
   const ContactSurface& surface() const override { return surface_; }
   const NodalVectors& positions() const override { return positions_; }
@@ -22,6 +22,7 @@ class RigidSurface final : public StructureSolver {
   double stable_time_step() const override;
 
   bool moves() const override { return false; }
+  bool deforms() const override { return false; }
   Eigen::VectorXd control_node_mass() const override { return {}; }
   double kinetic_energy() const override { return 0.0; }
   double strain_energy() const override { return 0.0; }
@@ -33,6 +34,8 @@ class RigidSurface final : public StructureSolver {
   void load(const std::vector<double>& state) override;
 
  private:
+  RigidSurface(nurbs::PatchedSurface surface, std::vector<int> outward_sign);
+
   ContactSurface surface_;
   NodalVectors positions_, velocities_;
 };

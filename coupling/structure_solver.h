@@ -60,6 +60,8 @@ class StructureSolver {
   virtual double stable_time_step() const = 0;
 
   virtual bool moves() const = 0;
+  /// Whether positions() change; if not, what moves is the frame.
+  virtual bool deforms() const { return moves(); }
   /// Whether initialise_forces and end_step use the forces; if not, they may be called with forces of zero.
   virtual bool needs_forces() const { return moves(); }
   virtual Eigen::VectorXd control_node_mass() const = 0;  ///< [mass], one per node; empty for a rigid surface

@@ -13,7 +13,7 @@ SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver) : comm_
   MPI_Comm_size(comm_, &ranks);
   bytes_.resize(ranks);
   offset_.resize(ranks);
-  surface_forces_.setZero(3, solver.surface().space.control_point_count());
+  surface_forces_.setZero(3, solver.surface().topology.control_point_count());
   nodal_forces_.setZero(3, solver.surface().map.node_count());
   import_surface();
 }
@@ -31,7 +31,7 @@ const NodalVectors& SurfaceExchange::export_add(const std::vector<ContactForce>&
 
   surface_forces_.setZero();
   for (const ContactForce& contact : contacts_) {
-    const FootBasis foot(solver_.surface().space, {contact.xi[0], contact.xi[1]});
+    const FootBasis foot(solver_.surface().topology, {contact.patch, {contact.xi[0], contact.xi[1]}});
     foot.distribute(Vector3::Map(contact.F), surface_forces_);
   }
   nodal_forces_.setZero();

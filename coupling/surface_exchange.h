@@ -17,7 +17,8 @@ namespace coupling {
 struct ContactForce {
   long tag;      ///< particle's global id
   int branch;    ///< which of the particle's contacts with this wall
-  double xi[2];  ///< foot on the surface
+  int patch;     ///< of the foot
+  double xi[2];  ///< foot on the patch
   double F[3];   ///< force on the surface [force]
 };
 

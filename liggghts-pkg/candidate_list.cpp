@@ -5,23 +5,41 @@
 
 namespace liggghts_pkg {
 
-void CandidateList::build(const nurbs::Space<2>& space, const nurbs::NodalVectors& control_points, int n,
-                          const double* const* x, const double* radius, double radius_factor, double skin) {
-  nurbs::element_boxes(space, control_points, boxes_);
+using nurbs::Vector3;
+
+void CandidateList::set_surface(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points) {
+  boxes_.clear();
+  for (int p = 0; p < surface.patch_count(); ++p) {
+    nurbs::element_boxes(surface.patch(p), surface.control_points_of(p, control_points), patch_boxes_);
+    boxes_.insert(boxes_.end(), patch_boxes_.begin(), patch_boxes_.end());
+  }
   tree_.build(boxes_);
   control_points_at_build_ = control_points;
+}
 
+void CandidateList::build(const coupling::RigidFrame& frame, const std::vector<Vector3>& images,
+                          const ParticleView& particles) {
+  frame_at_build_ = frame;
+  images_ = images;
   candidates_.clear();
+  image_elements_.clear();
   elements_.clear();
-  for (int i = 0; i < n; ++i) {
-    const int first = static_cast<int>(elements_.size());
-    tree_.query(nurbs::Vector3::Map(x[i]), radius[i] * radius_factor + skin, elements_);
-    const int count = static_cast<int>(elements_.size()) - first;
-    if (count > 0) candidates_.push_back({i, first, count});
+  for (int i = 0; i < particles.n; ++i) {
+    const int first_image = static_cast<int>(image_elements_.size());
+    for (size_t image = 0; image < images.size(); ++image) {
+      const int first = static_cast<int>(elements_.size());
+      tree_.query(frame.to_body(Vector3::Map(particles.x[i]) - images[image]), particles.reach[i], elements_);
+      const int count = static_cast<int>(elements_.size()) - first;
+      if (count > 0) image_elements_.push_back({static_cast<int>(image), first, count});
+    }
+    const int image_count = static_cast<int>(image_elements_.size()) - first_image;
+    if (image_count > 0) candidates_.push_back({i, first_image, image_count});
   }
 }
 
-double CandidateList::motion_since_build(const nurbs::NodalVectors& control_points) const {
+double CandidateList::motion_since_build(const nurbs::NodalVectors& control_points, bool deforms,
+                                         const coupling::RigidFrame& frame) const {
+  if (!deforms) return frame.max_displacement(frame_at_build_, wall_bounds());
   return std::sqrt(
       (control_points - control_points_at_build_).colwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>());
 }

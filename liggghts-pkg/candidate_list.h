@@ -5,36 +5,61 @@
 
 #include <vector>
 
+#include "coupling/rigid_frame.h"
 #include "nurbs/box_tree.h"
+#include "nurbs/multi_patch.h"
 
 namespace liggghts_pkg {
 
-struct Candidate {
-  int particle;      ///< local index, valid until LIGGGHTS exchanges or sorts its particles
+/// Elements near one particle, of the surface moved by one period of the box (or by 0).
+struct ImageElements {
+  int image;         ///< index in CandidateList::images()
   int first, count;  ///< range in CandidateList::elements()
+};
+struct Candidate {
+  int particle;                  ///< local index, valid until LIGGGHTS exchanges or sorts its particles
+  int first_image, image_count;  ///< range in CandidateList::image_elements()
+};
+
+/// The particles of one rank: n of them, their centres, and how far around these to look [length].
+struct ParticleView {
+  int n;
+  const double* const* x;
+  const double* reach;
 };
 
 class CandidateList {
  public:
-  /// Particle i (of n; x[i] its centre [length]) becomes a candidate of each element whose control-point box
-  /// is closer than radius[i] * radius_factor + skin.
-  void build(const nurbs::Space<2>& space, const nurbs::NodalVectors& control_points, int n,
-             const double* const* x, const double* radius, double radius_factor, double skin);
+  /// Boxes of the elements; control points (3 x n) in the wall's frame.
+  void set_surface(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points);
+  bool has_surface() const { return !tree_.empty(); }
+  /// Of the wall in its frame.
+  const nurbs::Box& wall_bounds() const { return tree_.bounds(); }
+
+  /// Each particle becomes a candidate of the elements whose boxes, moved by one of the images, are within
+  /// its reach.
+  void build(const coupling::RigidFrame& frame, const std::vector<nurbs::Vector3>& images,
+             const ParticleView& particles);
 
   const std::vector<Candidate>& candidates() const { return candidates_; }
-  const int* elements(const Candidate& candidate) const { return elements_.data() + candidate.first; }
+  const std::vector<nurbs::Vector3>& images() const { return images_; }  ///< in space [length]
+  const ImageElements* image_elements(const Candidate& c) const { return &image_elements_[c.first_image]; }
+  const int* elements(const ImageElements& e) const { return elements_.data() + e.first; }
 
-  /// Largest distance that any control point has moved since build; bounds the motion of the whole surface,
-  /// because a surface point is a convex combination of control points [length].
-  double motion_since_build(const nurbs::NodalVectors& control_points) const;
-  const nurbs::Box& wall_bounds() const { return tree_.bounds(); }
+  /// Largest distance that any point of the surface has moved since build, at most: a surface point is a
+  /// convex combination of control points [length].
+  double motion_since_build(const nurbs::NodalVectors& control_points, bool deforms,
+                            const coupling::RigidFrame& frame) const;
 
  private:
   std::vector<Candidate> candidates_;
+  std::vector<ImageElements> image_elements_;
   std::vector<int> elements_;
-  std::vector<nurbs::Box> boxes_;
+  std::vector<nurbs::Vector3> images_;
+  std::vector<nurbs::Box> boxes_, patch_boxes_;
   nurbs::BoxTree tree_;
   nurbs::NodalVectors control_points_at_build_;
+  coupling::RigidFrame frame_at_build_;
 };
 
 }  // namespace liggghts_pkg

@@ -17,11 +17,12 @@ FixStyle(wall/nurbs,FixWallNurbs)
 #include <vector>
 
 #include "candidate_list.h"
-#include "contact_slot.h"
+#include "contact_memory.h"
+#include "contact_tracker.h"
 #include "coupling/surface_exchange.h"
 #include "fix_wall_gran.h"
 #include "local_search.h"
-#include "nurbs/closest_point.h"
+#include "run_alarm.h"
 #include "wall_nurbs_setup.h"
 
 namespace LAMMPS_NS {
@@ -58,44 +59,80 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
     double torque[3];  // on the wall, about the origin
     double contacts;
     double overlap;  // largest; 0 without contact
+    double power;    // that the wall gives to the particles
   };
-  static const int kTotalColumns = 8;
+  static const int kTotalColumns = 8;  // of them, the first in the vector; power is the last
   static const int kStructureColumns = 9;
 
+  /// One row of the local array.
+  struct LocalRow {
+    double tag, patch, xi[2];
+    double point[3];  // foot
+    double force[3];  // on the wall
+    double overlap;
+  };
+  static const int kLocalColumns = 11;
+
+  // fix_wall_nurbs.cpp
+  void weld_across_periodic_faces();
+  void import_surface();
   void build_candidates();
   void forget_lost_contacts();
-  void import_surface();
-  liggghts_pkg::ContactSlot slot(int particle);
-  nurbs::Projection project(const liggghts_pkg::Candidate& candidate);
-  bool inside_body(const nurbs::Projection& foot, const double* centre) const;
-  void apply_contact(int particle, const nurbs::Projection& foot, double gap);
+  void find_slots();
+  liggghts_pkg::ContactMemory memory(int particle);
+  double touch_reach(int particle) const;
+  void check_images(const std::vector<nurbs::Vector3>& images) const;
+
+  // fix_wall_nurbs_contact.cpp
+  void resolve_contacts(int candidate);
+  nurbs::Vector3 wall_velocity(const nurbs::SurfaceFoot& foot, const nurbs::Vector3& point,
+                               const nurbs::Vector3& normal) const;
+  void apply_contact(int particle, liggghts_pkg::TrackedFoot& tracked, const nurbs::Vector3& delta);
+  void call_contact_model(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta,
+                          liggghts_pkg::ContactSlot slot, nurbs::Vector3 v_wall);
+  void take_slot(int particle, liggghts_pkg::TrackedFoot& tracked, const liggghts_pkg::ContactMemory& memory);
+  double effective_radius(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
+  bool inside_body(const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
+  void check_crossing(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta);
+
+  // fix_wall_nurbs_output.cpp
   const Totals& totals_of_all_ranks();
   double structure_column(int column) const;
-  [[noreturn]] void fail(const std::string& message) const;
+  void publish_local_rows();
+
+  [[noreturn]] void fail(const std::string& message) const;  // collective
+  [[noreturn]] void fail_on_this_rank(const std::string& message) const;
   void warn(const std::string& message) const;
   void print(const std::string& message) const;
 
   coupling::StructureSolver& structure_;
   coupling::SurfaceExchange exchange_;
-  nurbs::SurfaceProjector projector_;  // of the imported control points
+  nurbs::MultiPatch surface_;             // of the structure; welded across periodic faces, too
+  nurbs::MultiPatchProjector projector_;  // of the imported control points, as is what follows
+  nurbs::Regularity regularity_;
   liggghts_pkg::CandidateList candidates_;
   liggghts_pkg::LocalSearch search_;
+  liggghts_pkg::ContactTracker tracker_;
+  coupling::RigidFrame frame_;   // of these control points
+  double surface_motion_ = 0.0;  // of a deforming wall since the list was built
+  bool surface_imported_ = false;
   bool rebuild_candidates_ = true;
-  bool search_cold_ = true;  // the next projections must look at all candidate elements
   bool late_surface_;  // for tests alone: contact sees the surface one step late, which must show as first
                        // order
 
-  class FixPropertyAtom* fix_memory_ = nullptr;  // one ContactSlot per particle
+  std::vector<class FixPropertyAtom*> fix_slots_;  // the particles' contact memory
+  std::vector<double**> slots_;                    // their rows
   std::vector<bool> is_candidate_;
+  std::vector<double> list_reach_;  // per particle, when the list was built
 
   std::vector<coupling::ContactForce> contacts_;  // of this rank's particles, this step
+  std::vector<LocalRow> local_rows_;              // the same, for dump local
+  std::vector<double*> local_pointers_;
   const coupling::NodalVectors* nodal_forces_ = nullptr;
+  coupling::NodalVectors no_forces_;
   Totals totals_, all_totals_;
   bool totals_are_summed_ = false;
-
-  // counted over one run, reported after it
-  long inside_steps_ = 0;
-  int inside_tag_ = 0;
+  liggghts_pkg::RunAlarm inside_, crossing_;
 };
 
 }  // namespace LAMMPS_NS

@@ -7,45 +7,37 @@
 
 namespace liggghts_pkg {
 
-using nurbs::Projection;
 using nurbs::ProjectionStatus;
+using nurbs::SurfaceFoot;
+using nurbs::SurfacePoint;
+using nurbs::Vector3;
 
-namespace {
-
-Projection warm_newton(const FootQuery& q) { return q.projector.warm(q.centre, *q.guess); }
-
-Projection cold_newton(const FootQuery& q) {
-  return q.projector.cold_on(q.centre, q.elements, q.element_count);
-}
-
-Projection simplex_brent(const FootQuery& q) {
-  if (q.guess) return nurbs::closest_point_simplex_brent(q.space, q.control_points, q.centre, *q.guess, true);
-  return nurbs::closest_point_simplex_brent_on_elements(q.space, q.control_points, q.centre, q.elements,
-                                                        q.element_count);
-}
-
-}  // namespace
-
-Projection LocalSearch::project(const FootQuery& query) {
-  bool cold = query.guess == nullptr, found = false;
-  Projection foot;
+SurfaceFoot LocalSearch::follow(const Vector3& centre, const SurfacePoint& from, const Vector3& image) {
+  SurfaceFoot foot;
+  foot.status = ProjectionStatus::not_converged;
   if (method_ == SearchMethod::simplex_brent) {
-    foot = simplex_brent(query);
-    found = foot.status == ProjectionStatus::interior;
-    if (!found) ++counts_.fallbacks;
+    const nurbs::SurfaceProjector& patch = projector_.patch(from.patch);
+    const nurbs::Projection p = nurbs::closest_point_simplex_brent(patch.space(), patch.control_points(),
+                                                                   centre - image, from.xi, true);
+    foot = {{from.patch, p.xi}, image, p.foot + image, p.distance, p.status, p.iterations};
+    if (foot.status != ProjectionStatus::interior) ++counts_.fallbacks;
   }
-  if (!found && query.guess) {
-    foot = warm_newton(query);
-    // On an edge of the patch the surface may go on: a closed one begins again beyond its seam.
-    found = foot.status == ProjectionStatus::interior;
-    if (!found) cold = true;
-  }
-  if (!found) foot = cold_newton(query);
+  if (foot.status != ProjectionStatus::interior) foot = projector_.follow(centre, from, image);
+  count(foot);
+  return foot;
+}
 
+void LocalSearch::add_minima(const Vector3& centre, const Vector3& image, double reach, double same_foot,
+                             const int* elements, int count_of_elements, std::vector<SurfaceFoot>& out) {
+  const size_t before = out.size();
+  projector_.add_minima(centre, image, reach, same_foot, elements, count_of_elements, out);
+  counts_.cold += static_cast<long>(out.size() - before);
+  for (size_t k = before; k < out.size(); ++k) count(out[k]);
+}
+
+void LocalSearch::count(const SurfaceFoot& foot) {
   ++counts_.by_status[static_cast<int>(foot.status)];
   counts_.iterations += foot.iterations;
-  if (cold) ++counts_.cold;
-  return foot;
 }
 
 LocalSearch::Counts sum(const LocalSearch::Counts& counts, MPI_Comm world) {

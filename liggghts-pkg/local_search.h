@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Local search: the foot of a particle's centre on the surface, by the method the deck asks for, and what
-// the searches of one run came to.
+// Local search: the feet of a particle's centre on the surface, by the method the deck asks for, and what the
+// searches of one run came to.
 #pragma once
 
 #include <mpi.h>
 
 #include <string>
 
-#include "nurbs/surface_projector.h"
+#include "nurbs/multi_patch_projector.h"
 
 namespace liggghts_pkg {
 
@@ -16,29 +16,25 @@ enum class SearchMethod {
   simplex_brent  ///< the paper's (nurbs/simplex_brent.h); Newton where the foot it finds is not interior
 };
 
-/// What to look for.
-struct FootQuery {
-  const nurbs::Space<2>& space;
-  const nurbs::NodalVectors& control_points;  ///< 3 x n [length]
-  const nurbs::SurfaceProjector& projector;   ///< of the same control points
-  nurbs::Vector3 centre;                      ///< of the particle [length]
-  const int* elements;                        ///< candidates, element_count of them
-  int element_count;
-  const nurbs::Parameter<2>* guess;  ///< the last foot; null: search all candidates (cold)
-};
-
 class LocalSearch {
  public:
-  explicit LocalSearch(SearchMethod method) : method_(method) {}
+  /// Keeps a reference to `projector`.
+  LocalSearch(SearchMethod method, const nurbs::MultiPatchProjector& projector)
+      : method_(method), projector_(projector) {}
 
-  /// The foot reached from the guess, or, without one or where it leads nowhere, the nearest on the
-  /// candidates.
-  nurbs::Projection project(const FootQuery& query);
+  /// The foot that a branch has come to: the local minimum reached from a point of the surface moved by
+  /// `image`.
+  nurbs::SurfaceFoot follow(const nurbs::Vector3& centre, const nurbs::SurfacePoint& from,
+                            const nurbs::Vector3& image);
+  /// All feet nearer than `reach` on candidate elements, as MultiPatchProjector::add_minima.
+  void add_minima(const nurbs::Vector3& centre, const nurbs::Vector3& image, double reach, double same_foot,
+                  const int* elements, int count, std::vector<nurbs::SurfaceFoot>& out);
+  const nurbs::MultiPatchProjector& projector() const { return projector_; }
 
-  /// Projections since the last reset, on this rank.
+  /// Feet found since the last reset, on this rank.
   struct Counts {
     long by_status[4];  ///< in the order of nurbs::ProjectionStatus
-    long cold;          ///< searched on all candidates
+    long cold;          ///< found by a search of all candidates
     long fallbacks;     ///< simplex_brent found no interior foot
     long iterations;    ///< of the methods that found the feet, all together
 
@@ -48,7 +44,10 @@ class LocalSearch {
   void reset() { counts_ = Counts(); }
 
  private:
+  void count(const nurbs::SurfaceFoot& foot);
+
   SearchMethod method_;
+  const nurbs::MultiPatchProjector& projector_;
   Counts counts_{};
 };
 

@@ -8,7 +8,6 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "domain.h"
 #include "fix_property_global.h"
 #include "modify.h"
 #include "update.h"
@@ -44,20 +43,6 @@ void check_wall_material(LAMMPS_NS::Modify& modify, int wall_type,
   if (!material) return;
   check_property(modify, "youngsModulus", wall_type, material->youngs_modulus, file);
   check_property(modify, "poissonsRatio", wall_type, material->poissons_ratio, file);
-}
-
-std::string periodic_directions_left(const LAMMPS_NS::Domain& domain,
-                                     const coupling::NodalVectors& control_points) {
-  const int periodic[3] = {domain.xperiodic, domain.yperiodic, domain.zperiodic};
-  std::string directions;
-  for (int d = 0; d < 3; ++d) {
-    const auto x = control_points.row(d);
-    const double tolerance = 1e-9 * (domain.boxhi[d] - domain.boxlo[d]);
-    const bool outside =
-        x.minCoeff() < domain.boxlo[d] - tolerance || x.maxCoeff() > domain.boxhi[d] + tolerance;
-    if (periodic[d] && outside) directions += fmt::format("{}{}", directions.empty() ? "" : ", ", "xyz"[d]);
-  }
-  return directions;
 }
 
 }  // namespace liggghts_pkg

@@ -9,7 +9,6 @@
 #include "coupling/structure_solver.h"
 
 namespace LAMMPS_NS {
-class Domain;
 class Modify;
 class Update;
 }  // namespace LAMMPS_NS
@@ -23,9 +22,5 @@ void check_run_style(const LAMMPS_NS::Update& update);
 /// where the deck defines them and there is a solid.
 void check_wall_material(LAMMPS_NS::Modify& modify, int wall_type,
                          const std::optional<coupling::SurfaceMaterial>& material, const std::string& file);
-
-/// Periodic directions in which control points (3 x n) lie outside the box, as "x", "x, z", ...; else "".
-std::string periodic_directions_left(const LAMMPS_NS::Domain& domain,
-                                     const coupling::NodalVectors& control_points);
 
 }  // namespace liggghts_pkg

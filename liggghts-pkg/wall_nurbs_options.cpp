@@ -15,8 +15,8 @@ namespace liggghts_pkg {
 
 namespace {
 
-const std::vector<std::string> kKeywords = {"type",     "structure",   "geometry", "surface",
-                                            "material", "store_force", "search"};
+const std::vector<std::string> kKeywords = {"type",        "structure", "geometry", "surface", "material",
+                                            "store_force", "search",    "contacts", "rstar",   "temperature"};
 const std::vector<std::string> kModelKeywords = {"model", "tangential", "cohesion", "rolling_friction"};
 
 [[noreturn]] void fail(const std::string& message) { throw std::invalid_argument(message); }
@@ -52,12 +52,21 @@ class Reader {
   std::size_t next_;
 };
 
-int parse_type(const std::string& word) {
-  int type = 0;
-  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), type);
-  if (problem != std::errc() || end != word.data() + word.size() || type < 1)
-    fail(fmt::format("type is '{}', expected the number of an atom type, 1 or more", word));
-  return type;
+// A whole number, 1 or more.
+int parse_count(const std::string& keyword, const std::string& word, const char* expected) {
+  int number = 0;
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
+  if (problem != std::errc() || end != word.data() + word.size() || number < 1)
+    fail(fmt::format("{} is '{}', expected {}, 1 or more", keyword, word, expected));
+  return number;
+}
+
+std::string check_temperature(const std::string& word) {
+  double kelvin = 0.0;
+  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), kelvin);
+  if (problem != std::errc() || end != word.data() + word.size() || !(kelvin >= 0.0))
+    fail(fmt::format("temperature is '{}', expected a number, 0 or more", word));
+  return word;
 }
 
 [[noreturn]] void fail_unknown(const std::string& word) {
@@ -101,7 +110,8 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words) {
     seen.push_back(keyword);
 
     if (keyword == "type") {
-      options.atom_type = parse_type(reader.value(keyword, "an atom type"));
+      options.atom_type =
+          parse_count(keyword, reader.value(keyword, "an atom type"), "the number of an atom type");
     } else if (keyword == "structure" || keyword == "geometry") {
       if (!options.file.empty()) fail("both 'structure' and 'geometry' are given, expected one of them");
       options.body = keyword == "structure" ? WallNurbsOptions::Body::iga : WallNurbsOptions::Body::rigid;
@@ -117,6 +127,13 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words) {
       options.search = reader.value_of(keyword, {"newton", "simplex_brent"}) == "newton"
                            ? SearchMethod::newton
                            : SearchMethod::simplex_brent;
+    } else if (keyword == "contacts") {
+      options.slots = parse_count(keyword, reader.value(keyword, "a number"),
+                                  "how many contacts one particle may have with the wall");
+    } else if (keyword == "rstar") {
+      options.curvature_radius = reader.value_of(keyword, {"particle", "curvature"}) == "curvature";
+    } else if (keyword == "temperature") {
+      options.temperature = check_temperature(reader.value(keyword, "a number"));
     } else if (reader.value_is_switch()) {
       options.setting_words.push_back(keyword);
       options.setting_words.push_back(reader.keyword());

@@ -21,6 +21,9 @@ struct WallNurbsOptions {
   bool material_independent = false;  ///< the deck's E and nu may differ from the model file's
   bool store_force = false;
   SearchMethod search = SearchMethod::newton;
+  int slots = 4;                  ///< contacts that one particle may have at a time
+  bool curvature_radius = false;  ///< the effective radius takes the wall's curvature into account
+  std::string temperature;        ///< of the wall, as LIGGGHTS reads it; empty: no heat transfer
 };
 
 /// Parses the words after `wall/nurbs`.  Throws std::invalid_argument: what was given, what was expected.

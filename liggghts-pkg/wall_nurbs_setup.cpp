@@ -28,6 +28,7 @@ std::vector<std::string> stock_command_line(char** arg, const liggghts_pkg::Wall
         std::string("zplane"), std::string("0.")})
     words.push_back(word);
   if (options.store_force) words.insert(words.end(), {"store_force", "yes"});
+  if (!options.temperature.empty()) words.insert(words.end(), {"temperature", options.temperature});
   words.insert(words.end(), options.setting_words.begin(), options.setting_words.end());
   return words;
 }

@@ -79,9 +79,9 @@ class Edge {
   const KnotVector* knots_;
 };
 
-bool ends_meet(const Edge& a, const Edge& b, bool reversed, double tolerance) {
-  return (a.end(false) - b.end(reversed)).norm() <= tolerance &&
-         (a.end(true) - b.end(!reversed)).norm() <= tolerance;
+bool ends_meet(const Edge& a, const Edge& b, const Vector3& translation, bool reversed, double tolerance) {
+  return (a.end(false) - b.end(reversed) - translation).norm() <= tolerance &&
+         (a.end(true) - b.end(!reversed) - translation).norm() <= tolerance;
 }
 
 // Breaks of both edges in the parameter of the first.
@@ -100,9 +100,9 @@ struct PointPair {
 
 // Points of both edges, or nothing where the edges part.  Between two knots, rational curves of degrees p and
 // q are the same if they meet in p + q + 1 points: their difference times the denominators has degree p + q.
-std::optional<std::vector<PointPair>> common_points(const Edge& a, const Edge& b, bool reversed,
-                                                    double tolerance) {
-  if (!ends_meet(a, b, reversed, tolerance)) return std::nullopt;
+std::optional<std::vector<PointPair>> common_points(const Edge& a, const Edge& b, const Vector3& translation,
+                                                    bool reversed, double tolerance) {
+  if (!ends_meet(a, b, translation, reversed, tolerance)) return std::nullopt;
   const auto mirrored = [reversed](double t) { return reversed ? 1.0 - t : t; };
   const std::vector<double> breaks = common_breaks(a, b, reversed);
   const int intervals = a.degree() + b.degree();
@@ -112,7 +112,7 @@ std::optional<std::vector<PointPair>> common_points(const Edge& a, const Edge& b
     for (int i = 0; i <= intervals; ++i) {
       const double t = breaks[e] + (breaks[e + 1] - breaks[e]) * i / intervals;
       points.push_back({a.at(t, middle), b.at(mirrored(t), mirrored(middle))});
-      if ((points.back().a.S - points.back().b.S).norm() > tolerance) return std::nullopt;
+      if ((points.back().a.S - points.back().b.S - translation).norm() > tolerance) return std::nullopt;
     }
   }
   return points;
@@ -161,11 +161,12 @@ double diagonal(const std::vector<Surface>& patches) {
 }
 
 std::optional<Border> weld(const Edge& a, int side, const Edge& b, int other_patch, int other_side,
-                           double tolerance) {
+                           const Vector3& translation, double tolerance) {
   for (const bool reversed : {false, true}) {
-    const auto points = common_points(a, b, reversed, tolerance);
+    const auto points = common_points(a, b, translation, reversed, tolerance);
     if (!points) continue;
     Border border{Border::welded, other_patch, other_side, reversed};
+    border.translation = translation;
     border.max_angle = largest_angle(*points, same_orientation(side, border));
     border.max_jump = largest_jump(*points);
     return border;
@@ -186,15 +187,17 @@ bool same_orientation(int side, const Border& border) {
   return (on_the_left(side) == on_the_left(border.side)) == border.reversed;
 }
 
-std::vector<std::array<Border, kSideCount>> find_borders(const std::vector<Surface>& patches,
-                                                         double relative_tolerance) {
+Borders find_borders(const std::vector<Surface>& patches, double relative_tolerance,
+                     const std::vector<Vector3>& periods) {
+  std::vector<Vector3> translations = {Vector3::Zero()};
+  for (const Vector3& period : periods) translations.insert(translations.end(), {period, -period});
   const double tolerance = relative_tolerance * diagonal(patches);
   const int edge_count = kSideCount * static_cast<int>(patches.size());
   std::vector<Edge> edges;
   for (const Surface& patch : patches)
     for (int side = 0; side < kSideCount; ++side) edges.emplace_back(patch, side);
 
-  std::vector<std::array<Border, kSideCount>> borders(patches.size());
+  Borders borders(patches.size());
   const auto border_of = [&](int edge) -> Border& { return borders[edge / kSideCount][edge % kSideCount]; };
   for (int e = 0; e < edge_count; ++e)
     if (edges[e].is_pole(tolerance)) border_of(e).kind = Border::pole;
@@ -203,8 +206,11 @@ std::vector<std::array<Border, kSideCount>> find_borders(const std::vector<Surfa
   for (int e = 0; e < edge_count; ++e)
     for (int f = e + 1; f < edge_count; ++f) {
       if (border_of(e).kind == Border::pole || border_of(f).kind == Border::pole) continue;
-      const auto border = weld(edges[e], e % kSideCount, edges[f], f / kSideCount, f % kSideCount, tolerance);
-      if (border) matches.push_back({e / kSideCount, e % kSideCount, *border});
+      for (const Vector3& t : translations) {
+        const auto border =
+            weld(edges[e], e % kSideCount, edges[f], f / kSideCount, f % kSideCount, t, tolerance);
+        if (border) matches.push_back({e / kSideCount, e % kSideCount, *border});
+      }
     }
   std::stable_sort(matches.begin(), matches.end(),
                    [](const Match& a, const Match& b) { return a.border.max_angle < b.border.max_angle; });
@@ -215,6 +221,7 @@ std::vector<std::array<Border, kSideCount>> find_borders(const std::vector<Surfa
     here = there = match.border;
     there.patch = match.patch;
     there.side = match.side;
+    there.translation = -there.translation;
   }
   return borders;
 }

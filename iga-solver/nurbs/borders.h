@@ -24,14 +24,18 @@ struct Border {
   /// Welded: largest difference between the derivatives across the border, relative to the derivative, after
   /// the best constant factor between the two parametrisations; 0 is C1.
   double max_jump = 0.0;
+  /// Welded: the neighbour's edge moved by this is the patch's own; not zero across periodic faces [length].
+  Vector3 translation = Vector3::Zero();
 };
 
 /// Borders [patch][side].  Two edges weld if they are one curve with one parametrisation, up to an affine map
 /// and its direction (degrees and knots may differ); an edge that is one point is a pole.  Both within
 /// relative_tolerance times the diagonal of the box of all control points.  Where more than two edges share a
 /// curve, the smoothest pair welds and the others stay free.  Normals are skipped where they vanish (poles).
-std::vector<std::array<Border, kSideCount>> find_borders(const std::vector<Surface>& patches,
-                                                         double relative_tolerance = 1e-9);
+/// `periods`: translations that leave the surroundings as they are; edges also weld to edges moved by one.
+using Borders = std::vector<std::array<Border, kSideCount>>;
+Borders find_borders(const std::vector<Surface>& patches, double relative_tolerance = 1e-9,
+                     const std::vector<Vector3>& periods = {});
 
 /// Whether dS/dxi x dS/deta lies on the same side of both patches beyond the border of `side`.  max_angle
 /// counts from the neighbour's normal turned to the same side.

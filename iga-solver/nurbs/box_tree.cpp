@@ -12,7 +12,7 @@ constexpr int kMaxDepth = 64;  // halving a range of ints reaches the leaves aft
 
 }  // namespace
 
-Box element_box(const Space<2>& space, const NodalVectors& control_points, int element) {
+Box element_box(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points, int element) {
   int indices[power(kMaxDegree + 1, 2)];
   space.element_control_points(element, indices);
   Box box{control_points.col(indices[0]), control_points.col(indices[0])};
@@ -23,7 +23,8 @@ Box element_box(const Space<2>& space, const NodalVectors& control_points, int e
   return box;
 }
 
-void element_boxes(const Space<2>& space, const NodalVectors& control_points, std::vector<Box>& out) {
+void element_boxes(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points,
+                   std::vector<Box>& out) {
   out.resize(space.element_count());
   for (int e = 0; e < space.element_count(); ++e) out[e] = element_box(space, control_points, e);
 }

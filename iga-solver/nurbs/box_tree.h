@@ -24,9 +24,10 @@ struct Box {
 };
 
 /// Box of the control points of one element.
-Box element_box(const Space<2>& space, const NodalVectors& control_points, int element);
+Box element_box(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points, int element);
 /// Boxes of all elements, in element order; `out` is reused.
-void element_boxes(const Space<2>& space, const NodalVectors& control_points, std::vector<Box>& out);
+void element_boxes(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points,
+                   std::vector<Box>& out);
 
 /// Bounding-volume hierarchy over boxes: built in O(n log n), queried in O(log n + hits).
 class BoxTree {

@@ -14,7 +14,7 @@ namespace nurbs {
 class ElementStore {
  public:
   explicit ElementStore(const Space<2>& space);
-  void set_control_points(const NodalVectors& control_points) {
+  void set_control_points(const Eigen::Ref<const NodalVectors>& control_points) {
     control_points_ = control_points;
     ++version_;
   }

@@ -40,8 +40,11 @@ struct SurfaceProjector::Search {
       best = foot;
       bound2 = foot.distance * foot.distance * (1.0 - kTie);
     } else if (foot.distance * foot.distance < bound2) {
-      for (const Projection& other : *all)
-        if ((other.foot - foot.foot).norm() <= same_foot) return;
+      for (Projection& other : *all)
+        if ((other.foot - foot.foot).norm() <= same_foot) {
+          if (foot.status < other.status) other = foot;  // of a closed surface: its seam is no edge there
+          return;
+        }
       all->push_back(foot);
     }
   }
@@ -79,7 +82,7 @@ int SurfaceProjector::add_node(const Indices<2>& begin, const Indices<2>& end) {
   return node;
 }
 
-void SurfaceProjector::set_control_points(const NodalVectors& control_points) {
+void SurfaceProjector::set_control_points(const Eigen::Ref<const NodalVectors>& control_points) {
   if (control_points.cols() != space_.control_point_count())
     throw std::invalid_argument(fmt::format("{} control points given, expected {}", control_points.cols(),
                                             space_.control_point_count()));
@@ -214,12 +217,27 @@ Projection SurfaceProjector::cold_on(const Vector3& d, const int* elements, int 
 }
 
 void SurfaceProjector::all_minima(const Vector3& d, double reach, std::vector<Projection>& out) const {
+  collect(d, reach, out, [this](Search& search) { visit(0, search); });
+}
+
+void SurfaceProjector::all_minima_on(const Vector3& d, double reach, const int* elements, int count,
+                                     std::vector<Projection>& out) const {
+  collect(d, reach, out, [&](Search& search) {
+    for (int k = 0; k < count; ++k)
+      if (nodes_[leaf_[elements[k]]].box.squared_distance(d) < search.bound2)
+        examine_element(elements[k], search);
+  });
+}
+
+template <class Examine>
+void SurfaceProjector::collect(const Vector3& d, double reach, std::vector<Projection>& out,
+                               Examine examine) const {
   refit();
   out.clear();
-  const Box& bounds = nodes_[0].box;
   if (!d.allFinite()) return;
+  const Box& bounds = nodes_[0].box;
   Search search{d, {}, &out, reach * reach, kSameFoot * (bounds.high - bounds.low).norm()};
-  visit(0, search);
+  examine(search);
   std::sort(out.begin(), out.end(),
             [](const Projection& a, const Projection& b) { return a.distance < b.distance; });
 }

@@ -33,7 +33,7 @@ class SurfaceProjector {
 
   /// New coordinates (3 x n, copied).  Throws std::invalid_argument unless there is one column per control
   /// point.
-  void set_control_points(const NodalVectors& control_points);
+  void set_control_points(const Eigen::Ref<const NodalVectors>& control_points);
 
   /// Local minimum reached from `guess`; no allocation.
   Projection warm(const Vector3& d, const Parameter<2>& guess) const;
@@ -46,6 +46,13 @@ class SurfaceProjector {
   Projection cold_on(const Vector3& d, const int* elements, int count) const;
   /// All local minima nearer than `reach`, each once, nearest first.
   void all_minima(const Vector3& d, double reach, std::vector<Projection>& out) const;
+  /// Those of them that lie on candidate elements, as above.
+  void all_minima_on(const Vector3& d, double reach, const int* elements, int count,
+                     std::vector<Projection>& out) const;
+
+  const Space<2>& space() const { return space_; }
+  /// Those given last.
+  const NodalVectors& control_points() const { return elements_.control_points(); }
 
  private:
   struct Node {
@@ -62,6 +69,8 @@ class SurfaceProjector {
   LocalPoint local(const Parameter<2>& xi) const;
   Projection projection(const Vector3& d, const DescentResult& found) const;
   Projection from(const Vector3& d, const LocalPoint& start) const;
+  template <class Examine>
+  void collect(const Vector3& d, double reach, std::vector<Projection>& out, Examine examine) const;
   void visit(int node, Search& search) const;
   void examine_element(int element, Search& search) const;
   void examine(const DistancePolynomial& F, Search& search) const;

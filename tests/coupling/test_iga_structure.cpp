@@ -21,7 +21,7 @@ coupling::IgaStructure block() {
   nurbs::Volume patch = nurbs::box({-3e-3, -3e-3, -3e-3}, {6e-3, 6e-3, 3e-3}, {knots(6), knots(6), knots(3)});
   auto steel = std::make_shared<structure::LinearElastic>(210.6e9, 0.286, 7850.0);
   coupling::IgaStructure solver(structure::ExplicitSolver({std::move(patch), steel}, {}),
-                                nurbs::Face::zeta_plus);
+                                {nurbs::Face::zeta_plus});
   solver.set_time_step(kStep);
   return solver;
 }
@@ -29,8 +29,8 @@ coupling::IgaStructure block() {
 /// Nodal forces of a point force F at parameters xi of the surface.
 NodalVectors nodal_forces(const coupling::IgaStructure& solver, const nurbs::Parameter<2>& xi,
                           const Vector3& F) {
-  NodalVectors on_surface = NodalVectors::Zero(3, solver.surface().space.control_point_count());
-  coupling::FootBasis(solver.surface().space, xi).distribute(F, on_surface);
+  NodalVectors on_surface = NodalVectors::Zero(3, solver.surface().topology.control_point_count());
+  coupling::FootBasis(solver.surface().topology, {0, xi}).distribute(F, on_surface);
   NodalVectors on_nodes = NodalVectors::Zero(3, solver.positions().cols());
   solver.surface().map.add_to_nodes(on_surface, on_nodes);
   return on_nodes;
@@ -41,7 +41,7 @@ TEST(IgaStructure, SurfaceIsTheTopOfTheBlock) {
   NodalVectors x;
   solver.surface().map.to_surface(solver.positions(), x);
   EXPECT_NEAR(x.row(2).cwiseAbs().maxCoeff(), 0.0, 1e-18);
-  EXPECT_EQ(solver.surface().outward_sign, 1) << "xi x eta of the top points out";
+  EXPECT_EQ(solver.surface().outward_sign, std::vector<int>{1}) << "xi x eta of the top points out";
 }
 
 TEST(IgaStructure, MomentumIsForceTimesTime) {

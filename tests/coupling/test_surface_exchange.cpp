@@ -34,13 +34,14 @@ ContactForce contact(long tag) {
   const double t = static_cast<double>(tag);
   return {tag,
           0,
+          0,
           {std::fmod(0.37 * t, 1.0), std::fmod(0.73 * t, 1.0)},
           {std::sin(t), std::cos(3 * t), std::pow(10.0, tag % 7) * (1.0 + 0.1 * t)}};
 }
 
 TEST(SurfaceExchange, ForcesAreBitwiseTheSameOnAnyNumberOfRanks) {
   const Ranks ranks;
-  coupling::RigidSurface rigid(test::wavy_surface());
+  coupling::RigidSurface rigid({test::wavy_surface()});
   coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
   const int particles = 200;
 
@@ -49,7 +50,8 @@ TEST(SurfaceExchange, ForcesAreBitwiseTheSameOnAnyNumberOfRanks) {
   Vector3 total = Vector3::Zero();
   for (long tag = 1; tag <= particles; ++tag) {
     const ContactForce c = contact(tag);
-    coupling::FootBasis(rigid.surface().space, {c.xi[0], c.xi[1]}).distribute(Vector3::Map(c.F), expected);
+    coupling::FootBasis(rigid.surface().topology, {0, {c.xi[0], c.xi[1]}})
+        .distribute(Vector3::Map(c.F), expected);
     total += Vector3::Map(c.F);
   }
 
@@ -63,7 +65,7 @@ TEST(SurfaceExchange, ForcesAreBitwiseTheSameOnAnyNumberOfRanks) {
 
 TEST(SurfaceExchange, RanksWithoutContactsTakePart) {
   const Ranks ranks;
-  coupling::RigidSurface rigid(test::wavy_surface());
+  coupling::RigidSurface rigid({test::wavy_surface()});
   coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
   std::vector<ContactForce> mine;
   if (ranks.me == ranks.count - 1) mine.push_back(contact(3));
@@ -73,7 +75,7 @@ TEST(SurfaceExchange, RanksWithoutContactsTakePart) {
 
 TEST(SurfaceExchange, ImportBringsTheControlPoints) {
   const nurbs::Surface surface = test::wavy_surface();
-  coupling::RigidSurface rigid(surface);
+  coupling::RigidSurface rigid({surface});
   const coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
   EXPECT_EQ(exchange.positions(), surface.control_points);
   EXPECT_EQ(exchange.velocities().cwiseAbs().maxCoeff(), 0.0);

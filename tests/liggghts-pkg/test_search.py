@@ -7,6 +7,7 @@ import unittest
 
 import ball_on_block as bob
 import decks
+import numpy as np
 
 FILES = {"block.yaml": bob.block()}
 STEPS = 2300
@@ -49,7 +50,9 @@ class Search(unittest.TestCase):
             with self.subTest(search=search):
                 (n,) = counts(run.text)
                 print(f"{search}: {n}")
-                self.assertEqual(n["projections"], STEPS + 1, "one ball: one a step and one in the set-up")
+                near = np.count_nonzero(newton.table["fz"])
+                self.assertLessEqual(n["projections"], STEPS + 1, "one ball: one a step and one in the set-up")
+                self.assertGreaterEqual(n["projections"], near, "and none where the ball cannot have come near")
                 self.assertEqual(n["interior"], n["projections"])
                 self.assertEqual(n["fallbacks"], 0)
                 self.assertGreaterEqual(n["cold"], 1)
@@ -60,7 +63,7 @@ class Search(unittest.TestCase):
         default, newton = (decks.good(bounce(search), files=FILES) for search in ("", "search newton"))
         self.assertEqual(counts(default.text), counts(newton.text))
 
-    def test_feet_beyond_the_edge_fall_back_and_are_counted(self):
+    def test_feet_beyond_the_edge_are_searched_in_full_and_counted(self):
         outside = 2.1e-3  # the block ends at 2e-3
         newton, paper = (
             decks.good(bounce(f"search {word}", x=outside), files=FILES) for word in ("newton", "simplex_brent")
@@ -68,10 +71,10 @@ class Search(unittest.TestCase):
         self.assertGreater(newton.table["fz"].max(), 0.1)
         for column, reference in newton.table.items():
             self.assertLessEqual(abs(paper.table[column] - reference).max(), 1e-9 * max(abs(reference).max(), 1e-12))
-        (n,) = counts(paper.text)
-        self.assertEqual(n["edge"], n["projections"])
-        self.assertEqual(n["fallbacks"], n["projections"])
-        self.assertEqual(counts(newton.text)[0]["fallbacks"], 0)
+        for run in (newton, paper):
+            (n,) = counts(run.text)
+            self.assertEqual(n["edge"], n["projections"])
+            self.assertEqual(n["cold"], n["projections"], "eqs. 27-28 of the paper do not describe edges")
 
     def test_counts_are_of_one_run_and_of_all_ranks(self):
         balls = ((-1e-3, 0.0, bob.RADIUS), (1e-3, 0.0, bob.RADIUS))  # one on each rank

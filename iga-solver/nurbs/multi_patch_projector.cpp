@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "nurbs/multi_patch_projector.h"
+
+#include <algorithm>
+
+namespace nurbs {
+namespace {
+
+SurfaceFoot on_surface(int patch, const Vector3& image, const Projection& p) {
+  return {{patch, p.xi}, image, p.foot + image, p.distance, p.status, p.iterations};
+}
+
+}  // namespace
+
+MultiPatchProjector::MultiPatchProjector(const MultiPatch& surface) : surface_(surface) {
+  for (int p = 0; p < surface.patch_count(); ++p)
+    patches_.push_back(std::make_unique<SurfaceProjector>(surface.patch(p)));
+}
+
+void MultiPatchProjector::set_control_points(const NodalVectors& control_points) {
+  for (int p = 0; p < surface_.patch_count(); ++p)
+    patches_[p]->set_control_points(surface_.control_points_of(p, control_points));
+}
+
+SurfaceFoot MultiPatchProjector::follow(const Vector3& d, const SurfacePoint& from,
+                                        const Vector3& image) const {
+  return cross_borders(d, on_surface(from.patch, image, patches_[from.patch]->warm(d - image, from.xi)));
+}
+
+SurfaceFoot MultiPatchProjector::cross_borders(const Vector3& d, SurfaceFoot foot) const {
+  constexpr int kMaxCrossings = 16;  // in one step; each leads downhill
+  SurfaceFoot beyond;
+  for (int crossing = 0; crossing < kMaxCrossings && leads_on(d, foot, beyond); ++crossing) foot = beyond;
+  return foot;
+}
+
+// Whether the distance falls beyond a welded edge on which the foot lies; then where it falls to.
+bool MultiPatchProjector::leads_on(const Vector3& d, const SurfaceFoot& foot, SurfaceFoot& beyond) const {
+  if (foot.status == ProjectionStatus::interior) return false;
+  for (int side = 0; side < kSideCount; ++side) {
+    const Border& border = surface_.border(foot.at.patch, side);
+    if (border.kind != Border::welded || !surface_.on_side(foot.at, side)) continue;
+    const SurfacePoint start = surface_.across(foot.at, side);
+    const Vector3 image = foot.image + border.translation;
+    beyond = on_surface(border.patch, image, patches_[border.patch]->warm(d - image, start.xi));
+    beyond.iterations += foot.iterations;
+    const bool left = !surface_.on_side(beyond.at, border.side);
+    if (left && beyond.distance <= foot.distance * (1.0 + 1e-14)) return true;
+  }
+  return false;
+}
+
+void MultiPatchProjector::add_minima(const Vector3& d, const Vector3& image, double reach, double same_foot,
+                                     const int* elements, int count, std::vector<SurfaceFoot>& out) const {
+  const auto known = [&](const SurfaceFoot& foot) {
+    return std::any_of(out.begin(), out.end(), [&](const SurfaceFoot& other) {
+      return (other.foot - foot.foot).squaredNorm() <= same_foot * same_foot;
+    });
+  };
+  const auto first_new = static_cast<std::ptrdiff_t>(out.size());
+  SurfaceFoot beyond;
+  for (int k = 0; k < count;) {
+    const int p = surface_.patch_of_element(elements[k]);
+    const int first = surface_.first_element(p), next = surface_.first_element(p + 1);
+    patch_elements_.clear();
+    for (; k < count && elements[k] < next; ++k) patch_elements_.push_back(elements[k] - first);
+    patches_[p]->all_minima_on(d - image, reach, patch_elements_.data(),
+                               static_cast<int>(patch_elements_.size()), found_);
+    for (const Projection& projection : found_) {
+      const SurfaceFoot foot = on_surface(p, image, projection);
+      if (!known(foot) && !leads_on(d, foot, beyond)) out.push_back(foot);
+    }
+  }
+  std::sort(out.begin() + first_new, out.end(),
+            [](const SurfaceFoot& a, const SurfaceFoot& b) { return a.distance < b.distance; });
+}
+
+}  // namespace nurbs

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Memory of a particle's contacts with the wall: one slot per contact, each a row of its own `fix
+// property/atom`, which carries it through sorting, migration between ranks and restart:
+//   [patch, xi, eta, history of LIGGGHTS' contact models ...]
+// A slot belongs to a branch, that is to one local minimum of the distance for as long as it moves without a
+// jump; the foot is where the branch was last.  Patch < 0 marks an empty slot, so a fresh row must hold -1
+// there.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "nurbs/multi_patch.h"
+
+namespace liggghts_pkg {
+
+class ContactSlot {
+ public:
+  static constexpr int kFootValues = 3;
+  static constexpr double kEmpty = -1.0;
+
+  ContactSlot(double* values, int history_count) : values_(values), history_count_(history_count) {}
+
+  bool empty() const { return values_[0] < 0.0; }
+  nurbs::SurfacePoint foot() const { return {static_cast<int>(values_[0]), {values_[1], values_[2]}}; }
+  void set_foot(const nurbs::SurfacePoint& foot) {
+    values_[0] = foot.patch;
+    values_[1] = foot.xi[0];
+    values_[2] = foot.xi[1];
+  }
+
+  /// Where the contact models keep their values (world-frame shear displacement, ...); null if they keep
+  /// none.
+  double* history() { return history_count_ > 0 ? values_ + kFootValues : nullptr; }
+  void clear() {
+    values_[0] = kEmpty;
+    std::fill_n(values_ + kFootValues, history_count_, 0.0);
+  }
+
+ private:
+  double* values_;
+  int history_count_;
+};
+
+/// All slots of one particle.
+class ContactMemory {
+ public:
+  /// slots[s][particle] is a slot's row.
+  ContactMemory(const std::vector<double**>& slots, int particle, int history_count)
+      : slots_(slots), particle_(particle), history_count_(history_count) {}
+
+  int slot_count() const { return static_cast<int>(slots_.size()); }
+  ContactSlot slot(int s) const { return {slots_[s][particle_], history_count_}; }
+  /// Index of an empty slot, -1 if there is none.
+  int empty_slot() const {
+    for (int s = 0; s < slot_count(); ++s)
+      if (slot(s).empty()) return s;
+    return -1;
+  }
+  void clear() {
+    for (int s = 0; s < slot_count(); ++s) slot(s).clear();
+  }
+
+ private:
+  const std::vector<double**>& slots_;
+  int particle_, history_count_;
+};
+
+}  // namespace liggghts_pkg

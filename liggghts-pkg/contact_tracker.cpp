@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact_tracker.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace liggghts_pkg {
+
+using nurbs::SurfaceFoot;
+using nurbs::SurfacePoint;
+using nurbs::Vector3;
+
+namespace {
+
+constexpr double kSameFoot = 1e-6;  // of the reach: feet closer than this are one contact
+
+bool same(const SurfaceFoot& a, const SurfaceFoot& b, double reach) {
+  return (a.foot - b.foot).squaredNorm() <= kSameFoot * kSameFoot * reach * reach;
+}
+
+double nearest_distance(const FeetRange& feet) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const TrackedFoot& f : feet) nearest = std::min(nearest, f.foot.distance);
+  return nearest;
+}
+
+}  // namespace
+
+void ContactTracker::list_is_new() {
+  states_.assign(candidates_.candidates().size(), State());
+  feet_.clear();
+}
+
+FeetRange ContactTracker::feet(int c, const Query& query, const ContactMemory& memory) {
+  const Candidate& candidate = candidates_.candidates()[c];
+  State& state = states_[c];
+  if (still_quiet(state, query)) return {nullptr, 0};
+
+  FeetRange feet;
+  if (state.is_new) {
+    state.is_new = false;
+    state.regular = is_regular(candidate, query);
+    find_all(candidate, query, query.list_reach, memory, all_feet_);
+    state.first = static_cast<int>(feet_.size());
+    state.count = state.regular ? static_cast<int>(all_feet_.size()) : 0;
+    if (state.regular) feet_.insert(feet_.end(), all_feet_.begin(), all_feet_.end());
+    feet = state.regular ? FeetRange{feet_.data() + state.first, state.count}
+                         : FeetRange{all_feet_.data(), static_cast<int>(all_feet_.size())};
+  } else if (state.regular) {
+    feet = {feet_.data() + state.first, state.count};
+    for (TrackedFoot& f : feet) f.foot = search_.follow(query.centre, f.foot.at, f.foot.image);
+  } else {
+    find_all(candidate, query, state.touched ? query.touch_reach : query.list_reach, memory, all_feet_);
+    feet = {all_feet_.data(), static_cast<int>(all_feet_.size())};
+  }
+
+  const double nearest = std::min(nearest_distance(feet), query.list_reach);
+  state.quiet = state.touched && !state.regular ? 0.0 : nearest - query.touch_reach;
+  state.touched = nearest < query.touch_reach;
+  state.centre = query.centre;
+  state.surface_motion = query.surface_motion;
+  return feet;
+}
+
+bool ContactTracker::still_quiet(const State& state, const Query& query) const {
+  const double allowance = state.quiet - query.surface_motion - state.surface_motion;
+  return !state.is_new && allowance > 0.0 &&
+         (query.centre - state.centre).squaredNorm() < allowance * allowance;
+}
+
+bool ContactTracker::is_regular(const Candidate& candidate, const Query& query) const {
+  const ImageElements* images = candidates_.image_elements(candidate);
+  for (int k = 0; k < candidate.image_count; ++k) {
+    const Vector3 d = query.centre - candidates_.images()[images[k].image];
+    const int* elements = candidates_.elements(images[k]);
+    for (int e = 0; e < images[k].count; ++e)
+      if (!regularity_.is_regular(d, query.list_reach, elements[e])) return false;
+  }
+  return true;
+}
+
+void ContactTracker::find_all(const Candidate& candidate, const Query& query, double reach,
+                              const ContactMemory& memory, std::vector<TrackedFoot>& out) {
+  found_.clear();
+  const ImageElements* images = candidates_.image_elements(candidate);
+  for (int k = 0; k < candidate.image_count; ++k)
+    search_.add_minima(query.centre, candidates_.images()[images[k].image], reach,
+                       kSameFoot * query.touch_reach, candidates_.elements(images[k]), images[k].count,
+                       found_);
+  out.clear();
+  for (const SurfaceFoot& foot : found_) out.push_back({foot, -1});
+  match_slots(candidate, query, memory, out.data(), static_cast<int>(out.size()));
+}
+
+// A slot goes with its branch: to the foot that is reached from where the branch was last.
+void ContactTracker::match_slots(const Candidate& candidate, const Query& query, const ContactMemory& memory,
+                                 TrackedFoot* feet, int count) {
+  for (int s = 0; s < memory.slot_count(); ++s) {
+    ContactSlot slot = memory.slot(s);
+    if (slot.empty()) continue;
+    const SurfacePoint last = slot.foot();
+    const SurfaceFoot now =
+        search_.projector().follow(query.centre, last, nearest_image(candidate, last, query.centre));
+    TrackedFoot* const end = feet + count;
+    TrackedFoot* const found =
+        std::find_if(feet, end, [&](const TrackedFoot& f) { return same(f.foot, now, query.touch_reach); });
+    if (found != end && found->slot < 0)
+      found->slot = s;
+    else
+      slot.clear();  // out of reach, or grown together with another branch
+  }
+}
+
+// Of the images of the wall near the candidate, the one whose point `at` is nearest to it.
+Vector3 ContactTracker::nearest_image(const Candidate& candidate, const SurfacePoint& at,
+                                      const Vector3& centre) const {
+  const ImageElements* images = candidates_.image_elements(candidate);
+  if (candidate.image_count == 1) return candidates_.images()[images[0].image];
+  const nurbs::SurfaceProjector& patch = search_.projector().patch(at.patch);
+  const Vector3 S = nurbs::interpolate(patch.space(), patch.control_points(), at.xi);
+  const ImageElements* nearest = std::min_element(
+      images, images + candidate.image_count, [&](const ImageElements& a, const ImageElements& b) {
+        const auto distance = [&](const ImageElements& e) {
+          return (S + candidates_.images()[e.image] - centre).squaredNorm();
+        };
+        return distance(a) < distance(b);
+      });
+  return candidates_.images()[nearest->image];
+}
+
+}  // namespace liggghts_pkg

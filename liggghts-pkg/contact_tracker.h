@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The feet of each candidate from step to step: all local minima of the distance within reach, each with the
+// slot of the particle's memory that belongs to its branch.
+//
+// When the list is new, all minima within its reach are found by branch and bound.  Where the surface is
+// regular (nurbs/regularity.h) none can appear or vanish until the next rebuild, so each is followed from its
+// last place. Elsewhere - edges, kinks, poles, troughs as narrow as the particle - all minima are found anew
+// in each step.
+#pragma once
+
+#include <vector>
+
+#include "candidate_list.h"
+#include "contact_memory.h"
+#include "local_search.h"
+#include "nurbs/regularity.h"
+
+namespace liggghts_pkg {
+
+struct TrackedFoot {
+  nurbs::SurfaceFoot foot;
+  int slot;  ///< of the particle's memory; -1: none yet
+};
+struct FeetRange {
+  TrackedFoot* first;
+  int count;
+  TrackedFoot* begin() const { return first; }
+  TrackedFoot* end() const { return first + count; }
+};
+
+class ContactTracker {
+ public:
+  /// Keeps references to all three.
+  ContactTracker(LocalSearch& search, nurbs::Regularity& regularity, const CandidateList& candidates)
+      : search_(search), regularity_(regularity), candidates_(candidates) {}
+
+  /// After the list was rebuilt.
+  void list_is_new();
+
+  /// Where a candidate is, and how far its contacts and its list reach [length].
+  struct Query {
+    nurbs::Vector3 centre;  ///< in the frame of the control points
+    double touch_reach;     ///< feet nearer than this may touch
+    double list_reach;      ///< feet nearer than this may do so before the next rebuild
+    double surface_motion;  ///< CandidateList::motion_since_build of a deforming wall, else 0
+  };
+  /// The feet of candidate number `c`; those nearer than touch_reach are complete.  Slots of `memory` whose
+  /// branches are gone are cleared.  Valid until the next call.
+  FeetRange feet(int c, const Query& query, const ContactMemory& memory);
+
+ private:
+  struct State {
+    int first = 0, count = 0;  // range in feet_
+    bool is_new = true, regular = false, touched = false;
+    nurbs::Vector3 centre = nurbs::Vector3::Zero();  // at the last search
+    double quiet =
+        0.0;  // nothing touches before centre and surface have moved this far relative to each other
+    double surface_motion = 0.0;
+  };
+  bool still_quiet(const State& state, const Query& query) const;
+  bool is_regular(const Candidate& candidate, const Query& query) const;
+  void find_all(const Candidate& candidate, const Query& query, double reach, const ContactMemory& memory,
+                std::vector<TrackedFoot>& out);
+  void match_slots(const Candidate& candidate, const Query& query, const ContactMemory& memory,
+                   TrackedFoot* feet, int count);
+  nurbs::Vector3 nearest_image(const Candidate& candidate, const nurbs::SurfacePoint& at,
+                               const nurbs::Vector3& centre) const;
+
+  LocalSearch& search_;
+  nurbs::Regularity& regularity_;
+  const CandidateList& candidates_;
+  std::vector<State> states_;          // per candidate
+  std::vector<TrackedFoot> feet_;      // of regular candidates
+  std::vector<TrackedFoot> all_feet_;  // of one that is not, this step
+  std::vector<nurbs::SurfaceFoot> found_;
+};
+
+}  // namespace liggghts_pkg

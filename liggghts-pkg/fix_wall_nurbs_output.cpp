@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix wall/nurbs: what it tells the user, and its restart file.  Columns: doc/fix_wall_nurbs.md.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "comm.h"
+#include "fix_wall_nurbs.h"
+
+using namespace LAMMPS_NS;
+using nurbs::Vector3;
+
+const FixWallNurbs::Totals& FixWallNurbs::totals_of_all_ranks() {
+  if (!totals_are_summed_) {
+    constexpr int kNumbers = sizeof(Totals) / sizeof(double);
+    MPI_Allreduce(&totals_, &all_totals_, kNumbers, MPI_DOUBLE, MPI_SUM, world);
+    MPI_Allreduce(&totals_.overlap, &all_totals_.overlap, 1, MPI_DOUBLE, MPI_MAX, world);
+    totals_are_summed_ = true;
+  }
+  return all_totals_;
+}
+
+double FixWallNurbs::compute_vector(int column) {
+  if (column == size_vector - 1) return totals_of_all_ranks().power;
+  if (column < kTotalColumns) return reinterpret_cast<const double*>(&totals_of_all_ranks())[column];
+  return structure_column(column - kTotalColumns);
+}
+
+double FixWallNurbs::structure_column(int column) const {
+  if (column < 3) return structure_.linear_momentum()[column];
+  if (column < 6) return structure_.angular_momentum(Vector3::Zero())[column - 3];
+  if (column == 6) return structure_.kinetic_energy();
+  if (column == 7) return structure_.strain_energy();
+  if (column == 8) return structure_.stable_time_step();
+  const int probe = (column - kStructureColumns) / 3, direction = (column - kStructureColumns) % 3;
+  return structure_.probes()[probe].displacement[direction];
+}
+
+// dump local reads the array without asking for it.
+void FixWallNurbs::publish_local_rows() {
+  static_assert(sizeof(LocalRow) == kLocalColumns * sizeof(double), "LocalRow is a row of columns");
+  size_local_rows = static_cast<int>(local_rows_.size());
+  local_pointers_.resize(local_rows_.size());
+  for (size_t k = 0; k < local_rows_.size(); ++k)
+    local_pointers_[k] = reinterpret_cast<double*>(&local_rows_[k]);
+  array_local = local_pointers_.data();
+}
+
+void FixWallNurbs::post_run() {
+  const liggghts_pkg::LocalSearch::Counts searches = liggghts_pkg::sum(search_.counts(), world);
+  search_.reset();
+  print(liggghts_pkg::report(searches));
+  if (searches.not_converged() > 0)
+    warn(fmt::format("{} closest-point projections did not converge", searches.not_converged()));
+
+  const liggghts_pkg::RunAlarm inside = inside_.of_all_ranks(world), crossing = crossing_.of_all_ranks(world);
+  if (inside.count > 0)
+    warn(fmt::format(
+        "the centre of particle {} got inside the solid ({} contacts of this kind in this run): use a "
+        "smaller timestep or a stiffer contact",
+        inside.tag, inside.count));
+  if (crossing.count > 0) {
+    constexpr double kFraction = 0.1;  // of the radius, per step
+    warn(fmt::format(
+        "the centre of particle {} would cross the wall within one step, at a speed of {:.6g} towards it ({} "
+        "cases of this kind in this run): use a timestep of at most {:.3g}",
+        crossing.tag, crossing.speed, crossing.count, kFraction * crossing.radius / crossing.speed));
+  }
+}
+
+/* ----------------------------------------------------------------------
+   restart: the structure's state; contact memory restarts with its fix property/atom
+------------------------------------------------------------------------- */
+
+void FixWallNurbs::write_restart(FILE* file) {
+  std::vector<double> state = structure_.save();
+  state.insert(state.begin(), static_cast<double>(state.size()));
+  if (comm->me != 0) return;
+  const int bytes = static_cast<int>(state.size() * sizeof(double));
+  std::fwrite(&bytes, sizeof(int), 1, file);
+  std::fwrite(state.data(), sizeof(double), state.size(), file);
+}
+
+void FixWallNurbs::restart(char* buffer) {
+  double size;
+  std::memcpy(&size, buffer, sizeof(double));
+  std::vector<double> state(static_cast<std::size_t>(size));
+  std::memcpy(state.data(), buffer + sizeof(double), state.size() * sizeof(double));
+  try {
+    structure_.load(state);
+  } catch (const std::exception& problem) {
+    fail(problem.what());
+  }
+  import_surface();
+}
