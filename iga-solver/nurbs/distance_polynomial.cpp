@@ -71,10 +71,14 @@ double DistancePolynomial::lower_bound(double c) const {
 }
 
 DistancePolynomial::Range DistancePolynomial::distance2() const {
-  const auto [G_low, G_high] = std::minmax_element(G_, G_ + size());
-  if (!rational_) return {std::max(*G_low, 0.0), *G_high};
-  const auto [V_low, V_high] = std::minmax_element(V_, V_ + size());
-  return {std::max(*G_low, 0.0) / *V_high, *G_high / *V_low};
+  // D is a mean of the quotients, with weights B_k V_k > 0.
+  Range range{std::numeric_limits<double>::infinity(), 0.0};
+  for (int k = 0; k < size(); ++k) {
+    const double D = rational_ ? G_[k] / V_[k] : G_[k];
+    range.low = std::min(range.low, D);
+    range.high = std::max(range.high, D);
+  }
+  return {std::max(range.low, 0.0), range.high};
 }
 
 DistancePolynomial::Range DistancePolynomial::derivative(int order_0, int order_1, const Range& c) const {

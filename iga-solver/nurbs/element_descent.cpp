@@ -47,20 +47,19 @@ class Descent {
 
   DescentResult run() {
     DescentResult result{};
-    bool minimum = false;
+    result.end = DescentEnd::unknown;
     while (result.iterations < kMaxIterations) {
       ++result.iterations;
       propose();
       if (last_step()) {
         if (convex_ && box_ == nullptr && cross_crease()) continue;
-        minimum = convex_ && !on_pole();
+        result.end = classify();
         break;
       }
       if (!advance()) break;
     }
-    result.minimum = minimum;
-    result.r = minimum ? finish() : Vector3(now_->f.r.head<3>());
-    for (int i = 0; i < 2; ++i) result.crease[i] = minimum && kink(i);
+    result.r = result.end == DescentEnd::unknown ? Vector3(now_->f.r.head<3>()) : finish();
+    for (int i = 0; i < 2; ++i) result.crease[i] = kink(i);
     result.at = now_->at;
     return result;
   }
@@ -100,6 +99,12 @@ class Descent {
            std::abs(s[1] + step_[1]) < 1.0;
   }
 
+  bool convex_on(const bool (&free)[2]) const {
+    const double(&H)[3] = now_->f.hessian, (&A)[3] = now_->f.metric;
+    return (!free[0] || H[0] > kLeastCurvature * A[0]) && (!free[1] || H[2] > kLeastCurvature * A[2]) &&
+           (!free[0] || !free[1] || H[0] * H[2] - H[1] * H[1] > kLeastCurvature * H[0] * H[2]);
+  }
+
   // The Newton step, and whether phi is convex in the directions that have room.
   void propose() {
     if (newton_inside()) return;
@@ -113,8 +118,8 @@ class Descent {
     }
     const double(&H)[3] = now_->f.hessian, (&A)[3] = now_->f.metric, (&g)[2] = now_->f.gradient;
     const double det = H[0] * H[2] - H[1] * H[1];
-    convex_ = (held_[0] || H[0] > kLeastCurvature * A[0]) && (held_[1] || H[2] > kLeastCurvature * A[2]) &&
-              (held_[0] || held_[1] || det > kLeastCurvature * H[0] * H[2]);
+    const bool free[2] = {!held_[0], !held_[1]};
+    convex_ = convex_on(free);
     if (!convex_) return reflected_step(room_low, room_high);
     if (held_[0] || held_[1]) {
       conditioning_ = 1.0;
@@ -247,10 +252,28 @@ class Descent {
                                                              (2.0 * now_->f.phi + square(now_->size));
   }
 
-  // Where a tangent vanishes, as along an edge that is one point, derivatives by s tell nothing.
-  bool on_pole() const {
-    constexpr double kPole = 1e-6;
-    return std::min(now_->f.metric[0], now_->f.metric[2]) <= square(kPole * now_->size);
+  // Of a point that no step leaves.
+  DescentEnd classify() const {
+    constexpr double kFirm = 1e-9;        // relative, of a slope
+    constexpr double kSaddle = -1e-7;     // of phi, where a plane has 1
+    constexpr double kBesidePole = 1e-6;  // of the element's size: the length of a tangent
+    constexpr double kOnPole = 1e-10;     // the same: derivatives by s tell nothing
+    const double(&H)[3] = now_->f.hessian, (&A)[3] = now_->f.metric;
+    const double shortest2 = std::min(A[0], A[2]), size2 = square(now_->size);
+    if (shortest2 <= square(kOnPole) * size2) return DescentEnd::unknown;
+    // A border pushed against with a weak slope does not hold what is no minimum without it.
+    bool free[2];
+    for (int i = 0; i < 2; ++i) {
+      const double weak2 = square(kFirm) * (2.0 * now_->f.phi + size2) * A[2 * i];
+      free[i] = !held_[i] || (box_ == nullptr && square(now_->f.gradient[i]) < weak2);
+    }
+    const double beside_pole2 = square(kBesidePole) * size2;
+    if (shortest2 > beside_pole2 && convex_on(free)) return DescentEnd::minimum;
+    for (int i = 0; i < 2; ++i) free[i] = free[i] && A[2 * i] > beside_pole2;
+    const double a = free[0] ? H[0] / A[0] : 1.0, c = free[1] ? H[2] / A[2] : 1.0,
+                 b = free[0] && free[1] ? H[1] / std::sqrt(A[0] * A[2]) : 0.0;
+    const double least = 0.5 * (a + c) - std::hypot(0.5 * (a - c), b);
+    return least < kSaddle ? DescentEnd::unknown : DescentEnd::degenerate;
   }
 
   // Takes the last step, too short for S to need more than its tangents.

@@ -63,11 +63,18 @@ struct LocalBox {
   double low[2], high[2];
 };
 
+/// What the derivatives at the end of a descent say.
+enum class DescentEnd {
+  minimum,     ///< a local minimum
+  degenerate,  ///< stationary, no direction leads clearly downhill: a flat valley, or close beside a pole
+  unknown      ///< a pole, a saddle, or the iteration limit: a point not above the start, and no more
+};
+
 struct DescentResult {
   LocalPoint at;
   Vector3 r;       ///< S - d
   bool crease[2];  ///< held on a crease, which is a kink here
-  bool minimum;    ///< false: a pole, saddle or degenerate point, or the iteration limit
+  DescentEnd end;
   int iterations;
 };
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The local search of Gao & Feng (2019), section 4.2: Brent's method on their eqs. 27-28,
 // S_xi . (d - S) = S_eta . (d - S) = 0, started by a simplex search on the squared distance.
-// A check on closest_point.h for feet inside the patch, slower and less safe:
+// A check on surface_projector.h for feet inside the patch, slower and less safe:
 // eqs. 27-28 hold at every stationary point of the distance, and do not describe feet on edges, corners and
 // creases, where d - S is not normal to the surface.
 #pragma once
 
-#include "nurbs/closest_point.h"
+#include "nurbs/patch.h"
+#include "nurbs/projection.h"
 
 namespace nurbs {
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "nurbs/distance_polynomial.h"
+#include "nurbs/pole.h"
 
 namespace nurbs {
 namespace {
@@ -26,27 +27,46 @@ double squared_distance_to_centre(const Box& box, const Vector3& d) {
 
 }  // namespace
 
+// The end of a descent as a projection, and what is known of it.
+struct SurfaceProjector::Foot {
+  Projection point;
+  DescentEnd end;
+
+  bool finite() const { return point.status != ProjectionStatus::not_converged; }
+  // Of equally near feet one inside comes before one on an edge (so that no seam of a closed patch is felt),
+  // and any foot before a point that is none.
+  int rank() const { return end == DescentEnd::unknown ? 3 : static_cast<int>(point.status); }
+};
+
 // What a search over the tree carries along.
 struct SurfaceProjector::Search {
   const Vector3& d;
-  Projection best;               // of a search for the nearest
-  std::vector<Projection>* all;  // null in a search for the nearest
+  double same;                   // lengths that differ less are equal
   double bound2;                 // squared distance from which on nothing is wanted
-  double same_foot;
+  std::vector<Projection>* all;  // null in a search for the nearest
+  Foot best;                     // of a search for the nearest
 
-  void found(const Projection& foot) {
-    if (all == nullptr) {
-      if (!(foot.distance < best.distance)) return;
-      best = foot;
-      bound2 = foot.distance * foot.distance * (1.0 - kTie);
-    } else if (foot.distance * foot.distance < bound2) {
-      for (Projection& other : *all)
-        if ((other.foot - foot.foot).norm() <= same_foot) {
-          if (foot.status < other.status) other = foot;  // of a closed surface: its seam is no edge there
-          return;
-        }
-      all->push_back(foot);
+  void start_with(const Foot& foot) {
+    best = foot;
+    const double distance = best.point.distance;
+    bound2 = best.rank() == 0 ? distance * distance * (1.0 - kTie) : (distance + same) * (distance + same);
+  }
+
+  void found(const Foot& foot) {
+    if (all != nullptr) return list(foot);
+    const int lower = foot.rank() - best.rank();
+    const double level = best.point.distance + (lower < 0 ? same : lower > 0 ? -same : 0.0);
+    if (foot.point.distance < level) start_with(foot);
+  }
+
+  void list(const Foot& foot) const {
+    if (foot.end == DescentEnd::unknown || !(foot.point.distance * foot.point.distance < bound2)) return;
+    for (Projection& other : *all) {
+      if ((other.foot - foot.point.foot).norm() > same) continue;
+      if (foot.point.status < other.status) other = foot.point;
+      return;
     }
+    all->push_back(foot.point);
   }
 };
 
@@ -133,38 +153,28 @@ int SurfaceProjector::element_near(int axis, double xi) const {
   return element.begin <= xi && xi < element.end ? guess : knots.element_at(xi);
 }
 
-Projection SurfaceProjector::projection(const Vector3& d, const DescentResult& found) const {
+SurfaceProjector::Foot SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& start) const {
   constexpr ProjectionStatus kByBorders[] = {ProjectionStatus::interior, ProjectionStatus::edge,
                                              ProjectionStatus::corner};
-  Projection result;
+  const DescentResult found = descend(elements_, d, start);
+  Foot foot;
   int borders = 0;
   for (int i = 0; i < 2; ++i) {
     const AxisElement& element = elements_.axis(i, found.at.e[i]);
     const double s = found.at.s[i];
-    result.xi[i] = element.parameter(s);
+    foot.point.xi[i] = element.parameter(s);
     const bool end = std::abs(s) == 1.0 && element.at_end[s > 0.0];
     if (end || found.crease[i]) ++borders;
   }
-  result.foot = d + found.r;
-  result.distance = found.r.norm();
-  result.status = kByBorders[borders];
-  result.iterations = found.iterations;
-  return result;
-}
-
-Projection SurfaceProjector::from(const Vector3& d, const LocalPoint& start) const {
-  constexpr int kRounds = 10;  // Newton, then the general search from where it gave up, and so on
-  DescentResult found = descend(elements_, d, start);
-  Projection result = projection(d, found);
-  for (int round = 0; round < kRounds && !found.minimum; ++round) {
-    const int iterations = result.iterations;
-    result = closest_point_from(space_, elements_.control_points(), d, result.xi);
-    result.iterations += iterations;
-    if (result.status != ProjectionStatus::not_converged) return result;
-    found = descend(elements_, d, local(result.xi));
-    if (found.minimum) result = projection(d, found);
-  }
-  return result;
+  foot.point.foot = d + found.r;
+  foot.point.distance = found.r.norm();
+  const bool finite = std::isfinite(foot.point.distance);
+  foot.point.status = finite ? kByBorders[borders] : ProjectionStatus::not_converged;
+  foot.point.iterations = found.iterations;
+  foot.end = found.end;
+  if (found.end == DescentEnd::unknown && finite && minimum_on_pole(elements_, d, found.at))
+    foot.end = DescentEnd::minimum;
+  return foot;
 }
 
 LocalPoint SurfaceProjector::local(const Parameter<2>& xi) const {
@@ -177,7 +187,8 @@ LocalPoint SurfaceProjector::local(const Parameter<2>& xi) const {
 }
 
 Projection SurfaceProjector::warm(const Vector3& d, const Parameter<2>& guess) const {
-  return from(d, local(guess));
+  const Foot foot = foot_from(d, local(guess));
+  return foot.end == DescentEnd::minimum ? foot.point : global(d, foot);
 }
 
 Projection SurfaceProjector::cold(const Vector3& d) const {
@@ -191,15 +202,29 @@ Projection SurfaceProjector::cold(const Vector3& d) const {
     };
     node = rank(children[1]) < rank(children[0]) ? children[1] : children[0];
   }
-  return nearest(d, space_.element_centre(nodes_[node].element));
+  return global(d, foot_from(d, local(space_.element_centre(nodes_[node].element))));
 }
 
 Projection SurfaceProjector::nearest(const Vector3& d, const Parameter<2>& guess) const {
+  return global(d, foot_from(d, local(guess)));
+}
+
+// The global minimum; `start` is a point known.
+Projection SurfaceProjector::global(const Vector3& d, const Foot& start) const {
+  if (!start.finite()) return start.point;
   refit();
-  Search search{d, warm(d, guess), nullptr, kInfinity, 0.0};
-  search.bound2 = search.best.distance * search.best.distance * (1.0 - kTie);
-  if (std::isfinite(search.best.distance)) visit(0, search);
-  return search.best;
+  Search search = search_from(d, start);
+  visit(0, search);
+  return search.best.point;
+}
+
+SurfaceProjector::Search SurfaceProjector::search_from(const Vector3& d, const Foot& start) const {
+  constexpr double kRoundOff = 4.0 * std::numeric_limits<double>::epsilon();
+  const Box& bounds = nodes_[0].box;
+  const double same = kRoundOff * ((bounds.high - bounds.low).norm() + start.point.distance);
+  Search search{d, same, kInfinity, nullptr, start};
+  search.start_with(start);
+  return search;
 }
 
 Projection SurfaceProjector::cold_on(const Vector3& d, const int* elements, int count) const {
@@ -208,12 +233,12 @@ Projection SurfaceProjector::cold_on(const Vector3& d, const int* elements, int 
   const auto distance2 = [&](int element) { return nodes_[leaf_[element]].box.squared_distance(d); };
   const int first = *std::min_element(elements, elements + count,
                                       [&](int a, int b) { return distance2(a) < distance2(b); });
-  Search search{d, warm(d, space_.element_centre(first)), nullptr, kInfinity, 0.0};
-  search.bound2 = search.best.distance * search.best.distance * (1.0 - kTie);
-  if (!std::isfinite(search.bound2)) return search.best;
+  const Foot start = foot_from(d, local(space_.element_centre(first)));
+  if (!start.finite()) return start.point;
+  Search search = search_from(d, start);
   for (int k = 0; k < count; ++k)
     if (distance2(elements[k]) < search.bound2) examine_element(elements[k], search);
-  return search.best;
+  return search.best.point;
 }
 
 void SurfaceProjector::all_minima(const Vector3& d, double reach, std::vector<Projection>& out) const {
@@ -236,7 +261,7 @@ void SurfaceProjector::collect(const Vector3& d, double reach, std::vector<Proje
   out.clear();
   if (!d.allFinite()) return;
   const Box& bounds = nodes_[0].box;
-  Search search{d, {}, &out, reach * reach, kSameFoot * (bounds.high - bounds.low).norm()};
+  Search search{d, kSameFoot * (bounds.high - bounds.low).norm(), reach * reach, &out, {}};
   examine(search);
   std::sort(out.begin(), out.end(),
             [](const Projection& a, const Projection& b) { return a.distance < b.distance; });
@@ -264,8 +289,11 @@ void SurfaceProjector::examine_element(int element, Search& search) const {
 // it, or halves the part.
 void SurfaceProjector::examine(const DistancePolynomial& F, Search& search) const {
   if (F.lower_bound(search.bound2) >= 0.0) return;
-  for (int corner = 0; corner < 4 && search.all == nullptr; ++corner)
-    if (F.corner_distance2(corner) + F.round_off() < search.bound2) start_from(F.corner(corner), search);
+  for (int corner = 0; corner < 4 && search.all == nullptr; ++corner) {
+    const double distance = search.best.point.distance;
+    if (F.corner_distance2(corner) + F.round_off() < distance * distance)
+      start_from(F.corner(corner), search);
+  }
 
   const DistancePolynomial::Range c = F.distance2();
   for (int i = 0; i < 2; ++i) {
@@ -280,7 +308,7 @@ void SurfaceProjector::examine(const DistancePolynomial& F, Search& search) cons
   }
 
   const DistancePolynomial::Shape shape = F.shape(c);
-  if (shape == DistancePolynomial::Shape::convex) return descend_in(F, search);
+  if (shape == DistancePolynomial::Shape::convex && descend_in(F, search)) return;
   if (shape == DistancePolynomial::Shape::no_minimum && !touches_region_border(F)) return;
 
   const int direction = F.widest(c);
@@ -312,16 +340,18 @@ bool SurfaceProjector::holds(const DistancePolynomial& F, const Parameter<2>& xi
   return true;
 }
 
-// D has one minimum at most on this part.
-void SurfaceProjector::descend_in(const DistancePolynomial& F, Search& search) const {
-  if (search.all == nullptr && holds(F, search.best.xi)) return;
+// D has one minimum at most on this part: goes to it.  False if the descent gets stuck.
+bool SurfaceProjector::descend_in(const DistancePolynomial& F, Search& search) const {
+  const bool for_nearest = search.all == nullptr;
+  if (for_nearest && search.best.end != DescentEnd::unknown && holds(F, search.best.point.xi)) return true;
   const DescentResult inside = descend(elements_, search.d, F.centre(), &F.part());
-  if (inside.minimum && inside.r.squaredNorm() >= search.bound2) return;
-  start_from(inside.at, search);
+  const bool reached = inside.end == DescentEnd::minimum;
+  if (!reached || inside.r.squaredNorm() < search.bound2) start_from(inside.at, search);
+  return reached;
 }
 
 void SurfaceProjector::start_from(const LocalPoint& start, Search& search) const {
-  search.found(from(search.d, start));
+  search.found(foot_from(search.d, start));
 }
 
 }  // namespace nurbs

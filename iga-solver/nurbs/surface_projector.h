@@ -4,7 +4,8 @@
 // Warm: Newton's method with the exact Hessian on the elements' power form (power_element.h,
 // element_descent.h).  Cold: branch and bound over a tree of Bezier-net boxes, and inside an element over
 // Bernstein bounds of the squared distance (distance_polynomial.h), so that no minimum is overlooked.
-// What is left of the hard cases (poles, saddles, degenerate minima) goes to closest_point_from.
+// Where Newton's method ends on no minimum (on saddles, in flat valleys, beside poles) branch and bound takes
+// over: no iteration has to converge for its result to be right.
 // Source: Piegl & Tiller (1997), section 6.1; Johnson & Cohen (1998), "A framework for efficient minimum
 // distance computations"; Chen et al. (2008), "Computing the minimum distance between a point and a NURBS
 // curve" (the Bernstein form of the squared distance).
@@ -13,8 +14,8 @@
 #include <vector>
 
 #include "nurbs/box_tree.h"
-#include "nurbs/closest_point.h"
 #include "nurbs/element_descent.h"
+#include "nurbs/projection.h"
 
 namespace nurbs {
 
@@ -23,6 +24,8 @@ struct ProductTerm;
 
 /// All lengths in those of the control points.  Results do not depend on earlier calls.  Elements and tree
 /// are brought up to date when first used, by const members too: one object must not be shared by threads.
+/// Tolerances are relative to the size of the surface and the round-off of its evaluation.  A search ends as
+/// not_converged if lengths are not finite, and never else.  None allocates, but for the list of all_minima.
 class SurfaceProjector {
  public:
   /// Keeps a reference to `space`, which must outlive it.
@@ -35,7 +38,7 @@ class SurfaceProjector {
   /// point.
   void set_control_points(const Eigen::Ref<const NodalVectors>& control_points);
 
-  /// Local minimum reached from `guess`; no allocation.
+  /// Local minimum reached from `guess`, not above it; the global one where the descent gets stuck.
   Projection warm(const Vector3& d, const Parameter<2>& guess) const;
   /// Global minimum, by the tree.
   Projection cold(const Vector3& d) const;
@@ -44,7 +47,8 @@ class SurfaceProjector {
   /// Minimum over candidate elements.  The candidates must include all elements nearer than the result, as
   /// those of BoxTree::query do whose reach is not smaller.  Throws std::invalid_argument if there are none.
   Projection cold_on(const Vector3& d, const int* elements, int count) const;
-  /// All local minima nearer than `reach`, each once, nearest first.
+  /// All local minima nearer than `reach`, each once, nearest first.  Of minima that are not isolated (d on
+  /// the axis of a tube) there are some.
   void all_minima(const Vector3& d, double reach, std::vector<Projection>& out) const;
   /// Those of them that lie on candidate elements, as above.
   void all_minima_on(const Vector3& d, double reach, const int* elements, int count,
@@ -60,6 +64,7 @@ class SurfaceProjector {
     int element;      // leaf; -1 for an inner node
     int children[2];  // indices larger than the node's own
   };
+  struct Foot;
   struct Search;
 
   int add_node(const Indices<2>& begin, const Indices<2>& end);
@@ -67,14 +72,15 @@ class SurfaceProjector {
   Box fill_bezier_net(int element, Vector4* net) const;
   int element_near(int axis, double xi) const;
   LocalPoint local(const Parameter<2>& xi) const;
-  Projection projection(const Vector3& d, const DescentResult& found) const;
-  Projection from(const Vector3& d, const LocalPoint& start) const;
+  Foot foot_from(const Vector3& d, const LocalPoint& start) const;
+  Projection global(const Vector3& d, const Foot& start) const;
+  Search search_from(const Vector3& d, const Foot& start) const;
   template <class Examine>
   void collect(const Vector3& d, double reach, std::vector<Projection>& out, Examine examine) const;
   void visit(int node, Search& search) const;
   void examine_element(int element, Search& search) const;
   void examine(const DistancePolynomial& F, Search& search) const;
-  void descend_in(const DistancePolynomial& F, Search& search) const;
+  bool descend_in(const DistancePolynomial& F, Search& search) const;
   bool on_region_border(const DistancePolynomial& F, int i, bool upper) const;
   bool touches_region_border(const DistancePolynomial& F) const;
   bool holds(const DistancePolynomial& F, const Parameter<2>& xi) const;

@@ -3,13 +3,14 @@
 #include <cmath>
 
 #include "coupling/rigid_surface.h"
-#include "nurbs/closest_point.h"
 #include "nurbs/primitives.h"
+#include "nurbs/surface_projector.h"
 
 int main() {
   const auto knots = nurbs::KnotVector::uniform(3, 4);
   const coupling::RigidSurface plane({nurbs::plane({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {knots, knots})});
-  const auto foot = nurbs::closest_point_from(plane.surface().topology.patch(0), plane.positions(),
-                                              {0.3, 0.6, 0.25}, {0.5, 0.5});
+  nurbs::SurfaceProjector projector(plane.surface().topology.patch(0));
+  projector.set_control_points(plane.positions());
+  const nurbs::Projection foot = projector.cold({0.3, 0.6, 0.25});
   return std::abs(foot.distance - 0.25) < 1e-14 ? 0 : 1;
 }

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "feet.h"
 #include "nurbs/box_tree.h"
-#include "nurbs/closest_point.h"
 #include "nurbs/refinement.h"
 #include "shapes.h"
 
@@ -76,13 +75,6 @@ double brute_force_distance(const Surface& surface, const Vector3& d) {
   return least;
 }
 
-Projection closest(const Surface& surface, const Vector3& d) {
-  std::vector<int> elements(surface.space.element_count());
-  std::iota(elements.begin(), elements.end(), 0);
-  return closest_point_on_elements(surface.space, surface.control_points, d, elements.data(),
-                                   static_cast<int>(elements.size()));
-}
-
 Vector3 random_point(shapes::Random& random) {
   return {shapes::uniform(random, -0.3, 1.3), shapes::uniform(random, -0.3, 1.3),
           shapes::uniform(random, -0.6, 0.6)};
@@ -141,6 +133,8 @@ TEST(ClosestPointSearch, CandidatesOfABoxTree) {
   element_boxes(hills.space, hills.control_points, boxes);
   BoxTree tree;
   tree.build(boxes);
+  SurfaceProjector projector(hills.space);
+  projector.set_control_points(hills.control_points);
   std::vector<int> candidates;
   int within_reach = 0;
   for (int k = 0; k < 500; ++k) {
@@ -152,8 +146,7 @@ TEST(ClosestPointSearch, CandidatesOfABoxTree) {
     candidates.clear();
     tree.query(d, reach, candidates);
     ASSERT_FALSE(candidates.empty());
-    const Projection q = closest_point_on_elements(hills.space, hills.control_points, d, candidates.data(),
-                                                   static_cast<int>(candidates.size()));
+    const Projection q = projector.cold_on(d, candidates.data(), static_cast<int>(candidates.size()));
     EXPECT_NEAR(q.distance, p.distance, 1e-14);
   }
   EXPECT_GT(within_reach, 50);
@@ -165,14 +158,16 @@ TEST(ClosestPointSearch, WarmStartsFollow) {
   shapes::Random random(15);
   const Surface hills =
       shapes::random_hills(random, {KnotVector::uniform(2, 8), KnotVector::uniform(3, 8)}, 0.005, true);
-  Parameter<2> xi = closest(hills, {0.5, 0.5, 0.08}).xi;
+  SurfaceProjector projector(hills.space);
+  projector.set_control_points(hills.control_points);
+  Parameter<2> xi = projector.cold({0.5, 0.5, 0.08}).xi;
   constexpr int steps = 2000;
   int most = 0;
   for (int step = 0; step < steps; ++step) {
     const double t = 2 * M_PI * step / steps;
     const Vector3 d(0.5 + 0.6 * std::sin(3 * t), 0.5 + 0.6 * std::sin(2 * t), 0.08);  // beyond the edges, too
-    const Projection warm = closest_point_from(hills.space, hills.control_points, d, xi);
-    EXPECT_NEAR(warm.distance, closest(hills, d).distance, 1e-14) << step;
+    const Projection warm = projector.warm(d, xi);
+    EXPECT_NEAR(warm.distance, projector.cold(d).distance, 1e-14) << step;
     xi = warm.xi;
     most = std::max(most, warm.iterations);
   }

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Closest points with closed forms.
-#include "nurbs/closest_point.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
 
+#include "feet.h"
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
 #include "shapes.h"
@@ -15,17 +13,6 @@ namespace nurbs {
 namespace {
 
 constexpr double kQuarter = M_PI / 2;
-
-Projection closest(const Surface& surface, const Vector3& d) {
-  std::vector<int> elements(surface.space.element_count());
-  std::iota(elements.begin(), elements.end(), 0);
-  return closest_point_on_elements(surface.space, surface.control_points, d, elements.data(),
-                                   static_cast<int>(elements.size()));
-}
-
-Projection closest_from(const Surface& surface, const Vector3& d, const Parameter<2>& guess) {
-  return closest_point_from(surface.space, surface.control_points, d, guess);
-}
 
 // A point and its foot; the parameters to 1e-10 (given with 12 digits), the distance too.
 struct Expected {
@@ -253,7 +240,9 @@ TEST(ClosestPoint, EveryElementIsSearchedForItself) {
       0, 0, 0, 1, 1, 1,                       //
       0, 0, 4, 0, 0, 4;
   const int elements[] = {1, 0};
-  const Projection p = closest_point_on_elements(fold.space, fold.control_points, {8, 0.4, 1.5}, elements, 2);
+  SurfaceProjector projector(fold.space);
+  projector.set_control_points(fold.control_points);
+  const Projection p = projector.cold_on({8, 0.4, 1.5}, elements, 2);
   EXPECT_NEAR(p.distance, 1.5, 1e-15);
   EXPECT_NEAR(p.xi[0], 0.8, 1e-15);
 }
@@ -283,13 +272,6 @@ TEST(ClosestPoint, NotANumberIsNotConverged) {
       plane({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {KnotVector::uniform(2, 4), KnotVector::uniform(2, 4)});
   EXPECT_EQ(closest_from(flat, {NAN, 0.5, 0.5}, {0.5, 0.5}).status, Status::not_converged);
   EXPECT_EQ(closest_from(flat, {0.2, 0.5, 0.5}, {NAN, 0.5}).status, Status::not_converged);
-}
-
-TEST(ClosestPoint, NoElementsIsAnError) {
-  const Surface flat =
-      plane({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {KnotVector::uniform(1, 1), KnotVector::uniform(1, 1)});
-  EXPECT_THROW(closest_point_on_elements(flat.space, flat.control_points, {0, 0, 1}, nullptr, 0),
-               std::invalid_argument);
 }
 
 }  // namespace

@@ -4,9 +4,8 @@
 
 #include <cmath>
 #include <functional>
-#include <numeric>
 
-#include "nurbs/closest_point.h"
+#include "feet.h"
 #include "nurbs/primitives.h"
 #include "shapes.h"
 
@@ -22,13 +21,6 @@ Curve meshed_arc(double from, double to, int elements, int degree = 2) {
 // A frame in general position, not far from the origin.
 Frame tilted() { return frame({0.3, -0.2, 0.5}, {1, 2, 3}, {1, -1, 4}); }
 Frame upright() { return frame({0, 0, 0}, {0, 0, 1}); }
-
-Projection closest(const Surface& surface, const Vector3& d) {
-  std::vector<int> elements(surface.space.element_count());
-  std::iota(elements.begin(), elements.end(), 0);
-  return closest_point_on_elements(surface.space, surface.control_points, d, elements.data(),
-                                   static_cast<int>(elements.size()));
-}
 
 struct Foot {
   Vector3 d;

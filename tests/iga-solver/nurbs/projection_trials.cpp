@@ -2,6 +2,7 @@
 // Closest-point searches tried on random surfaces and judged by distance_bound.h.
 //   cold     the distance is the least there is, to 1e-9; scaling everything by 1e-3, or moving it by 1e3
 //            elements, leaves it as it is; where the minimum is isolated its foot is right, too;
+//   cold_on  the same distance, on the elements that a box tree finds within reach;
 //   nearest  the same distance, from a guess;
 //   warm     from a guess off by 1 % of an element to several elements: a local minimum, not above the guess.
 // A miss is printed with what repeats it: --seed S --only SURFACE.  Exit code 1 if there is any.
@@ -12,6 +13,7 @@
 #include <exception>
 
 #include "distance_bound.h"
+#include "nurbs/box_tree.h"
 #include "nurbs/surface_projector.h"
 #include "trial_surfaces.h"
 
@@ -24,9 +26,13 @@ constexpr double kTolerance = 1e-9;  // of distances, relative
 struct Projector {
   explicit Projector(Surface given) : surface(std::move(given)), search(surface.space) {
     search.set_control_points(surface.control_points);
+    std::vector<Box> boxes;
+    element_boxes(surface.space, surface.control_points, boxes);
+    tree.build(boxes);
   }
   Surface surface;
   SurfaceProjector search;
+  BoxTree tree;
 };
 
 Surface transformed(const Surface& surface, double scale, const Vector3& shift) {
@@ -63,6 +69,19 @@ class Trial {
     if (std::abs(moved - p.distance) > kTolerance * p.distance + 2.0 * moved_round_off_)
       return fmt::format("distance {:.16g}, moved by 1e3 elements it is {:.16g}", p.distance, moved);
     return no_minimum(d, p, counts);
+  }
+
+  /// The same for the cold search on candidates, as contact lists hold them: those within a reach.
+  std::string try_cold_on(const Vector3& d) const {
+    const double nearest = as_given_.search.cold(d).distance;
+    std::vector<int> candidates;
+    as_given_.tree.query(d, 1.2 * nearest + 0.1 * trial_.element, candidates);
+    const Projection p = as_given_.search.cold_on(d, candidates.data(), static_cast<int>(candidates.size()));
+    if (std::string wrong = inconsistent(d, p); !wrong.empty()) return wrong;
+    if (std::abs(p.distance - nearest) > kTolerance * nearest + judge_.round_off())
+      return fmt::format("distance {:.16g}, on all elements it is {:.16g}", p.distance, nearest);
+    Counts not_counted;
+    return no_minimum(d, p, not_counted);
   }
 
   /// The same for the warm search that goes on to the nearest.
@@ -159,6 +178,7 @@ class Trials {
       Counts& counts = counts_[index % kFamilies][k % kPlaces];
       ++counts.trials;
       report(index, k, "cold", trial.try_cold(d, counts), counts.cold_misses);
+      report(index, k, "cold_on", trial.try_cold_on(d), counts.cold_misses);
       const Parameter<2> guess =
           guess_beside(random, trial.surface().surface.space, trial.foot(d), kOff[k / kPlaces]);
       report(index, k, "nearest", trial.try_nearest(d, guess, counts), counts.cold_misses);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The paper's local search: its feet against feet known by construction and against closest_point_from.
+// The paper's local search: its feet against feet known by construction and against Newton
+// (surface_projector.h).
 #include "nurbs/simplex_brent.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <iostream>
 #include <numeric>
 
+#include "feet.h"
 #include "nurbs/bezier_element.h"
 #include "nurbs/primitives.h"
 #include "shapes.h"
@@ -97,8 +99,7 @@ double expect_interior_feet(bool warm, double off) {
         const Projection p = paper(surface, t.d, t.guess, warm);
         if (p.status != Status::interior) continue;
         ++converged;
-        const Projection newton =
-            closest_point_from(surface.space, surface.control_points, t.d, p.xi);  // confirms it stays there
+        const Projection newton = closest_from(surface, t.d, p.xi);  // confirms it stays there
         for (int i = 0; i < 2; ++i) {
           EXPECT_NEAR(p.xi[i], t.xi[i], 1e-10) << "degree " << degree << ", trial " << k;
           EXPECT_NEAR(p.xi[i], newton.xi[i], 1e-10);
@@ -142,8 +143,7 @@ TEST(SimplexBrent, BestOfElementsIsTheNearest) {
                                                                  elements.data(), count);
     if (p.status != Status::interior) continue;
     ++converged;
-    const Projection newton =
-        closest_point_on_elements(surface.space, surface.control_points, d, elements.data(), count);
+    const Projection newton = closest(surface, d);
     EXPECT_NEAR(p.distance, newton.distance, 1e-12);
     for (int i = 0; i < 2; ++i) EXPECT_NEAR(p.xi[i], newton.xi[i], 1e-10);
   }
@@ -222,7 +222,7 @@ TEST(SimplexBrent, NeverEndsFartherThanItStarted) {
     ++converged;
     const double start = (interpolate(surface.space, surface.control_points, guess) - d).norm();
     EXPECT_LE(p.distance, start);
-    const Projection newton = closest_point_from(surface.space, surface.control_points, d, p.xi);
+    const Projection newton = closest_from(surface, d, p.xi);
     for (int i = 0; i < 2; ++i) EXPECT_NEAR(p.xi[i], newton.xi[i], 1e-9);
   }
   EXPECT_GT(converged, 300);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// SurfaceProjector and its elements against the basis functions and the general search.
+// SurfaceProjector and its elements against the basis functions, the judge and dense samples.
 #include "nurbs/surface_projector.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "distance_bound.h"
 #include "shapes.h"
 
 namespace nurbs {
@@ -23,12 +24,6 @@ std::vector<int> all_elements(const Surface& surface) {
   std::vector<int> elements(surface.space.element_count());
   std::iota(elements.begin(), elements.end(), 0);
   return elements;
-}
-
-Projection reference(const Surface& surface, const Vector3& d) {
-  const std::vector<int> elements = all_elements(surface);
-  return closest_point_on_elements(surface.space, surface.control_points, d, elements.data(),
-                                   static_cast<int>(elements.size()));
 }
 
 void expect_on_surface(const Surface& surface, const Vector3& d, const Projection& p) {
@@ -79,7 +74,7 @@ TEST(SurfaceProjector, PowerFormIsTheSurface) {
   }
 }
 
-// Nothing the general search finds, and nothing on a dense grid, is nearer than a cold result.
+// Nothing the judge finds, and nothing on a dense grid, is nearer than a cold result.
 TEST(SurfaceProjector, ColdIsTheNearest) {
   shapes::Random random(22);
   for (int k = 0; k < 40; ++k) {
@@ -89,12 +84,14 @@ TEST(SurfaceProjector, ColdIsTheNearest) {
         surface.control_points.col(i) = surface.control_points.col(0);
     SurfaceProjector projector(surface.space);
     projector.set_control_points(surface.control_points);
+    const judge::DistanceBound bound(surface);
     const std::vector<int> elements = all_elements(surface);
     for (int trial = 0; trial < 5; ++trial) {
       const Vector3 d = random_point(random);
       const Projection cold = projector.cold(d);
       expect_on_surface(surface, d, cold);
-      EXPECT_LE(cold.distance, reference(surface, d).distance * (1 + 1e-9));
+      const judge::Nearest least = bound.nearest(d, {cold.xi, cold.distance, 0}, 1e-9);
+      EXPECT_LE(cold.distance, least.distance * (1 + 1e-9) + bound.round_off());
       double grid = cold.distance;
       for (int sample = 0; sample < 400; ++sample)
         grid = std::min(grid, (interpolate(surface.space, surface.control_points,
