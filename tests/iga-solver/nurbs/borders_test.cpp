@@ -77,11 +77,29 @@ TEST(Borders, CylinderHasASeamAndTwoRims) {
 }
 
 TEST(Borders, SphereHasPolesAndTheSeamBetweenThemIsSmooth) {
-  const auto borders =
-      find_borders({sphere(frame({0.1, 0.2, 0.3}, {1, 2, 2}), 0.5, arc(0, 360), arc(-90, 90))});
+  const auto borders = find_borders({sphere(frame({0.1, 0.2, 0.3}, {1, 2, 2}), 0.5,
+                                            refined(arc(0, 360), 12, 4), refined(arc(-90, 90), 6, 3))});
   expect_seam(borders[0][0], 0, 1);
   EXPECT_EQ(borders[0][2].kind, Border::pole);
   EXPECT_EQ(borders[0][3].kind, Border::pole);
+}
+
+// With noise as from a file of 12 digits: at the poles there is no normal, only noise that differs between
+// the halves.
+TEST(Borders, HalfSpheresMeetSmoothlyUpToThePoles) {
+  const Frame place = frame({0.1, 0.2, 0.3}, {1, 2, 2});
+  std::vector<Surface> halves{sphere(place, 0.5, refined(arc(0, 180), 6, 4), refined(arc(-90, 90), 6, 3)),
+                              sphere(place, 0.5, refined(arc(180, 360), 10, 3), arc(-90, 90))};
+  int i = 0;
+  for (Surface& half : halves)
+    for (double& x : half.control_points.reshaped()) x += 1e-12 * std::sin(++i);
+  const auto borders = find_borders(halves);
+  for (const auto& [side, other] : {std::pair(0, 1), std::pair(1, 0)}) {
+    EXPECT_EQ(borders[0][side].kind, Border::welded);
+    EXPECT_EQ(borders[0][side].side, other);
+    EXPECT_LT(borders[0][side].max_angle, 1e-9);
+  }
+  for (const int side : {2, 3}) EXPECT_EQ(borders[1][side].kind, Border::pole);
 }
 
 TEST(Borders, TorusHasTwoSeams) {
