@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <sstream>
 
 #include "nurbs/yaml_map.h"
@@ -17,11 +18,12 @@ std::string read_text_on_all_ranks(MPI_Comm comm, const std::string& path) {
   long length_or_error = 0;  // >= 0: length of the text; < 0: minus errno
   if (rank == 0) {
     errno = 0;
-    std::ifstream file(path);
+    std::ifstream file(path, std::ios::binary);
     std::ostringstream content;
     if (file) content << file.rdbuf();
     text = content.str();
-    const bool failed = !file || (text.empty() && errno != 0);
+    bool failed = !file || (text.empty() && errno != 0);
+    if (text.size() > std::numeric_limits<int>::max()) failed = true, errno = EFBIG;  // MPI counts in int
     length_or_error = failed ? -(errno != 0 ? errno : EIO) : static_cast<long>(text.size());
   }
   MPI_Bcast(&length_or_error, 1, MPI_LONG, 0, comm);

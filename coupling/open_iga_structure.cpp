@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
 #include "coupling/iga_structure.h"
 #include "coupling/model_text.h"
 #include "coupling/open_structure.h"
@@ -7,12 +9,11 @@
 namespace coupling {
 
 OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface) {
-  const io::ModelFile model = io::parse_model_file(read_text_on_all_ranks(comm, path), path);
+  const io::ModelFile model = io::read_model_file(path, reader_on_all_ranks(comm));
   nurbs::named_surface(model.geometry, surface, path);  // complains about a name that is not there
-  const nurbs::Face face = *model.geometry.surfaces.at(surface);
-  return {
-      std::make_unique<IgaStructure>(io::build_solver(model), std::vector<nurbs::Face>{face}, model.probes),
-      model.geometry.units};
+  std::vector<nurbs::Face> faces;
+  for (const nurbs::SurfacePiece& piece : model.geometry.surfaces.at(surface)) faces.push_back(*piece.face);
+  return {std::make_unique<IgaStructure>(io::build_solver(model), faces, model.probes), model.geometry.units};
 }
 
 }  // namespace coupling

@@ -2,14 +2,19 @@
 #include "coupling/model_text.h"
 #include "coupling/open_structure.h"
 #include "coupling/rigid_surface.h"
+#include "geometry_io/geometry_io.h"
 
 namespace coupling {
 
 OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface) {
-  const nurbs::GeometryFile file = nurbs::parse_geometry_file(read_text_on_all_ranks(comm, path), path);
-  nurbs::NamedSurface named = nurbs::named_surface(file, surface, path);
-  return {std::make_unique<RigidSurface>(std::vector<nurbs::Surface>{std::move(named.surface)},
-                                         std::vector<int>{named.outward_sign}),
+  const nurbs::GeometryFile file = geometry_io::read_geometry(path, reader_on_all_ranks(comm));
+  std::vector<nurbs::Surface> patches;
+  std::vector<int> outward_sign;
+  for (nurbs::OrientedSurface& patch : nurbs::named_surface(file, surface, path)) {
+    patches.push_back(std::move(patch.surface));
+    outward_sign.push_back(patch.outward_sign);
+  }
+  return {std::make_unique<RigidSurface>(patches, std::move(outward_sign)),
           file.units};
 }
 

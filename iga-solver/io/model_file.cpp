@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <sstream>
-
 #include "structure/linear_elastic.h"
 #include "structure/loads.h"
 
@@ -97,10 +94,10 @@ TimeSpan read_time(const YamlMap& map) {
   return time;
 }
 
-ModelFile read_required(const YamlMap& document) {
+ModelFile read_required(const YamlMap& document, const geometry_io::ReadFile& read) {
   ModelFile model{document.file(),
                   document.line_of("geometry"),
-                  nurbs::read_geometry(document),
+                  nurbs::read_geometry(document, geometry_io::geometry_opener(read)),
                   read_material(document.map("material")),
                   {},
                   {},
@@ -109,18 +106,23 @@ ModelFile read_required(const YamlMap& document) {
                   {},
                   Vector3::Zero(),
                   {}};
-  if (!std::holds_alternative<nurbs::Volume>(model.geometry.patch))
+  const std::vector<nurbs::Shape>& patches = model.geometry.patches;
+  if (patches.size() != 1)
+    document.fail("geometry",
+                  fmt::format("geometry has {} patches, expected one for a solid", patches.size()));
+  if (!std::holds_alternative<nurbs::Volume>(patches.front()))
     document.fail("geometry", "geometry is a surface, expected a volume: a solid with a material needs one");
   return model;
 }
 
 }  // namespace
 
-ModelFile parse_model_file(const std::string& text, const std::string& file) {
+ModelFile parse_model_file(const std::string& text, const std::string& file,
+                           const geometry_io::ReadFile& read) {
   const YamlMap document = YamlMap::parse(text, file);
   document.allow_only({"units", "geometry", "material", "boundary", "surfaces", "probes", "output", "loads",
                        "initial", "time"});
-  ModelFile model = read_required(document);
+  ModelFile model = read_required(document, read);
   if (document.has("boundary"))
     for (const YamlMap& entry : document.list_of_maps("boundary"))
       model.boundary.push_back(read_fixed_faces(entry));
@@ -140,14 +142,8 @@ ModelFile parse_model_file(const std::string& text, const std::string& file) {
   return model;
 }
 
-ModelFile read_model_file(const std::string& path) {
-  std::ifstream stream(path);
-  std::ostringstream text;
-  // Inserting from a directory's or an empty file's buffer sets a fail bit: both are told apart from a model
-  // here.
-  if (!stream || !(text << stream.rdbuf()))
-    throw nurbs::InputError(fmt::format("{}: cannot read this file, expected a model file (YAML)", path));
-  return parse_model_file(text.str(), path);
+ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& read) {
+  return parse_model_file(read(path), path, read);
 }
 
 structure::ExplicitSolver build_solver(const ModelFile& model) {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "nurbs/geometry_file.h"
+#include "geometry_io/geometry_io.h"
 #include "structure/explicit_solver.h"
 #include "structure/probe.h"
 
@@ -43,7 +43,7 @@ struct TimeSpan {
 struct ModelFile {
   std::string file;  ///< as given, for messages
   int geometry_line;
-  nurbs::GeometryFile geometry;  ///< holds a Volume
+  nurbs::GeometryFile geometry;  ///< holds one patch, a Volume
   std::shared_ptr<const structure::Material> material;
   std::vector<FixedFaces> boundary;
   std::vector<structure::Probe> probes;  ///< in the order of the file
@@ -53,14 +53,16 @@ struct ModelFile {
   Vector3 initial_velocity = Vector3::Zero();  ///< [length/time], uniform
   std::optional<TimeSpan> time;
 
-  const nurbs::Volume& volume() const { return std::get<nurbs::Volume>(geometry.patch); }
+  const nurbs::Volume& volume() const { return std::get<nurbs::Volume>(geometry.patches.front()); }
 };
 
-/// `file` is the name used in messages.  Throws nurbs::InputError "file:line: what was given, what was
-/// expected".
-ModelFile parse_model_file(const std::string& text, const std::string& file);
+/// `file` is the name used in messages; `read` gives the geometry file that the text may name.  Throws
+/// nurbs::InputError "file:line: what was given, what was expected".
+ModelFile parse_model_file(const std::string& text, const std::string& file,
+                           const geometry_io::ReadFile& read = geometry_io::read_file);
 /// Throws nurbs::InputError also if the file cannot be read.
-ModelFile read_model_file(const std::string& path);
+ModelFile read_model_file(const std::string& path,
+                          const geometry_io::ReadFile& read = geometry_io::read_file);
 
 /// The solver in its initial state, loads applied, accelerations not yet worked out.  Throws
 /// nurbs::InputError if the geometry is left-handed or folded.

@@ -11,19 +11,7 @@ namespace {
 
 constexpr hsize_t kRowsPerChunk = 256;
 
-/// HDF5 prints its error stack unless told not to; a library must leave that to its caller.
-class SilentErrors {
- public:
-  SilentErrors() {
-    H5Eget_auto2(H5E_DEFAULT, &print_, &data_);
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
-  }
-  ~SilentErrors() { H5Eset_auto2(H5E_DEFAULT, print_, data_); }
-
- private:
-  H5E_auto2_t print_;
-  void* data_;
-};
+using SilentErrors = geometry_io::SilentHdf5Errors;
 
 hid_t create_file(const std::string& path) {
   const SilentErrors silent;

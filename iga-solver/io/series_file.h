@@ -2,31 +2,14 @@
 // An HDF5 file of number series that grow row by row.
 #pragma once
 
-#include <hdf5.h>
-
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "geometry_io/hdf5_handle.h"
 
 namespace io {
 
-/// Owns one HDF5 identifier.
-class Hdf5Handle {
- public:
-  using Close = herr_t (*)(hid_t);
-  Hdf5Handle(hid_t id, Close close) : id_(id), close_(close) {}
-  Hdf5Handle(Hdf5Handle&& other) noexcept
-      : id_(std::exchange(other.id_, H5I_INVALID_HID)), close_(other.close_) {}
-  Hdf5Handle& operator=(Hdf5Handle&&) = delete;
-  ~Hdf5Handle() {
-    if (id_ >= 0) close_(id_);
-  }
-  operator hid_t() const { return id_; }
-
- private:
-  hid_t id_;
-  Close close_;
-};
+using geometry_io::Hdf5Handle;
 
 /// Every function throws std::runtime_error, naming the file, if HDF5 fails.
 class SeriesFile {

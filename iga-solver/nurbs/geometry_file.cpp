@@ -4,7 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
 
 #include "nurbs/shape_reader.h"
 
@@ -12,56 +13,63 @@ namespace nurbs {
 namespace {
 
 constexpr const char* kUnitsNames[] = {"si", "cgs", "mm-g-ms"};
-constexpr const char* kWholeSurface = "all";  // a surface patch has no faces to choose from
 
-Face read_volume_face(const YamlMap& surfaces, const std::string& name) {
-  const std::string word = surfaces.word(name);
+std::vector<SurfacePiece> read_surface(const YamlMap& surfaces, const std::string& name,
+                                       const std::vector<Shape>& patches) {
+  const std::vector<std::string> words =
+      surfaces.is_list(name) ? surfaces.words(name) : std::vector<std::string>{surfaces.word(name)};
   try {
-    return face_from_name(word);
+    return parse_surface(words, patches);
   } catch (const std::invalid_argument& error) {
     surfaces.fail(name, fmt::format("surfaces.{}: {}", name, error.what()));
   }
 }
 
-void expect_whole_surface(const YamlMap& surfaces, const std::string& name) {
-  const std::string word = surfaces.word(name);
-  if (word != kWholeSurface)
-    surfaces.fail(name, fmt::format("surfaces.{}: unknown face '{}' of a surface patch, expected {}", name,
-                                    word, kWholeSurface));
-}
-
-std::optional<Face> read_face(const YamlMap& surfaces, const std::string& name, bool volume) {
-  if (volume) return read_volume_face(surfaces, name);
-  expect_whole_surface(surfaces, name);
-  return std::nullopt;
+GeometryFile open_other_file(const YamlMap& geometry, Units units, const OpenGeometry& open) {
+  const std::string file = geometry.word("file");
+  if (!open)
+    geometry.fail("file", fmt::format("geometry.file is {} in a file that is itself read for another one, "
+                                      "expected the shapes here",
+                                      file));
+  return open((std::filesystem::path(geometry.file()).parent_path() / file).string(), units);
 }
 
 }  // namespace
 
 const char* units_name(Units units) { return kUnitsNames[static_cast<int>(units)]; }
 
-GeometryFile read_geometry(const YamlMap& document) {
-  const std::string word = document.word_of("units", {kUnitsNames[0], kUnitsNames[1], kUnitsNames[2]});
-  const auto units =
-      std::find(std::begin(kUnitsNames), std::end(kUnitsNames), word) - std::begin(kUnitsNames);
-  GeometryFile geometry{static_cast<Units>(units), read_shape(document.map("geometry")), {}};
+Units units_from_name(const std::string& name) {
+  for (const Units units : {Units::si, Units::cgs, Units::mm_g_ms})
+    if (name == units_name(units)) return units;
+  throw std::invalid_argument(
+      fmt::format("units is '{}', expected one of: {}", name, fmt::join(kUnitsNames, ", ")));
+}
+
+GeometryFile read_geometry(const YamlMap& document, const OpenGeometry& open) {
+  const Units units =
+      units_from_name(document.word_of("units", {kUnitsNames[0], kUnitsNames[1], kUnitsNames[2]}));
+  const YamlMap map = document.map("geometry");
+  const std::vector<std::string> keys = map.keys();
+  const bool other_file = keys.size() == 1 && keys.front() == "file";
+  GeometryFile geometry =
+      other_file ? open_other_file(map, units, open) : GeometryFile{units, read_shapes(map), {}};
   if (!document.has("surfaces")) return geometry;
 
   const YamlMap surfaces = document.map("surfaces");
-  const bool volume = std::holds_alternative<Volume>(geometry.patch);
   for (const std::string& name : surfaces.keys())
-    if (!geometry.surfaces.emplace(name, read_face(surfaces, name, volume)).second)
+    if (!geometry.surfaces.emplace(name, read_surface(surfaces, name, geometry.patches)).second)
       surfaces.fail(name, fmt::format("surface '{}' is given twice, expected once", name));
   return geometry;
 }
 
-GeometryFile parse_geometry_file(const std::string& text, const std::string& file) {
+GeometryFile parse_geometry_file(const std::string& text, const std::string& file, const OpenGeometry& open) {
   const YamlMap document = YamlMap::parse(text, file);
   document.allow_only({"units", "geometry", "surfaces"});
-  return read_geometry(document);
+  return read_geometry(document, open);
 }
 
-NamedSurface named_surface(const GeometryFile& geometry, const std::string& name, const std::string& file) {
+std::vector<OrientedSurface> named_surface(const GeometryFile& geometry, const std::string& name,
+                                           const std::string& file) {
   const auto found = geometry.surfaces.find(name);
   if (found == geometry.surfaces.end()) {
     std::vector<std::string> names;
@@ -70,14 +78,9 @@ NamedSurface named_surface(const GeometryFile& geometry, const std::string& name
         fmt::format("{}: unknown surface '{}', expected one of: {}", file, name,
                     names.empty() ? "(the file names none)" : fmt::format("{}", fmt::join(names, ", "))));
   }
-  if (!found->second) return {std::get<Surface>(geometry.patch), 0};
-
-  const Volume& volume = std::get<Volume>(geometry.patch);
-  BoundarySurface face = boundary_surface(volume.space, *found->second);
-  NodalVectors control_points(3, face.space.control_point_count());
-  for (int a = 0; a < face.space.control_point_count(); ++a)
-    control_points.col(a) = volume.control_points.col(face.volume_control_point[a]);
-  return {{std::move(face.space), std::move(control_points)}, face.outward_sign};
+  std::vector<OrientedSurface> patches;
+  for (const SurfacePiece& piece : found->second) patches.push_back(extract(piece, geometry.patches));
+  return patches;
 }
 
 }  // namespace nurbs

@@ -10,8 +10,12 @@
 //     sphere: {centre, axis, radius, longitude: [0,360], latitude: [-90,90], elements}
 //     torus: {centre, axis, radius, tube_radius, angle: [0,360], tube_angle: [0,360], elements}
 //     tube: {origin, axis, inner_radius, outer_radius, length, angle, elements: [8,4,2]}        # a solid
-//     patches: [{degrees: [2,2], knots: [[..],[..]], control_points: [[x,y,z],..], weights: [..]}]
-//   surfaces: {top: zeta+}                      # a volume's face; `all` for a surface patch
+//     patches: [{degrees: [2,2], knots: [[..],[..]], control_points: [[x,y,z],..], weights: [..]}, ..]
+//     file: drum.h5                             # another geometry file, of any format; relative to this one
+//   surfaces: {top: zeta+}                      # a volume's face; `all` for surface patches
+//
+// Of several patches, counted from 0, a surface is a list of patches and of "PATCH FACE", as in
+// `surfaces: {shell: [0, 1], bore: [2 zeta-, 3 zeta-]}`.
 //
 // `degree` is one number or one per direction.  In a box or plane `breaks: [[0, .5, 1], ..]` (relative, from
 // 0 to 1) may stand in place of `elements` for graded meshes.
@@ -25,40 +29,41 @@
 // turn the first and the last edge touch, but are not joined: a whole `tube` is slit.
 #pragma once
 
+#include <functional>
 #include <map>
-#include <optional>
 #include <string>
+#include <vector>
 
-#include "nurbs/boundary.h"
-#include "nurbs/patch.h"
-#include "nurbs/shape_reader.h"
+#include "nurbs/named_surface.h"
 #include "nurbs/yaml_map.h"
 
 namespace nurbs {
 
 enum class Units { si, cgs, mm_g_ms };
 const char* units_name(Units units);
+/// Throws std::invalid_argument that lists the names.
+Units units_from_name(const std::string& name);
 
-/// What the three keys say.  `surfaces` maps a name to a face, or to nothing where the geometry is a surface
-/// itself.
+/// What the three keys say.  One patch at least; `surfaces`: one piece at least each.
 struct GeometryFile {
   Units units;
-  Shape patch;
-  std::map<std::string, std::optional<Face>> surfaces;
+  std::vector<Shape> patches;
+  std::map<std::string, std::vector<SurfacePiece>> surfaces;
 };
 
-/// Reads the three keys from a document that may have others (a model file).  Throws InputError.
-GeometryFile read_geometry(const YamlMap& document);
+/// Reads the geometry file that another one names.  `units` are those of the file that names it: units for
+/// formats without, and the only ones allowed for others.
+using OpenGeometry = std::function<GeometryFile(const std::string& path, Units units)>;
+
+/// Reads the three keys from a document that may have others (a model file).  Without `open`, the key `file`
+/// is refused.  Throws InputError.
+GeometryFile read_geometry(const YamlMap& document, const OpenGeometry& open = {});
 /// A rigid wall's file: any other top-level key is an error.
-GeometryFile parse_geometry_file(const std::string& text, const std::string& file);
+GeometryFile parse_geometry_file(const std::string& text, const std::string& file,
+                                 const OpenGeometry& open = {});
 
-/// One named surface as a patch of its own; `outward_sign` as in BoundarySurface, 0 for a surface patch
-/// (two-sided).
-struct NamedSurface {
-  Surface surface;
-  int outward_sign;
-};
-/// Throws InputError that lists the names there are.
-NamedSurface named_surface(const GeometryFile& geometry, const std::string& name, const std::string& file);
+/// The patches of one named surface.  Throws InputError that lists the names there are.
+std::vector<OrientedSurface> named_surface(const GeometryFile& geometry, const std::string& name,
+                                           const std::string& file);
 
 }  // namespace nurbs

@@ -204,16 +204,19 @@ Patch<Dim> read_patch(const YamlMap& map, std::index_sequence<Direction...>) {
   return {std::move(space), std::move(control_points)};
 }
 
-Shape read_patches(const YamlMap& geometry) {
-  const std::vector<YamlMap> patches = geometry.list_of_maps("patches");
-  if (patches.size() != 1)
-    geometry.fail("patches", fmt::format("1 patch supported, {} given", patches.size()));
-  const YamlMap& patch = patches.front();
+Shape read_patch(const YamlMap& patch) {
   patch.allow_only({"degrees", "knots", "control_points", "weights"});
   const size_t dim = patch.integers("degrees", 1, kMaxDegree).size();
   if (dim == 2) return read_patch<2>(patch, std::make_index_sequence<2>());
   if (dim == 3) return read_patch<3>(patch, std::make_index_sequence<3>());
   patch.fail("degrees", fmt::format("degrees is a list of {}, expected 2 (a surface) or 3 (a volume)", dim));
+}
+
+std::vector<Shape> read_patches(const YamlMap& geometry) {
+  std::vector<Shape> patches;
+  for (const YamlMap& patch : geometry.list_of_maps("patches")) patches.push_back(read_patch(patch));
+  if (patches.empty()) geometry.fail("patches", "patches is empty, expected one patch at least");
+  return patches;
 }
 
 struct ShapeKey {
@@ -226,19 +229,19 @@ constexpr ShapeKey kShapes[] = {
     {"box", read_box},       {"plane", read_plane}, {"cylinder", read_cylinder}, {"cone", read_cone},
     {"sphere", read_sphere}, {"torus", read_torus}, {"tube", read_tube},
 };
-constexpr std::initializer_list<const char*> kKeys = {"box",    "plane", "cylinder", "cone",
-                                                      "sphere", "torus", "tube",     "patches"};
+constexpr std::initializer_list<const char*> kKeys = {"box",   "plane", "cylinder", "cone", "sphere",
+                                                      "torus", "tube",  "patches",  "file"};
 
 }  // namespace
 
-Shape read_shape(const YamlMap& geometry) {
+std::vector<Shape> read_shapes(const YamlMap& geometry) {
   geometry.allow_only(kKeys);
   const size_t given = geometry.keys().size();
   if (given != 1)
     geometry.fail("geometry",
                   fmt::format("{} geometries given, expected one of: {}", given, fmt::join(kKeys, ", ")));
   for (const ShapeKey& shape : kShapes)
-    if (geometry.has(shape.key)) return shape.read(geometry.map(shape.key));
+    if (geometry.has(shape.key)) return {shape.read(geometry.map(shape.key))};
   return read_patches(geometry);
 }
 

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The value of a model file's key `geometry`: one shape.  Its keys are listed in geometry_file.h.
+// The value of a model file's key `geometry`.  Its keys are listed in geometry_file.h.
 #pragma once
 
-#include <variant>
+#include <vector>
 
-#include "nurbs/patch.h"
+#include "nurbs/named_surface.h"
 #include "nurbs/yaml_map.h"
 
 namespace nurbs {
 
-using Shape = std::variant<Surface, Volume>;
-
-/// Throws InputError, with file and line, what was given and what was expected.
-Shape read_shape(const YamlMap& geometry);
+/// Patches of one shape, or those listed under `patches`; one at least.  Throws InputError, with file and
+/// line, what was given and what was expected.
+std::vector<Shape> read_shapes(const YamlMap& geometry);
 
 }  // namespace nurbs

@@ -5,18 +5,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 
+#include "nurbs/parse_number.h"
+
 namespace nurbs {
 namespace {
-
-// A user's text inside a message: long ones are cut.
-std::string shown(const std::string& text) {
-  constexpr size_t kLongest = 60;
-  return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
-}
 
 std::string described(const YAML::Node& node) {
   if (node.IsSequence()) return fmt::format("a list of {}", node.size());
@@ -42,22 +37,8 @@ bool contains(Range range, double x) {
          (range.high_included ? x <= range.high : x < range.high);
 }
 
-// The whole text as a number, in every locale the same way; false if it is anything else.
-template <class Number>
-bool parse_number(const std::string& text, Number& number) {
-  const char* first = text.data();
-  const char* last = first + text.size();
-  if (last - first > 1 && *first == '+' && first[1] != '-')
-    ++first;  // YAML allows a plus, from_chars does not
-  const auto [end, error] = std::from_chars(first, last, number);
-  return error == std::errc() && end == last;
-}
-
-// Whatever the user's text holds, the message is one line.
-[[noreturn]] void fail_in(const std::string& file, int line, std::string message) {
-  std::replace_if(
-      message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, ' ');
-  throw InputError(fmt::format("{}:{}: {}", file, line, message));
+[[noreturn]] void fail_in(const std::string& file, int line, const std::string& message) {
+  throw InputError(fmt::format("{}:{}: {}", file, line, one_line(message)));
 }
 
 int line_of_mark(const YAML::Mark& mark) { return std::max(mark.line, 0) + 1; }

@@ -7,18 +7,13 @@
 
 #include <initializer_list>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "nurbs/input_error.h"
 #include "nurbs/types.h"
 
 namespace nurbs {
-
-/// What a user's file got wrong: "plate.yaml:7: material.density is -1, expected a number > 0".  One line.
-struct InputError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
 
 /// Range of a number, bounds excluded unless said; only what the user may type.
 struct Range {

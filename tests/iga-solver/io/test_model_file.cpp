@@ -47,7 +47,7 @@ TEST(ModelFile, ReadsEveryKey) {
   EXPECT_THAT(model.boundary[0].faces, testing::ElementsAre(Face::xi_minus, Face::xi_plus));
   EXPECT_THAT(model.boundary[0].directions, testing::ElementsAre(true, true, true));
   EXPECT_THAT(model.boundary[1].directions, testing::ElementsAre(false, false, true));
-  EXPECT_EQ(model.geometry.surfaces.at("top"), Face::zeta_plus);
+  EXPECT_EQ(model.geometry.surfaces.at("top").front().face, Face::zeta_plus);
   ASSERT_EQ(model.probes.size(), 2u);
   EXPECT_EQ(model.probes[0].name, "corner");
   EXPECT_EQ(model.probes[1].name, "below");

@@ -15,6 +15,12 @@ using testing::StartsWith;
 
 GeometryFile parsed(const std::string& text) { return parse_geometry_file(text, "wall.yaml"); }
 
+OrientedSurface the_patch(const GeometryFile& file, const std::string& name) {
+  std::vector<OrientedSurface> patches = named_surface(file, name, "wall.yaml");
+  EXPECT_EQ(patches.size(), 1u);
+  return patches.front();
+}
+
 const std::string kBox =
     "units: si\n"
     "geometry:\n"
@@ -40,18 +46,18 @@ const std::string kPatch =
 TEST(GeometryFile, Box) {
   const GeometryFile file = parsed(kBox);
   EXPECT_EQ(file.units, Units::si);
-  const Volume& volume = std::get<Volume>(file.patch);
+  const Volume& volume = std::get<Volume>(file.patches.front());
   EXPECT_EQ(volume.space.element_count(), 24);
   EXPECT_EQ(volume.space.degree(1), 3);
   EXPECT_NEAR(
       (interpolate(volume.space, volume.control_points, {0.5, 0.5, 0.5}) - Vector3(1, 1.5, -0.5)).norm(), 0.0,
       1e-15);
-  const NamedSurface top = named_surface(file, "top", "wall.yaml");
+  const OrientedSurface top = the_patch(file, "top");
   EXPECT_EQ(top.outward_sign, 1);
   EXPECT_NEAR(
       (interpolate(top.surface.space, top.surface.control_points, {0.25, 1.0}) - Vector3(0.5, 3, 0)).norm(),
       0.0, 1e-15);
-  const NamedSurface side = named_surface(file, "side", "wall.yaml");
+  const OrientedSurface side = the_patch(file, "side");
   EXPECT_EQ(side.outward_sign, -1);
   EXPECT_NEAR(
       (interpolate(side.surface.space, side.surface.control_points, {1.0, 0.0}) - Vector3(0, 3, -1)).norm(),
@@ -61,7 +67,7 @@ TEST(GeometryFile, Box) {
 TEST(GeometryFile, GradedPlane) {
   const GeometryFile file = parsed(kPlane);
   EXPECT_STREQ(units_name(file.units), "mm-g-ms");
-  const NamedSurface floor = named_surface(file, "floor", "wall.yaml");
+  const OrientedSurface floor = the_patch(file, "floor");
   EXPECT_EQ(floor.outward_sign, 0);
   EXPECT_EQ(floor.surface.space.knots(0).breaks(), (std::vector<double>{0, 0.25, 1}));
   EXPECT_NEAR(
@@ -71,7 +77,7 @@ TEST(GeometryFile, GradedPlane) {
 }
 
 TEST(GeometryFile, PatchIsAnExactQuarterCircle) {
-  const NamedSurface quarter = named_surface(parsed(kPatch), "quarter", "wall.yaml");
+  const OrientedSurface quarter = the_patch(parsed(kPatch), "quarter");
   for (double xi : {0.0, 0.2, 0.5, 0.9})
     EXPECT_NEAR(
         interpolate(quarter.surface.space, quarter.surface.control_points, {xi, 0.3}).head<2>().norm(), 1.0,
@@ -84,8 +90,68 @@ TEST(GeometryFile, VolumePatch) {
       "[0, 0, 1, 1]]\n"
       "      control_points: [[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],[0,1,1],[1,1,1]]\n"
       "surfaces: {bottom: zeta-}\n");
-  EXPECT_EQ(std::get<Volume>(file.patch).space.element_count(), 1);
-  EXPECT_EQ(named_surface(file, "bottom", "wall.yaml").outward_sign, -1);
+  EXPECT_EQ(std::get<Volume>(file.patches.front()).space.element_count(), 1);
+  EXPECT_EQ(the_patch(file, "bottom").outward_sign, -1);
+}
+
+// ------------------------------------------------------------------------------------------ several patches
+
+// Two squares side by side, and a cube beside them.
+const std::string kPatches =
+    "units: si\n"
+    "geometry:\n"
+    "  patches:\n"
+    "    - {degrees: [1, 1], knots: [[0, 0, 1, 1], [0, 0, 1, 1]],\n"
+    "       control_points: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]}\n"
+    "    - {degrees: [1, 1], knots: [[0, 0, 1, 1], [0, 0, 1, 1]],\n"
+    "       control_points: [[1, 0, 0], [2, 0, 0], [1, 1, 0], [2, 1, 0]]}\n"
+    "    - {degrees: [1, 1, 1], knots: [[0, 0, 1, 1], [0, 0, 1, 1], [0, 0, 1, 1]],\n"
+    "       control_points: [[3,0,0],[4,0,0],[3,1,0],[4,1,0],[3,0,1],[4,0,1],[3,1,1],[4,1,1]]}\n"
+    "surfaces: {floor: [0, 1], second: 1, mixed: [2 zeta-, 1, 2 xi+]}\n";
+
+TEST(GeometryFile, SurfacesOfSeveralPatches) {
+  const GeometryFile file = parsed(kPatches);
+  EXPECT_EQ(file.patches.size(), 3u);
+  const std::vector<OrientedSurface> floor = named_surface(file, "floor", ""),
+                                     mixed = named_surface(file, "mixed", "");
+  ASSERT_EQ(floor.size(), 2u);
+  EXPECT_EQ(floor[1].surface.control_points.col(1), Vector3(2, 0, 0));
+  EXPECT_EQ(the_patch(file, "second").surface.control_points, floor[1].surface.control_points);
+  ASSERT_EQ(mixed.size(), 3u);
+  EXPECT_EQ(mixed[0].outward_sign, -1);
+  EXPECT_EQ(mixed[0].surface.control_points.col(3), Vector3(4, 1, 0));
+  EXPECT_EQ(mixed[1].outward_sign, 0);
+  EXPECT_EQ(mixed[2].outward_sign, 1);
+  EXPECT_EQ(mixed[2].surface.control_points.col(1), Vector3(4, 1, 0));
+}
+
+TEST(GeometryFile, WordsOfASurfaceSayWhatTheyWereReadFrom) {
+  const std::vector<Shape> three = parsed(kPatches).patches, two(three.begin(), three.begin() + 2),
+                           box = parsed(kBox).patches;
+  using Words = std::vector<std::string>;
+  const auto again = [](const Words& words, const std::vector<Shape>& patches) {
+    return surface_words(parse_surface(words, patches), patches);
+  };
+  EXPECT_EQ(again({"all"}, two), Words{"all"});
+  EXPECT_EQ(again({"0", "1"}, two), Words{"all"});
+  EXPECT_EQ(again({"1", "0"}, two), (Words{"1", "0"}));
+  EXPECT_EQ(again({"1"}, two), Words{"1"});
+  EXPECT_EQ(again({"2 eta-", "0"}, three), (Words{"2 eta-", "0"}));
+  EXPECT_EQ(again({"0 zeta+"}, box), Words{"zeta+"});
+  EXPECT_EQ(again({"zeta+", "xi-"}, box), (Words{"0 zeta+", "0 xi-"}));
+}
+
+GeometryFile open_box(const std::string& path, Units units) {
+  EXPECT_EQ(path, "models/drums/box.any");
+  EXPECT_EQ(units, Units::cgs);
+  return parsed(kBox);
+}
+
+TEST(GeometryFile, NamesAnotherFileThatIsRelativeToIt) {
+  const std::string text = "units: cgs\ngeometry: {file: drums/box.any}\nsurfaces: {end: eta+}\n";
+  const GeometryFile file = parse_geometry_file(text, "models/wall.yaml", open_box);
+  EXPECT_EQ(file.surfaces.size(), 3u);
+  EXPECT_EQ(file.surfaces.at("end").front(), (SurfacePiece{0, Face::eta_plus}));
 }
 
 // ------------------------------------------------------------------------------------------------ round
@@ -110,13 +176,13 @@ const std::string kTube =
     "  tube: {origin: [0, 0, 0], axis: [0, 0, 1], inner_radius: 1, outer_radius: 2, length: 3,\n"
     "    angle: [0, 90], elements: [4, 3, 2]}\nsurfaces: {bore: zeta-, skin: zeta+, end: eta+}\n";
 
-Vector3 point(const NamedSurface& named, const Parameter<2>& xi) {
+Vector3 point(const OrientedSurface& named, const Parameter<2>& xi) {
   return interpolate(named.surface.space, named.surface.control_points, xi);
 }
-NamedSurface wall_of(const std::string& text) { return named_surface(parsed(text), "wall", "wall.yaml"); }
+OrientedSurface wall_of(const std::string& text) { return the_patch(parsed(text), "wall"); }
 
 TEST(GeometryFile, Cylinder) {
-  const NamedSurface wall = wall_of(kCylinder);  // axis y, so angles count from z towards x
+  const OrientedSurface wall = wall_of(kCylinder);  // axis y, so angles count from z towards x
   EXPECT_EQ(wall.outward_sign, 0);
   EXPECT_EQ(wall.surface.space.degree(0), 2);
   EXPECT_EQ(wall.surface.space.degree(1), 2);
@@ -126,7 +192,7 @@ TEST(GeometryFile, Cylinder) {
 }
 
 TEST(GeometryFile, Cone) {
-  const NamedSurface wall = wall_of(kCone);  // downwards, so angles count from y towards x
+  const OrientedSurface wall = wall_of(kCone);  // downwards, so angles count from y towards x
   EXPECT_EQ(wall.surface.space.degree(0), 3);
   EXPECT_EQ(wall.surface.space.degree(1), 1);
   EXPECT_NEAR((point(wall, {0.0, 0.0}) - Vector3(0, 2, 1)).norm(), 0.0, 1e-14);
@@ -135,30 +201,30 @@ TEST(GeometryFile, Cone) {
 }
 
 TEST(GeometryFile, Sphere) {
-  const NamedSurface wall = wall_of(kSphere);
+  const OrientedSurface wall = wall_of(kSphere);
   EXPECT_NEAR((point(wall, {0.5, 1.0}) - Vector3(0, 2, 0)).norm(), 0.0, 1e-14);
   EXPECT_NEAR((point(wall, {0.0, 0.5}) - Vector3(1, 0, -1) * std::sqrt(2)).norm(), 0.0, 1e-14);
-  const NamedSurface whole =
+  const OrientedSurface whole =
       wall_of(with_shape("sphere: {centre: [0, 0, 0], axis: [1, 0, 0], radius: 2, elements: [4, 2]}"));
   EXPECT_NEAR((point(whole, {0.6, 0.0}) - Vector3(-2, 0, 0)).norm(), 0.0, 1e-14);
   EXPECT_NEAR((point(whole, {0.25, 0.5}) - Vector3(0, 0, 2)).norm(), 0.0, 1e-14);
 }
 
 TEST(GeometryFile, Torus) {
-  const NamedSurface wall = wall_of(kTorus);
+  const OrientedSurface wall = wall_of(kTorus);
   EXPECT_NEAR((point(wall, {0.0, 0.0}) - Vector3(3, 0, 1)).norm(), 0.0, 1e-14);
   EXPECT_NEAR((point(wall, {1.0, 1.0}) - Vector3(0, 2, 0)).norm(), 0.0, 1e-14);
 }
 
 TEST(GeometryFile, Tube) {
   const GeometryFile file = parsed(kTube);
-  EXPECT_EQ(std::get<Volume>(file.patch).space.element_indices(23), (Indices<3>{3, 2, 1}));
-  const NamedSurface bore = named_surface(file, "bore", ""), skin = named_surface(file, "skin", "");
+  EXPECT_EQ(std::get<Volume>(file.patches.front()).space.element_indices(23), (Indices<3>{3, 2, 1}));
+  const OrientedSurface bore = the_patch(file, "bore"), skin = the_patch(file, "skin");
   EXPECT_EQ(bore.outward_sign, -1);
   EXPECT_EQ(skin.outward_sign, 1);
   EXPECT_NEAR((point(bore, {0.0, 0.5}) - Vector3(1, 0, 1.5)).norm(), 0.0, 1e-14);
   EXPECT_NEAR((point(skin, {1.0, 0.5}) - Vector3(0, 2, 1.5)).norm(), 0.0, 1e-14);
-  EXPECT_NEAR(point(named_surface(file, "end", ""), {0.7, 0.5}).z(), 3.0, 1e-14);
+  EXPECT_NEAR(point(the_patch(file, "end"), {0.7, 0.5}).z(), 3.0, 1e-14);
 }
 
 TEST(GeometryFile, ModelFilesMayHaveOtherKeys) {
@@ -230,7 +296,23 @@ TEST(GeometryFile, SaysWhatWasGivenAndWhatWasExpected) {
        "wall.yaml:4: ", "degrees is a list of 1, expected 2 (a surface) or 3"},
       {kPatch, "degrees: [2, 1]", "degrees: [2, 0]",
        "wall.yaml:4: ", "is 0, expected a whole number from 1 to 6"},
-      {kPatch, "surfaces", "    - {}\n    - {}\nsurfaces", "wall.yaml:3: ", "1 patch supported, 3 given"},
+      {kPatch, "surfaces", "    - {}\n    - {}\nsurfaces",
+       "wall.yaml:8: ", "geometry.patches[1].degrees is missing"},
+      {kPatches, "mixed: [2 zeta-", "mixed: [3 zeta-",
+       "wall.yaml:10: ", "surfaces.mixed: patch is '3', expected a number from 0 to 2"},
+      {kPatches, "floor: [0, 1]", "floor: all", "wall.yaml:10: ", "'all', but patch 2 is a volume"},
+      {kPatches, "floor: [0, 1]", "floor: [0, 0]", "wall.yaml:10: ", "patch 0 is named twice, expected once"},
+      {kPatches, "floor: [0, 1]", "floor: [0, 2]",
+       "wall.yaml:10: ", "patch 2 is a volume, expected '2 FACE'"},
+      {kPatches, "floor: [0, 1]", "floor: []", "wall.yaml:10: ", "the list is empty"},
+      {kPatches, "floor: [0, 1]", "floor: zeta-", "wall.yaml:10: ", "'zeta-', but there are 3 patches"},
+      {kPatches, "floor: [0, 1]", "floor: 1 xi-", "wall.yaml:10: ", "'xi-' of patch 1, which is a surface"},
+      {kPatches, "2 xi+", "2 top", "wall.yaml:10: ", "unknown face 'top', expected xi-, xi+"},
+      {kBox, "zeta+", "all", "wall.yaml:4: ", "'all' of a volume, expected xi-, xi+"},
+      {"units: si\ngeometry: {patches: []}\n", "[]", "[]",
+       "wall.yaml:2: ", "patches is empty, expected one patch at least"},
+      {"units: si\ngeometry: {file: a.h5}\n", "a.h5", "a.h5",
+       "wall.yaml:2: ", "geometry.file is a.h5 in a file that is itself read for another one"},
       {kPatch, "geometry:\n", "geometry:\n  box: {}\n",
        "wall.yaml:3: ", "2 geometries given, expected one of"},
       {kPatch, "degrees: [2, 1]", "degrees: [2, 1", "wall.yaml:", "broken YAML"},

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The formats behind geometry_io.h.  Readers throw nurbs::InputError, writers std::invalid_argument.
+#pragma once
+
+#include <string>
+
+#include "nurbs/geometry_file.h"
+
+namespace geometry_io {
+
+using nurbs::GeometryFile;
+
+std::string write_yaml(const GeometryFile& geometry);
+
+/// `units` are not used: HDF5 files have their own.
+GeometryFile parse_hdf5(const std::string& bytes, const std::string& file, nurbs::Units units);
+std::string write_hdf5(const GeometryFile& geometry);
+
+/// `units` are those of a file without.
+GeometryFile parse_gismo(const std::string& text, const std::string& file, nurbs::Units units);
+std::string write_gismo(const GeometryFile& geometry);
+
+}  // namespace geometry_io

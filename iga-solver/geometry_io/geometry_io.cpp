@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "geometry_io/geometry_io.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "geometry_io/formats.h"
+
+namespace geometry_io {
+namespace {
+
+struct FormatEntry {
+  Format format;
+  const char* name;
+  std::initializer_list<const char*> extensions;
+  GeometryFile (*parse)(const std::string& bytes, const std::string& file, nurbs::Units units);
+  std::string (*write)(const GeometryFile& geometry);
+};
+
+GeometryFile parse_yaml(const std::string& text, const std::string& file, nurbs::Units) {
+  return nurbs::parse_geometry_file(text, file);
+}
+
+const FormatEntry kFormats[] = {
+    {Format::yaml, "YAML", {".yaml", ".yml"}, parse_yaml, write_yaml},
+    {Format::hdf5, "HDF5", {".h5", ".hdf5"}, parse_hdf5, write_hdf5},
+    {Format::xml, "G+Smo XML", {".xml"}, parse_gismo, write_gismo},
+};
+const FormatEntry& entry(Format format) { return kFormats[static_cast<int>(format)]; }
+
+// The file that a geometry file names names no further one.
+GeometryFile read_other_file(const std::string& path, nurbs::Units units, const ReadFile& read) {
+  GeometryFile geometry = entry(format_of_path(path)).parse(read(path), path, units);
+  if (geometry.units != units)
+    throw nurbs::InputError(fmt::format("{}: units are {}, expected {} as in the file that names this one",
+                                        path, nurbs::units_name(geometry.units), nurbs::units_name(units)));
+  return geometry;
+}
+
+}  // namespace
+
+const char* format_name(Format format) { return entry(format).name; }
+
+Format format_of_path(const std::string& path) {
+  const std::string extension = std::filesystem::path(path).extension().string();
+  for (const FormatEntry& known : kFormats)
+    for (const char* one : known.extensions)
+      if (extension == one) return known.format;
+  return Format::yaml;
+}
+
+std::string read_file(const std::string& path) {
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream content;
+  if (file) content << file.rdbuf();
+  if (!file || (content.str().empty() && errno != 0))
+    throw nurbs::InputError(
+        fmt::format("{}: cannot read this file: {}", path, std::strerror(errno != 0 ? errno : EIO)));
+  return content.str();
+}
+
+GeometryFile read_geometry(const std::string& path, const ReadFile& read, nurbs::Units units) {
+  const Format format = format_of_path(path);
+  const std::string bytes = read(path);
+  if (format == Format::yaml) return nurbs::parse_geometry_file(bytes, path, geometry_opener(read));
+  return entry(format).parse(bytes, path, units);
+}
+
+nurbs::OpenGeometry geometry_opener(ReadFile read) {
+  return [read = std::move(read)](const std::string& path, nurbs::Units units) {
+    return read_other_file(path, units, read);
+  };
+}
+
+std::string write_geometry(const GeometryFile& geometry, Format format) {
+  return entry(format).write(geometry);
+}
+
+}  // namespace geometry_io

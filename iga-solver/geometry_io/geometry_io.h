@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Geometry files of all formats, from bytes in memory: who reads a file (rank 0 for all, or this process) is
+// the caller's business, and all who have the same bytes reach the same verdict.  README.md of this folder
+// lists the formats.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "nurbs/geometry_file.h"
+
+namespace geometry_io {
+
+using nurbs::GeometryFile;
+
+enum class Format { yaml, hdf5, xml };
+/// "YAML", "HDF5", "G+Smo XML".
+const char* format_name(Format format);
+/// By the file's extension (.h5, .hdf5, .xml, .yaml, .yml), else YAML.
+Format format_of_path(const std::string& path);
+
+/// Gives the bytes of the file at `path`; throws nurbs::InputError if it cannot.
+using ReadFile = std::function<std::string(const std::string& path)>;
+/// Reads in this process.
+std::string read_file(const std::string& path);
+
+/// Reads a geometry file, and another one that it names.  `units` are those of formats that have none.
+/// Throws nurbs::InputError: one line with file and place, what was given and what was expected.
+GeometryFile read_geometry(const std::string& path, const ReadFile& read,
+                           nurbs::Units units = nurbs::Units::si);
+/// For model files: what their key `geometry: {file: ...}` reads; its units must be the model's.
+nurbs::OpenGeometry geometry_opener(ReadFile read);
+
+/// The file's bytes; reading them gives the same numbers to the last bit.  Throws std::invalid_argument if
+/// the format cannot hold the geometry.
+std::string write_geometry(const GeometryFile& geometry, Format format);
+
+}  // namespace geometry_io

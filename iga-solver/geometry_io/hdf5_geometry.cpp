@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Our HDF5 schema; README.md of this folder lists it.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "geometry_io/formats.h"
+#include "geometry_io/hdf5_file.h"
+
+namespace geometry_io {
+namespace {
+
+constexpr const char* kFormatName = "nurbs-geometry";
+constexpr int kVersion = 1;
+constexpr const char* kKnots[] = {"knots_xi", "knots_eta", "knots_zeta"};
+
+using nurbs::KnotVector;
+using nurbs::Patch;
+using nurbs::Shape;
+
+// Shape of control-point data, the first direction fastest: [n_eta][n_xi].
+template <int Dim>
+std::vector<hsize_t> net_shape(const std::array<KnotVector, Dim>& knots) {
+  std::vector<hsize_t> shape;
+  for (int d = Dim - 1; d >= 0; --d) shape.push_back(knots[d].control_point_count());
+  return shape;
+}
+
+// Runs `build`; what it finds wrong with its arguments is an error of the file at `path`.
+template <class Build>
+auto blame(const Hdf5Input& file, const std::string& path, Build build) {
+  try {
+    return build();
+  } catch (const std::invalid_argument& error) {
+    file.fail(path, error.what());
+  }
+}
+
+std::vector<double> read_net(const Hdf5Input& file, const std::string& path,
+                             const std::vector<hsize_t>& shape) {
+  Hdf5Array array = file.numbers(path);
+  if (array.shape != shape)
+    file.fail(path, fmt::format("shape is {}, expected {} by the knots and degrees", shape_text(array.shape),
+                                shape_text(shape)));
+  return std::move(array.values);
+}
+
+KnotVector read_knots(const Hdf5Input& file, const std::string& path, int degree) {
+  Hdf5Array array = file.numbers(path);
+  if (array.shape.size() != 1)
+    file.fail(path, fmt::format("shape is {}, expected [number of knots]", shape_text(array.shape)));
+  return blame(file, path, [&] { return KnotVector(degree, std::move(array.values)); });
+}
+
+template <int Dim, size_t... Direction>
+Patch<Dim> read_patch(const Hdf5Input& file, const std::string& path, const std::vector<int>& degrees,
+                      std::index_sequence<Direction...>) {
+  const std::array<KnotVector, Dim> knots{
+      read_knots(file, path + "/" + kKnots[Direction], degrees[Direction])...};
+  std::vector<hsize_t> shape = net_shape<Dim>(knots);
+  const std::string weights_path = path + "/weights";
+  std::vector<double> weights;
+  if (file.has(weights_path)) weights = read_net(file, weights_path, shape);
+  nurbs::Space<Dim> space =
+      blame(file, weights_path, [&] { return nurbs::Space<Dim>(knots, std::move(weights)); });
+  shape.push_back(3);
+  const std::vector<double> xyz = read_net(file, path + "/control_points", shape);
+  Patch<Dim> patch{std::move(space), Eigen::Map<const nurbs::NodalVectors>(xyz.data(), 3, xyz.size() / 3)};
+  blame(file, path + "/control_points", [&] { return nurbs::check_patch(patch); });
+  return patch;
+}
+
+Shape read_shape(const Hdf5Input& file, const std::string& path) {
+  const std::vector<int> degrees = file.integers(path, "degrees");
+  const size_t dim = degrees.size();
+  if (dim != 2 && dim != 3)
+    file.fail(path,
+              fmt::format("attribute 'degrees' has {} numbers, expected 2 (a surface) or 3 (a volume)", dim));
+  for (const std::string& name : file.members(path)) {
+    const bool known = std::find(kKnots, kKnots + dim, name) != kKnots + dim;
+    if (!known && name != "control_points" && name != "weights")
+      file.fail(path, fmt::format("unknown data set '{}' of a patch, expected {}, control_points and weights",
+                                  nurbs::shown(name), fmt::join(kKnots, kKnots + dim, ", ")));
+  }
+  if (dim == 2) return read_patch<2>(file, path, degrees, std::make_index_sequence<2>());
+  return read_patch<3>(file, path, degrees, std::make_index_sequence<3>());
+}
+
+void check_version(const Hdf5Input& file) {
+  const std::string format = file.text("/", "format");
+  if (format != kFormatName)
+    file.fail("/",
+              fmt::format("attribute 'format' is '{}', expected '{}'", nurbs::shown(format), kFormatName));
+  const std::vector<int> version = file.integers("/", "version");
+  if (version != std::vector<int>{kVersion})
+    file.fail("/", fmt::format("attribute 'version' is {}, expected {}", fmt::join(version, " "), kVersion));
+}
+
+template <int Dim>
+void write_patch(const Patch<Dim>& patch, const std::string& path, Hdf5Output& file) {
+  std::vector<int> degrees;
+  for (int d = 0; d < Dim; ++d) {
+    const KnotVector& knots = patch.space.knots(d);
+    degrees.push_back(knots.degree());
+    file.add_numbers(path + "/" + kKnots[d], {knots.knots().size()}, knots.knots().data());
+  }
+  file.set_integers(path, "degrees", degrees);
+  std::vector<hsize_t> shape = net_shape<Dim>(patch.space.knots());
+  if (patch.space.rational()) file.add_numbers(path + "/weights", shape, patch.space.weights().data());
+  shape.push_back(3);
+  file.add_numbers(path + "/control_points", shape, patch.control_points.data());
+}
+
+}  // namespace
+
+GeometryFile parse_hdf5(const std::string& bytes, const std::string& file_name, nurbs::Units) {
+  const Hdf5Input file(bytes, file_name);
+  check_version(file);
+  const std::string units = file.text("/", "units");
+  GeometryFile geometry{blame(file, "/", [&] { return nurbs::units_from_name(units); }), {}, {}};
+  const size_t count = file.members("/patches").size();
+  if (count == 0) file.fail("/patches", "is empty, expected the groups 0, 1, ...");
+  for (size_t p = 0; p < count; ++p)
+    geometry.patches.push_back(read_shape(file, fmt::format("/patches/{}", p)));
+  if (!file.has("/surfaces")) return geometry;
+  for (const std::string& name : file.members("/surfaces")) {
+    const std::string path = "/surfaces/" + name;
+    const std::vector<std::string> words = file.texts(path);
+    geometry.surfaces[name] =
+        blame(file, path, [&] { return nurbs::parse_surface(words, geometry.patches); });
+  }
+  return geometry;
+}
+
+std::string write_hdf5(const GeometryFile& geometry) {
+  Hdf5Output file;
+  file.set_text("/", "format", kFormatName);
+  file.set_integers("/", "version", {kVersion});
+  file.set_text("/", "units", nurbs::units_name(geometry.units));
+  file.add_group("/patches");
+  for (size_t p = 0; p < geometry.patches.size(); ++p) {
+    const std::string path = fmt::format("/patches/{}", p);
+    file.add_group(path);
+    std::visit([&](const auto& patch) { write_patch(patch, path, file); }, geometry.patches[p]);
+  }
+  if (!geometry.surfaces.empty()) file.add_group("/surfaces");
+  for (const auto& [name, pieces] : geometry.surfaces) {
+    if (name.find('/') != std::string::npos || name == ".")
+      throw std::invalid_argument(
+          fmt::format("surface '{}': a name in HDF5 has no '/' and is not '.'", nurbs::shown(name)));
+    file.add_texts("/surfaces/" + name, nurbs::surface_words(pieces, geometry.patches));
+  }
+  return file.bytes();
+}
+
+}  // namespace geometry_io

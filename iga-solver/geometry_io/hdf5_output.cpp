@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <algorithm>
+#include <stdexcept>
+
+#include "geometry_io/hdf5_file.h"
+
+namespace geometry_io {
+namespace {
+
+template <class Result>
+Result check(Result result, const char* action) {
+  if (result < 0) throw std::runtime_error(std::string("HDF5 cannot ") + action);
+  return result;
+}
+
+hid_t create_in_memory() {
+  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  constexpr size_t kIncrement = 1 << 16;
+  H5Pset_fapl_core(access, kIncrement, false);
+  return H5Fcreate("geometry", H5F_ACC_TRUNC, H5P_DEFAULT, access);
+}
+
+// Text of a fixed length, padded with NULs.
+Hdf5Handle text_type(size_t size) {
+  Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  check(H5Tset_size(type, std::max<size_t>(size, 1)), "make a text type");
+  check(H5Tset_strpad(type, H5T_STR_NULLPAD), "make a text type");
+  check(H5Tset_cset(type, H5T_CSET_UTF8), "make a text type");
+  return type;
+}
+
+}  // namespace
+
+Hdf5Output::Hdf5Output() : file_(create_in_memory(), H5Fclose) {
+  check<hid_t>(file_, "make a file in memory");
+}
+
+void Hdf5Output::set_text(const std::string& path, const char* name, const std::string& value) {
+  const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  set_attribute(path, name, text_type(value.size()), space, value.data());
+}
+
+void Hdf5Output::set_integers(const std::string& path, const char* name, const std::vector<int>& values) {
+  const hsize_t count = values.size();
+  const Hdf5Handle space(count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, nullptr), H5Sclose);
+  set_attribute(path, name, H5T_NATIVE_INT, space, values.data());
+}
+
+void Hdf5Output::set_attribute(const std::string& path, const char* name, hid_t type, hid_t space,
+                               const void* values) {
+  const Hdf5Handle attribute(
+      H5Acreate_by_name(file_, path.c_str(), name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Aclose);
+  check<hid_t>(attribute, "make an attribute");
+  check(H5Awrite(attribute, type, values), "write an attribute");
+}
+
+void Hdf5Output::add_group(const std::string& path) {
+  check<hid_t>(Hdf5Handle(H5Gcreate2(file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose),
+               "make a group");
+}
+
+void Hdf5Output::add_numbers(const std::string& path, const std::vector<hsize_t>& shape,
+                             const double* values) {
+  const Hdf5Handle space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr), H5Sclose);
+  add_data_set(path, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, space, values);
+}
+
+void Hdf5Output::add_texts(const std::string& path, const std::vector<std::string>& values) {
+  size_t size = 1;
+  for (const std::string& value : values) size = std::max(size, value.size());
+  std::vector<char> fields(values.size() * size, '\0');
+  for (size_t i = 0; i < values.size(); ++i) values[i].copy(&fields[i * size], size);
+  const hsize_t count = values.size();
+  const Hdf5Handle type = text_type(size), space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  add_data_set(path, type, type, space, fields.data());
+}
+
+void Hdf5Output::add_data_set(const std::string& path, hid_t file_type, hid_t memory_type, hid_t space,
+                              const void* values) {
+  const Hdf5Handle data_set(
+      H5Dcreate2(file_, path.c_str(), file_type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  check<hid_t>(data_set, "make a data set");
+  check(H5Dwrite(data_set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write a data set");
+}
+
+std::string Hdf5Output::bytes() const {
+  check(H5Fflush(file_, H5F_SCOPE_LOCAL), "finish a file");
+  std::string image(check(H5Fget_file_image(file_, nullptr, 0), "measure a file"), '\0');
+  check(H5Fget_file_image(file_, image.data(), image.size()), "copy a file");
+  return image;
+}
+
+}  // namespace geometry_io

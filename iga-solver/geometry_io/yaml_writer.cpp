@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <yaml-cpp/yaml.h>
+
+#include "geometry_io/formats.h"
+
+namespace geometry_io {
+namespace {
+
+// fmt's "{}" writes the shortest text that reads back as the same number.
+template <class Numbers>
+std::string list(const Numbers& numbers) {
+  return fmt::format("[{}]", fmt::join(numbers, ", "));
+}
+
+std::string quoted(const std::string& text) {
+  YAML::Emitter out;
+  out << YAML::DoubleQuoted << text;
+  return out.c_str();
+}
+
+template <int Dim>
+std::string patch_text(const nurbs::Patch<Dim>& patch) {
+  std::vector<int> degrees;
+  std::vector<std::string> knots;
+  for (const nurbs::KnotVector& direction : patch.space.knots()) {
+    degrees.push_back(direction.degree());
+    knots.push_back(list(direction.knots()));
+  }
+  std::string text = fmt::format("    - degrees: {}\n      knots: {}\n      control_points:\n", list(degrees),
+                                 fmt::format("[{}]", fmt::join(knots, ", ")));
+  for (const auto& point : patch.control_points.colwise())
+    text += fmt::format("        - [{}, {}, {}]\n", point[0], point[1], point[2]);
+  if (patch.space.rational()) text += fmt::format("      weights: {}\n", list(patch.space.weights()));
+  return text;
+}
+
+}  // namespace
+
+std::string write_yaml(const GeometryFile& geometry) {
+  std::string text = fmt::format("units: {}\ngeometry:\n  patches:\n", nurbs::units_name(geometry.units));
+  for (const nurbs::Shape& shape : geometry.patches)
+    text += std::visit([](const auto& patch) { return patch_text(patch); }, shape);
+  if (!geometry.surfaces.empty()) text += "surfaces:\n";
+  for (const auto& [name, pieces] : geometry.surfaces)
+    text += fmt::format("  {}: {}\n", quoted(name), list(nurbs::surface_words(pieces, geometry.patches)));
+  return text;
+}
+
+}  // namespace geometry_io

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Complaints about users' files.
+#pragma once
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+namespace nurbs {
+
+/// What a user's file got wrong: "plate.yaml:7: material.density is -1, expected a number > 0".  One line.
+struct InputError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Whatever the user's text holds, the message is one line.
+inline std::string one_line(std::string message) {
+  std::replace_if(
+      message.begin(), message.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  return message;
+}
+
+/// A user's text inside a message: long ones are cut.
+inline std::string shown(const std::string& text) {
+  constexpr size_t kLongest = 60;
+  return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
+}
+
+}  // namespace nurbs
