@@ -6,7 +6,8 @@
 
 namespace coupling {
 
-OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface) {
+OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
+                                   RigidDrive drive) {
   const nurbs::GeometryFile file = geometry_io::read_geometry(path, reader_on_all_ranks(comm));
   std::vector<nurbs::Surface> patches;
   std::vector<int> outward_sign;
@@ -14,8 +15,9 @@ OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const
     patches.push_back(std::move(patch.surface));
     outward_sign.push_back(patch.outward_sign);
   }
-  return {std::make_unique<RigidSurface>(patches, std::move(outward_sign)),
-          file.units};
+  auto solver = std::make_unique<RigidSurface>(patches, std::move(outward_sign));
+  solver->drive(std::move(drive));
+  return {std::move(solver), file.units};
 }
 
 }  // namespace coupling

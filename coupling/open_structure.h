@@ -8,6 +8,7 @@
 #include <memory>
 #include <string>
 
+#include "coupling/rigid_surface.h"
 #include "coupling/structure_solver.h"
 #include "nurbs/geometry_file.h"
 
@@ -19,8 +20,10 @@ struct OpenedStructure {
   nurbs::Units units;
 };
 
-/// Rigid wall: the named surface of a geometry file.  Collective; throws nurbs::InputError on every rank.
-OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface);
+/// Rigid wall: the named surface of a geometry file, and what moves it.  Collective; throws nurbs::InputError
+/// or std::invalid_argument on every rank.
+OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
+                                   RigidDrive drive = {});
 
 /// Deforming solid of iga-solver: the named surface of a model file.  Collective; throws nurbs::InputError on
 /// every rank.  Lives in the library coupling_iga, so that a rigid wall links no structural code.

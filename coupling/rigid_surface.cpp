@@ -1,10 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/rigid_surface.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
 namespace coupling {
+
+namespace {
+
+/// Largest distance of a control point from the axis [length].
+double lever(const NodalVectors& x, const Vector3& centre, const Vector3& axis) {
+  double largest = 0.0;
+  for (int a = 0; a < x.cols(); ++a)
+    largest = std::max(largest, axis.cross(Vector3(x.col(a)) - centre).norm());
+  return largest;
+}
+
+}  // namespace
 
 RigidSurface::RigidSurface(const std::vector<nurbs::Surface>& patches, std::vector<int> outward_sign)
     : RigidSurface(nurbs::join(patches), std::move(outward_sign)) {}
@@ -17,11 +30,72 @@ RigidSurface::RigidSurface(nurbs::PatchedSurface surface, std::vector<int> outwa
   surface_.outward_sign.resize(surface_.topology.patch_count(), 0);
 }
 
+void RigidSurface::drive(RigidDrive drive) {
+  motion_ = RigidMotion(std::move(drive.motions));
+  sliding_ = std::move(drive.sliding);
+  if (!drive.servo) return;
+  const double reach = lever(positions_, drive.servo->com, drive.servo->axis);
+  if (drive.servo->controls == ServoSettings::Controls::torque && reach == 0.0)
+    throw std::invalid_argument("the servo cannot turn the wall: all of it lies on the axis");
+  servo_.emplace(std::move(*drive.servo), reach);
+}
+
+bool RigidSurface::moves() const { return !motion_.empty() || servo_ || (sliding_ && sliding_->varies()); }
+
 double RigidSurface::stable_time_step() const { return std::numeric_limits<double>::infinity(); }
 
+Vector3 RigidSurface::surface_velocity(const Vector3& x, const Vector3& normal) const {
+  return sliding_ ? sliding_->velocity(x, normal) : Vector3::Zero();
+}
+
+void RigidSurface::begin_run() {
+  if (servo_) servo_->begin_run(dt_);
+  if (sliding_) sliding_->update();
+}
+
+void RigidSurface::begin_step() {
+  if (!motion_.empty()) motion_.advance(body_, dt_);
+  if (servo_) servo_->advance(body_, dt_);
+  if (sliding_) sliding_->update();
+}
+
+// The nodal forces stand in the order of (tag, branch) summed over all ranks, so the sums here do not depend
+// on the number of ranks.
+void RigidSurface::end_step(const NodalVectors& forces) {
+  if (!servo_) return;
+  Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
+  for (int a = 0; a < forces.cols(); ++a) {
+    const Vector3 f = forces.col(a);
+    force += f;
+    torque += (body_.frame().to_space(positions_.col(a)) - servo_->com()).cross(f);
+  }
+  servo_->control(force, torque, dt_);
+}
+
+std::vector<Probe> RigidSurface::probes() const {
+  if (!servo_) return {};
+  return {{"com", servo_->com() - servo_->settings().com}};
+}
+
+std::vector<double> RigidSurface::save() const {
+  std::vector<double> state;
+  if (!moves() && body_.frame().rotation.isIdentity(0.0) && body_.frame().origin.isZero(0.0)) return state;
+  body_.save(state);
+  motion_.save(state);
+  if (servo_) servo_->save(state);
+  return state;
+}
+
 void RigidSurface::load(const std::vector<double>& state) {
-  if (!state.empty())
-    throw std::invalid_argument("a rigid surface has no state, but the restart file holds one");
+  if (state.empty()) return;  // saved by a wall that had never moved
+  const double* const end = state.data() + state.size();
+  if (state.size() < MovingFrame::kStateSize)
+    throw std::invalid_argument("the restart file holds a state that is not that of a rigid wall");
+  body_.load(state.data());
+  const double* next = motion_.load(state.data() + MovingFrame::kStateSize, end);
+  if (next != end && end - next != Servo::kStateSize)
+    throw std::invalid_argument("the restart file holds a state that is not that of a rigid wall");
+  if (next != end && servo_) servo_->load(next);
 }
 
 }  // namespace coupling

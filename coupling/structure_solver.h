@@ -59,7 +59,7 @@ class StructureSolver {
   /// Largest stable dt [time]; infinity for a body that is not integrated.
   virtual double stable_time_step() const = 0;
 
-  virtual bool moves() const = 0;
+  virtual bool moves() const = 0;  ///< whether begin_step and end_step do anything
   /// Whether positions() change; if not, what moves is the frame.
   virtual bool deforms() const { return moves(); }
   /// Whether initialise_forces and end_step use the forces; if not, they may be called with forces of zero.
