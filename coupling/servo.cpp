@@ -14,7 +14,9 @@ Servo::Servo(ServoSettings settings, double lever)
       com_(settings_.com) {}
 
 void Servo::begin_run(double dt) {
-  if (settings_.automatic) slow_ = settings_.automatic->ratio * settings_.automatic->smallest_radius() / dt;
+  if (!settings_.automatic) return;
+  const double r_min = settings_.automatic->smallest_radius();
+  slow_ = std::isfinite(r_min) ? settings_.automatic->ratio * r_min / dt : settings_.vel_max;
 }
 
 void Servo::advance(MovingFrame& body, double dt) {
@@ -35,8 +37,7 @@ void Servo::control(const Vector3& force, const Vector3& torque, double dt) {
   if (!settings_.integrate) return;
   const double target = -settings_.target();
   if (target == 0.0 || !std::isfinite(target))
-    throw std::invalid_argument("the servo's target_val has become " + std::to_string(-target) +
-                                ", expected a number other than 0");
+    throw std::invalid_argument("the servo's target_val has become 0 or infinite, expected another number");
   const bool turns = settings_.controls == ServoSettings::Controls::torque;
   const double value = (turns ? torque : force).dot(settings_.axis);
   const double error = target - value;

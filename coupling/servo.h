@@ -19,7 +19,7 @@ struct ServoSettings {
   /// A proportional controller whose gain depends on how near the target is, in place of PID.
   struct Automatic {
     double ratio;                             ///< near particles the wall moves at most ratio r_min per step
-    std::function<double()> smallest_radius;  ///< r_min, of all particles [length]
+    std::function<double()> smallest_radius;  ///< r_min, of all particles [length]; infinite: there are none
     std::function<long()> near_particles;     ///< how many particles the wall may touch soon
   };
 

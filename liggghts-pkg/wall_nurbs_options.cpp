@@ -5,68 +5,25 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 
 #include "model_words.h"
+#include "motion_words.h"
 #include "nurbs/yaml_map.h"
 
 namespace liggghts_pkg {
 
 namespace {
 
-const std::vector<std::string> kKeywords = {"type",        "structure", "geometry", "surface", "material",
-                                            "store_force", "search",    "contacts", "rstar",   "temperature"};
+const std::vector<std::string> kKeywords = {
+    "type",     "structure", "geometry",    "surface", "material", "store_force", "search",
+    "contacts", "rstar",     "temperature", "motion",  "servo",    "surface_vel", "surface_ang_vel"};
 const std::vector<std::string> kModelKeywords = {"model", "tangential", "cohesion", "rolling_friction"};
 
 [[noreturn]] void fail(const std::string& message) { throw std::invalid_argument(message); }
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-/// The words, read from left to right.
-class Reader {
- public:
-  Reader(const std::vector<std::string>& words, std::size_t next) : words_(words), next_(next) {}
-
-  bool at_end() const { return next_ == words_.size(); }
-  std::string keyword() { return words_[next_++]; }
-  bool value_is_switch() const {
-    return next_ < words_.size() && (words_[next_] == "on" || words_[next_] == "off");
-  }
-
-  std::string value(const std::string& keyword, const std::string& expected) {
-    if (at_end()) fail(fmt::format("'{}' is the last word, expected {} after it", keyword, expected));
-    return words_[next_++];
-  }
-  std::string value_of(const std::string& keyword, const std::vector<std::string>& allowed) {
-    const std::string expected = fmt::format("'{}'", fmt::join(allowed, "' or '"));
-    const std::string given = value(keyword, expected);
-    if (!contains(allowed, given)) fail(fmt::format("{} is '{}', expected {}", keyword, given, expected));
-    return given;
-  }
-
- private:
-  const std::vector<std::string>& words_;
-  std::size_t next_;
-};
-
-// A whole number, 1 or more.
-int parse_count(const std::string& keyword, const std::string& word, const char* expected) {
-  int number = 0;
-  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), number);
-  if (problem != std::errc() || end != word.data() + word.size() || number < 1)
-    fail(fmt::format("{} is '{}', expected {}, 1 or more", keyword, word, expected));
-  return number;
-}
-
-std::string check_temperature(const std::string& word) {
-  double kelvin = 0.0;
-  const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), kelvin);
-  if (problem != std::errc() || end != word.data() + word.size() || !(kelvin >= 0.0))
-    fail(fmt::format("temperature is '{}', expected a number, 0 or more", word));
-  return word;
 }
 
 [[noreturn]] void fail_unknown(const std::string& word) {
@@ -93,31 +50,34 @@ void check_complete(const WallNurbsOptions& options) {
     fail(
         "keyword 'surface' is missing, expected 'surface NAME' after the file, a name under 'surfaces' in "
         "that file");
+  const std::string drive = drive_name(options.drive);
+  if (!drive.empty() && options.body != WallNurbsOptions::Body::rigid)
+    fail(fmt::format("'{}' drives a rigid wall, given 'structure', expected 'geometry FILE'", drive));
 }
 
 }  // namespace
 
-WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words) {
+WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const VariableLookup& variable) {
   WallNurbsOptions options;
   const std::size_t model_count = check_contact_models(words);
   options.model_words.assign(words.begin(), words.begin() + model_count);
 
   std::vector<std::string> seen;
-  Reader reader(words, model_count);
+  WordReader reader(words, model_count);
   while (!reader.at_end()) {
     const std::string keyword = reader.keyword();
-    if (contains(seen, keyword)) fail(fmt::format("keyword '{}' is given twice, expected once", keyword));
+    if (contains(seen, keyword) && !contains(drive_keywords(), keyword))
+      fail(fmt::format("keyword '{}' is given twice, expected once", keyword));
     seen.push_back(keyword);
 
     if (keyword == "type") {
-      options.atom_type =
-          parse_count(keyword, reader.value(keyword, "an atom type"), "the number of an atom type");
+      options.atom_type = reader.count(keyword, "the number of an atom type");
     } else if (keyword == "structure" || keyword == "geometry") {
       if (!options.file.empty()) fail("both 'structure' and 'geometry' are given, expected one of them");
       options.body = keyword == "structure" ? WallNurbsOptions::Body::iga : WallNurbsOptions::Body::rigid;
-      options.file = reader.value(keyword, "a file");
+      options.file = reader.value("a file");
     } else if (keyword == "surface") {
-      options.surface = reader.value(keyword, "the name of a surface in the file");
+      options.surface = reader.value("the name of a surface in the file");
     } else if (keyword == "material") {
       reader.value_of(keyword, {"independent"});
       options.material_independent = true;
@@ -128,13 +88,16 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words) {
                            ? SearchMethod::newton
                            : SearchMethod::simplex_brent;
     } else if (keyword == "contacts") {
-      options.slots = parse_count(keyword, reader.value(keyword, "a number"),
-                                  "how many contacts one particle may have with the wall");
+      options.slots = reader.count(keyword, "how many contacts one particle may have with the wall");
     } else if (keyword == "rstar") {
       options.curvature_radius = reader.value_of(keyword, {"particle", "curvature"}) == "curvature";
     } else if (keyword == "temperature") {
-      options.temperature = check_temperature(reader.value(keyword, "a number"));
-    } else if (reader.value_is_switch()) {
+      const double temperature = reader.number(keyword);
+      if (temperature < 0.0) fail(fmt::format("temperature is {}, expected 0 or more", temperature));
+      options.temperature = fmt::format("{}", temperature);
+    } else if (contains(drive_keywords(), keyword)) {
+      read_drive(keyword, reader, variable, options.drive);
+    } else if (reader.next_is_one_of({"on", "off"})) {
       options.setting_words.push_back(keyword);
       options.setting_words.push_back(reader.keyword());
     } else {

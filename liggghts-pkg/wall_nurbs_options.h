@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "coupling/rigid_surface.h"
 #include "local_search.h"
+#include "word_reader.h"
 
 namespace liggghts_pkg {
 
@@ -24,9 +26,10 @@ struct WallNurbsOptions {
   int slots = 4;                  ///< contacts that one particle may have at a time
   bool curvature_radius = false;  ///< the effective radius takes the wall's curvature into account
   std::string temperature;        ///< of the wall, as LIGGGHTS reads it; empty: no heat transfer
+  coupling::RigidDrive drive;     ///< what moves a rigid wall
 };
 
 /// Parses the words after `wall/nurbs`.  Throws std::invalid_argument: what was given, what was expected.
-WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words);
+WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const VariableLookup& variable);
 
 }  // namespace liggghts_pkg

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "atom.h"
+#include "deck_variable.h"
 #include "error.h"
 #include "lammps.h"
 #include "update.h"
@@ -45,19 +48,36 @@ void check_units(const WallNurbsOptions& options, nurbs::Units units, const char
                                             options.file, nurbs::units_name(units), deck_units));
 }
 
+/// Of the particles of all ranks; infinite if there are none.
+double smallest_radius(const LAMMPS& lmp) {
+  double mine = std::numeric_limits<double>::infinity(), smallest;
+  for (int i = 0; i < lmp.atom->nlocal; ++i) mine = std::min(mine, lmp.atom->radius[i]);
+  MPI_Allreduce(&mine, &smallest, 1, MPI_DOUBLE, MPI_MIN, lmp.world);
+  return smallest;
+}
+
 }  // namespace
 
 std::string LAMMPS_NS::wall_nurbs_message(const char* id, const std::string& what) {
   return fmt::format("Fix wall/nurbs (id {}): {}", id, what);
 }
 
+void WallNurbsSetup::complete_servo(LAMMPS* lmp, coupling::ServoSettings& servo) {
+  if (!servo.automatic) return;
+  servo.automatic->smallest_radius = [lmp] { return smallest_radius(*lmp); };
+  servo.automatic->near_particles = [this] { return near_particles_; };
+}
+
 WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
   try {
-    options_ = liggghts_pkg::parse_wall_nurbs(std::vector<std::string>(arg + 3, arg + narg));
+    options_ = liggghts_pkg::parse_wall_nurbs(
+        std::vector<std::string>(arg + 3, arg + narg),
+        [&](const std::string& name) { return liggghts_pkg::deck_variable(lmp, arg[0], name); });
+    if (options_.drive.servo) complete_servo(lmp, *options_.drive.servo);
     check_type(options_.atom_type, lmp->atom->ntypes);
     opened_ = options_.body == WallNurbsOptions::Body::iga
                   ? coupling::open_iga_structure(lmp->world, options_.file, options_.surface)
-                  : coupling::open_rigid_surface(lmp->world, options_.file, options_.surface);
+                  : coupling::open_rigid_surface(lmp->world, options_.file, options_.surface, options_.drive);
     check_units(options_, opened_.units, lmp->update->unit_style);
   } catch (const std::exception& problem) {
     lmp->error->all(FLERR, wall_nurbs_message(arg[0], problem.what()).c_str());

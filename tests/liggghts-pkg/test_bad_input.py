@@ -27,9 +27,11 @@ geometry:
     angle: [0, 180], elements: [4, 2]}
 surfaces: {wall: all}
 """
+THREAD = re.sub(r"\[\d, \d, 0\]", "[0, 0, 1]", FLAT)  # all control points in one place, on the z axis
 MODELS = "model hertz tangential no_history"
 GOOD = f"{MODELS} type 2 structure block.yaml surface top"
 RIGID = f"{MODELS} type 2 geometry flat.yaml surface floor"
+SERVO = "servo com 0 0 0 ctrlPV force axis 0 0 1 target_val 5 vel_max 1"
 PIPE = f"{MODELS} type 2 geometry round.yaml surface wall"
 
 
@@ -113,6 +115,16 @@ DECK_WORDS = {
     "material of another word": (GOOD + " material any", ["'any'", "'independent'"]),
     "store_force of another word": (GOOD + " store_force maybe", ["'maybe'", "'yes' or 'no'"]),
     "search of another word": (GOOD + " search brent", ["'brent'", "'newton' or 'simplex_brent'"]),
+    "motion of a deforming wall": (GOOD + " motion linear 1 0 0", ["'motion'", "rigid", "'structure'"]),
+    "servo of a deforming wall": (f"{GOOD} {SERVO}", ["'servo'", "rigid", "'structure'"]),
+    "belt on a deforming wall": (GOOD + " surface_vel 1 0 0", ["'surface_vel'", "rigid", "'structure'"]),
+    "unknown motion": (RIGID + " motion rotat origin 0 0 0", ["id plate", "'rotat'", "did you mean 'rotate'"]),
+    "motion lacks a word": (RIGID + " motion rotate origin 0 0 0 axis 0 0 1", ["'1' is the last word", "'period'"]),
+    "motion's number is none": (RIGID + " motion linear 1 0 fast", ["motion: linear is 'fast'"]),
+    "motion's variable is missing": (RIGID + " motion linear/variable v_v 0 0", ["v_v", "no variable v"]),
+    "servo lacks its target": (f"{RIGID} servo com 0 0 0 ctrlPV force", ["servo: 'axis' is missing"]),
+    "motion and servo": (f"{RIGID} motion linear 1 0 0 {SERVO}", ["'servo'", "'motion'"]),
+    "motion and belt": (RIGID + " surface_vel 1 0 0 motion linear 1 0 0", ["'motion'", "'surface_vel'"]),
     "unknown normal model": (GOOD.replace("hertz", "herz"), ["herz", "hertz"]),
     "unknown tangential model": (GOOD.replace("no_history", "historie"), ["historie", "history"]),
     "surface multicontact": (GOOD.replace("no_history", "no_history surface multicontact"), ["multicontact"]),
@@ -129,6 +141,18 @@ DECKS = {
     "respa": ("run_style respa 2 2\n", "run 1\n", ["respa"]),
     "id in use": ("", f"fix plate all wall/nurbs {GOOD}\nrun 1\n", ["plate|style"]),
     "no such column": ("", "variable v equal f_plate[99]\nthermo_style custom step v_v\nrun 1\n", ["fix"]),
+    "motion's variable of another style": (
+        "variable v index 1\nfix w2 all wall/nurbs " + RIGID + " motion linear/variable v_v 0 0\n", "",
+        ["id w2", "variable v", "equal style"],
+    ),
+    "motion's variable deleted": (
+        "variable v equal 1\nfix w2 all wall/nurbs " + RIGID + " motion linear/variable v_v 0 0\n",
+        "run 1\nvariable v delete\nrun 1\n", ["id w2", "no variable v"],
+    ),
+    "torque on a wall that lies on its axis": (
+        f"fix w2 all wall/nurbs {RIGID.replace('flat', 'thread')} {SERVO.replace('force', 'torque')}\n", "",
+        ["id w2", "axis"],
+    ),
     "multicontact of the pairs": (
         "pair_style gran model hertz tangential no_history surface multicontact\npair_coeff * *\n"
         "fix mc all multicontact/halfspace\n", "run 1\n", ["multicontact|geometric|Poisson|prefactor"],
@@ -137,7 +161,7 @@ DECKS = {
 
 
 def attempt(deck: str, files: dict[str, str], ranks: int) -> decks.Run:
-    good_files = {"block.yaml": BLOCK, "flat.yaml": FLAT, "round.yaml": ROUND}
+    good_files = {"block.yaml": BLOCK, "flat.yaml": FLAT, "round.yaml": ROUND, "thread.yaml": THREAD}
     return decks.run(deck, files=good_files | files, ranks=ranks, timeout=60)
 
 

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "motion_words.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "nurbs/yaml_map.h"
+
+namespace liggghts_pkg {
+
+namespace {
+
+using coupling::Harmonics;
+using coupling::Motion;
+using coupling::ServoSettings;
+using coupling::Value;
+using nurbs::Vector3;
+
+[[noreturn]] void fail(const std::string& message) { throw std::invalid_argument(message); }
+
+Vector3 keyed_vector(WordReader& words, const std::string& keyword) {
+  words.expect(keyword);
+  return words.vector(keyword);
+}
+
+Vector3 axis(WordReader& words) {
+  const Vector3 direction = words.vector("axis");
+  if (direction.isZero(0.0)) fail("axis is 0 0 0, expected a direction");
+  return direction;
+}
+
+Vector3 keyed_axis(WordReader& words) {
+  words.expect("axis");
+  return axis(words);
+}
+
+double check_period(double period) {
+  if (period == 0.0) fail("period is 0, expected a time other than 0");
+  return period;
+}
+
+double keyed_period(WordReader& words) {
+  words.expect("period");
+  return check_period(words.number("period"));
+}
+
+Harmonics keyed_harmonics(WordReader& words) {
+  words.expect("order");
+  const int order = words.count("order", "the number of harmonics");
+  Harmonics harmonics;
+  words.expect("amplitude");
+  harmonics.amplitude = words.numbers("amplitude", order);
+  words.expect("phase");
+  harmonics.phase = words.numbers("phase", order);
+  words.expect("period");
+  harmonics.period = words.numbers("period", order);
+  std::for_each(harmonics.period.begin(), harmonics.period.end(), check_period);
+  return harmonics;
+}
+
+struct Verb {
+  const char* word;
+  Motion (*read)(WordReader& words, const VariableLookup& variable);
+};
+
+// Arguments are read in the order of the words, hence the named temporaries.
+const Verb kVerbs[] = {
+    {"linear",
+     [](WordReader& words, const VariableLookup&) { return coupling::linear(words.vector("linear")); }},
+    {"linear/variable",
+     [](WordReader& words, const VariableLookup& variable) {
+       const Value vx = words.number_or_variable("linear/variable", variable);
+       const Value vy = words.number_or_variable("linear/variable", variable);
+       const Value vz = words.number_or_variable("linear/variable", variable);
+       return coupling::linear_variable(vx, vy, vz);
+     }},
+    {"wiggle",
+     [](WordReader& words, const VariableLookup&) {
+       const Vector3 amplitude = keyed_vector(words, "amplitude");
+       return coupling::wiggle(amplitude, keyed_period(words));
+     }},
+    {"riggle",
+     [](WordReader& words, const VariableLookup&) {
+       const Vector3 origin = keyed_vector(words, "origin"), axis = keyed_axis(words);
+       const double period = keyed_period(words);
+       words.expect("amplitude");
+       return coupling::riggle(origin, axis, period, words.number("amplitude"));
+     }},
+    {"rotate",
+     [](WordReader& words, const VariableLookup&) {
+       const Vector3 origin = keyed_vector(words, "origin"), axis = keyed_axis(words);
+       return coupling::rotate(origin, axis, keyed_period(words));
+     }},
+    {"rotate/variable",
+     [](WordReader& words, const VariableLookup& variable) {
+       const Vector3 origin = keyed_vector(words, "origin"), axis = keyed_axis(words);
+       words.expect("omega");
+       return coupling::rotate_variable(origin, axis, words.number_or_variable("omega", variable));
+     }},
+    {"viblin",
+     [](WordReader& words, const VariableLookup&) {
+       const Vector3 axis = keyed_axis(words);
+       return coupling::viblin(axis, keyed_harmonics(words));
+     }},
+    {"vibrot",
+     [](WordReader& words, const VariableLookup&) {
+       const Vector3 origin = keyed_vector(words, "origin"), axis = keyed_axis(words);
+       return coupling::vibrot(origin, axis, keyed_harmonics(words));
+     }},
+};
+
+Motion read_motion(WordReader& words, const VariableLookup& variable) {
+  std::vector<std::string> known;
+  for (const Verb& verb : kVerbs) known.push_back(verb.word);
+  const std::string given = words.value(fmt::format("one of {}", fmt::join(known, ", ")));
+  for (const Verb& verb : kVerbs)
+    if (given == verb.word) return verb.read(words, variable);
+  const std::string near = nurbs::nearest_word(given, known);
+  fail(fmt::format("unknown motion '{}'{}, expected one of {}", given,
+                   near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near), fmt::join(known, ", ")));
+}
+
+double at_least_zero(WordReader& words, const std::string& keyword) {
+  const double number = words.number(keyword);
+  if (number < 0.0) fail(fmt::format("{} is {}, expected 0 or more", keyword, number));
+  return number;
+}
+
+double positive(WordReader& words, const std::string& keyword) {
+  const double number = words.number(keyword);
+  if (number <= 0.0) fail(fmt::format("{} is {}, expected more than 0", keyword, number));
+  return number;
+}
+
+ServoSettings read_servo(WordReader& words, const VariableLookup& variable) {
+  static const std::vector<std::string> keywords = {"com", "ctrlPV", "axis", "target_val", "vel_max",
+                                                    "kp",  "ki",     "kd",   "mode",       "ratio"};
+  ServoSettings servo;
+  std::vector<std::string> seen;
+  bool is_automatic = false;
+  double ratio = 0.0;
+  while (words.next_is_one_of(keywords)) {
+    const std::string keyword = words.keyword();
+    if (std::find(seen.begin(), seen.end(), keyword) != seen.end())
+      fail(fmt::format("keyword '{}' is given twice, expected once", keyword));
+    seen.push_back(keyword);
+
+    if (keyword == "com") servo.com = words.vector(keyword);
+    if (keyword == "ctrlPV")
+      servo.controls = words.value_of(keyword, {"force", "torque"}) == "force"
+                           ? ServoSettings::Controls::force
+                           : ServoSettings::Controls::torque;
+    if (keyword == "axis") servo.axis = axis(words).normalized();
+    if (keyword == "target_val") servo.target = words.number_or_variable(keyword, variable);
+    if (keyword == "vel_max") servo.vel_max = positive(words, keyword);
+    if (keyword == "kp") servo.kp = at_least_zero(words, keyword);
+    if (keyword == "ki") servo.ki = at_least_zero(words, keyword);
+    if (keyword == "kd") servo.kd = at_least_zero(words, keyword);
+    if (keyword == "mode") is_automatic = words.value_of(keyword, {"auto"}) == "auto";
+    if (keyword == "ratio") ratio = positive(words, keyword);
+  }
+
+  for (const char* needed : {"com", "ctrlPV", "axis", "target_val", "vel_max"})
+    if (std::find(seen.begin(), seen.end(), needed) == seen.end())
+      fail(fmt::format("'{}' is missing, expected com, ctrlPV, axis, target_val and vel_max", needed));
+  if (!servo.target.varies() && servo.target() == 0.0)
+    fail("target_val is 0, expected a number other than 0");
+  if (is_automatic != (ratio > 0.0))
+    fail("'mode auto' and 'ratio' are given without each other, expected both or none");
+  if (is_automatic) servo.automatic = ServoSettings::Automatic{ratio, {}, {}};
+  if (!is_automatic && servo.kp == 0.0 && servo.ki == 0.0 && servo.kd == 0.0)
+    fail("kp, ki and kd are all 0, expected at least one of them above 0");
+  return servo;
+}
+
+coupling::BeltVelocity read_belt(WordReader& words, const VariableLookup& variable) {
+  coupling::BeltVelocity belt;
+  for (Value& component : belt.components) component = words.number_or_variable("surface_vel", variable);
+  return belt;
+}
+
+coupling::RollerVelocity read_roller(WordReader& words, const VariableLookup& variable) {
+  const Vector3 origin = keyed_vector(words, "origin"), axis = keyed_axis(words);
+  words.expect("omega");
+  return {origin, axis, words.number_or_variable("omega", variable)};
+}
+
+void read_one(const std::string& keyword, WordReader& words, const VariableLookup& variable,
+              coupling::RigidDrive& drive) {
+  if (keyword == "motion") drive.motions.push_back(read_motion(words, variable));
+  if (keyword == "servo") drive.servo = read_servo(words, variable);
+  if (keyword == "surface_vel") drive.sliding = coupling::SlidingSurface(read_belt(words, variable));
+  if (keyword == "surface_ang_vel") drive.sliding = coupling::SlidingSurface(read_roller(words, variable));
+}
+
+}  // namespace
+
+const std::vector<std::string>& drive_keywords() {
+  static const std::vector<std::string> keywords = {"motion", "servo", "surface_vel", "surface_ang_vel"};
+  return keywords;
+}
+
+std::string drive_name(const coupling::RigidDrive& drive) {
+  if (!drive.motions.empty()) return "motion";
+  if (drive.servo) return "servo";
+  return drive.sliding ? "surface_vel" : "";
+}
+
+void read_drive(const std::string& keyword, WordReader& words, const VariableLookup& variable,
+                coupling::RigidDrive& drive) {
+  const std::string present = drive_name(drive);
+  if (!present.empty() && (keyword != "motion" || present != "motion"))
+    fail(fmt::format("'{}' is given beside '{}', expected one of them (motion alone may be repeated)",
+                     keyword, present == "surface_vel" ? "surface_vel' or 'surface_ang_vel" : present));
+  try {
+    read_one(keyword, words, variable, drive);
+  } catch (const std::invalid_argument& problem) {
+    fail(fmt::format("{}: {}", keyword, problem.what()));
+  }
+}
+
+}  // namespace liggghts_pkg

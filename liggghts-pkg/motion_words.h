@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The words that move a rigid wall, as LIGGGHTS has them:
+//   motion VERB ...                              fix move/mesh
+//   servo com X Y Z ctrlPV ...                   mesh module servo
+//   surface_vel VX VY VZ, surface_ang_vel ...    fix mesh/surface
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coupling/rigid_surface.h"
+#include "word_reader.h"
+
+namespace liggghts_pkg {
+
+/// The keywords, each of which stands before the words that read_drive reads.
+const std::vector<std::string>& drive_keywords();
+
+/// Reads the words after `keyword`, one of drive_keywords, and adds them to the drive.  Throws
+/// std::invalid_argument: what was given, what was expected.  `mode auto` of a servo leaves its two callbacks
+/// to be set.
+void read_drive(const std::string& keyword, WordReader& words, const VariableLookup& variable,
+                coupling::RigidDrive& drive);
+
+/// "motion", "servo" or "surface_vel": what drives the wall, or "" if nothing does.
+std::string drive_name(const coupling::RigidDrive& drive);
+
+}  // namespace liggghts_pkg
