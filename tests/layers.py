@@ -13,9 +13,10 @@ LIGGGHTS_HEADERS = {path.name for path in Path("/usr/include/liggghts").glob("*.
 
 # folder -> what its files must not include
 FORBIDDEN = {
-    "iga-solver/nurbs": r"^(mpi\.h|geometry_io/|structure/|io/|coupling/|liggghts)",
-    "iga-solver/geometry_io": r"^(mpi\.h|structure/|io/|coupling/|liggghts)",
-    "iga-solver/structure": r"^(mpi\.h|geometry_io/|io/|coupling/|liggghts)",
+    "iga-solver/nurbs": r"^(mpi\.h|geometry_io/|structure/|io/|vtk/|coupling/|liggghts)",
+    "iga-solver/geometry_io": r"^(mpi\.h|structure/|io/|vtk/|coupling/|liggghts)",
+    "iga-solver/vtk": r"^(mpi\.h|geometry_io/|structure/|io/|coupling/|liggghts)",
+    "iga-solver/structure": r"^(mpi\.h|geometry_io/|io/|vtk/|coupling/|liggghts)",
     "iga-solver/io": r"^(coupling/|liggghts)",
     "iga-solver/app": r"^(coupling/|liggghts)",
     "coupling": r"^liggghts",

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "vtk/vtu_file.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <filesystem>
+#include <pugixml.hpp>
+#include <stdexcept>
+#include <system_error>
+
+namespace vtk {
+namespace {
+
+static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the files are declared LittleEndian");
+
+// RFC 4648, section 4.
+std::string base64(const std::vector<unsigned char>& bytes) {
+  static const char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    unsigned group = 0;
+    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[i + k] : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
+  }
+  return text;
+}
+
+const char* type_name(const double*) { return "Float64"; }
+const char* type_name(const std::int64_t*) { return "Int64"; }
+const char* type_name(const std::int32_t*) { return "Int32"; }
+const char* type_name(const std::uint8_t*) { return "UInt8"; }
+
+template <class Number>
+void add_array(pugi::xml_node parent, const std::string& name, int components, const Number* values,
+               std::size_t count) {
+  const std::uint64_t size = count * sizeof(Number);
+  std::vector<unsigned char> bytes(sizeof size + size);
+  std::memcpy(bytes.data(), &size, sizeof size);
+  if (size > 0) std::memcpy(bytes.data() + sizeof size, values, size);
+
+  pugi::xml_node array = parent.append_child("DataArray");
+  array.append_attribute("type") = type_name(values);
+  array.append_attribute("Name") = name.c_str();
+  array.append_attribute("NumberOfComponents") = components;
+  array.append_attribute("format") = "binary";
+  array.text().set(base64(bytes).c_str());
+}
+template <class Number>
+void add_array(pugi::xml_node parent, const std::string& name, int components,
+               const std::vector<Number>& values) {
+  add_array(parent, name, components, values.data(), values.size());
+}
+void add_arrays(pugi::xml_node parent, const std::vector<Field>& fields) {
+  for (const Field& field : fields)
+    add_array(parent, field.name, static_cast<int>(field.values.rows()), field.values.data(),
+              field.values.size());
+}
+
+pugi::xml_node start(pugi::xml_document& document, const char* type, const char* version) {
+  pugi::xml_node root = document.append_child("VTKFile");
+  root.append_attribute("type") = type;
+  root.append_attribute("version") = version;
+  root.append_attribute("byte_order") = "LittleEndian";
+  return root;
+}
+
+void save(const pugi::xml_document& document, const std::string& path) {
+  const std::string unfinished = path + ".part";
+  std::error_code problem;
+  bool done = document.save_file(unfinished.c_str(), " ", pugi::format_indent);
+  if (done) std::filesystem::rename(unfinished, path, problem);
+  if (!done || problem)
+    throw std::runtime_error(fmt::format(
+        "cannot write '{}' (does the folder exist, may it be written to, is there room on the disk?)", path));
+}
+
+}  // namespace
+
+template <int Dim>
+void write_vtu(const std::string& path, const std::vector<PatchFields<Dim>>& patches) {
+  const BezierCells cells = bezier_cells(patches);
+  pugi::xml_document document;
+  pugi::xml_node root = start(document, "UnstructuredGrid", "2.2");
+  root.append_attribute("header_type") = "UInt64";
+  pugi::xml_node piece = root.append_child("UnstructuredGrid").append_child("Piece");
+  piece.append_attribute("NumberOfPoints") = static_cast<unsigned long long>(cells.points.size() / 3);
+  piece.append_attribute("NumberOfCells") = static_cast<unsigned long long>(cells.offsets.size());
+
+  pugi::xml_node point_data = piece.append_child("PointData");
+  add_arrays(point_data, cells.point_fields);
+  if (!cells.weights.empty()) {
+    point_data.append_attribute("RationalWeights") = "weights";
+    add_array(point_data, "weights", 1, cells.weights);
+  }
+  pugi::xml_node cell_data = piece.append_child("CellData");
+  add_arrays(cell_data, cells.cell_fields);
+  cell_data.append_attribute("HigherOrderDegrees") = "degrees";
+  add_array(cell_data, "degrees", 3, cells.degrees);
+
+  add_array(piece.append_child("Points"), "points", 3, cells.points);
+  pugi::xml_node topology = piece.append_child("Cells");
+  add_array(topology, "connectivity", 1, cells.connectivity);
+  add_array(topology, "offsets", 1, cells.offsets);
+  add_array(topology, "types", 1, std::vector<std::uint8_t>(cells.offsets.size(), cells.cell_type));
+  save(document, path);
+}
+
+void Series::resume(double time) {
+  if (!std::filesystem::exists(path())) return;
+  pugi::xml_document document;
+  if (!document.load_file(path().c_str()) || !document.child("VTKFile").child("Collection"))
+    throw std::runtime_error(
+        fmt::format("'{}' is no ParaView series, so it cannot be continued: remove it", path()));
+  for (pugi::xml_node entry : document.child("VTKFile").child("Collection").children("DataSet"))
+    if (entry.attribute("timestep").as_double() < time)
+      entries_.emplace_back(entry.attribute("timestep").as_double(), entry.attribute("file").as_string());
+}
+
+template <int Dim>
+void Series::write(long step, double time, const std::vector<PatchFields<Dim>>& patches) {
+  const std::string file = fmt::format("{}_{}.vtu", stem_, step);
+  write_vtu(file, patches);
+  entries_.emplace_back(time, std::filesystem::path(file).filename().string());
+  write_index();
+}
+
+void Series::write_index() const {
+  pugi::xml_document document;
+  pugi::xml_node collection = start(document, "Collection", "0.1").append_child("Collection");
+  for (const auto& [time, file] : entries_) {
+    pugi::xml_node entry = collection.append_child("DataSet");
+    entry.append_attribute("timestep") = fmt::format("{:.17g}", time).c_str();
+    entry.append_attribute("file") = file.c_str();
+  }
+  save(document, path());
+}
+
+template void write_vtu(const std::string&, const std::vector<PatchFields<2>>&);
+template void write_vtu(const std::string&, const std::vector<PatchFields<3>>&);
+template void Series::write(long, double, const std::vector<PatchFields<2>>&);
+template void Series::write(long, double, const std::vector<PatchFields<3>>&);
+
+}  // namespace vtk
