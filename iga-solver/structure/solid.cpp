@@ -8,7 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "structure/gauss_legendre.h"
+#include "nurbs/gauss_legendre.h"
 
 namespace structure {
 
@@ -53,10 +53,10 @@ Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material)
 void Solid::integrate_element(int element) {
   const nurbs::Space<3>& space = patch_.space;
   const std::array<int, 3> span = space.element_indices(element);
-  QuadratureRule rule[3];
+  nurbs::QuadratureRule rule[3];
   for (int d = 0; d < 3; ++d) {
     const std::vector<double>& breaks = space.knots(d).breaks();
-    rule[d] = gauss_legendre(space.degree(d) + 1, breaks[span[d]], breaks[span[d] + 1]);
+    rule[d] = nurbs::gauss_legendre(space.degree(d) + 1, breaks[span[d]], breaks[span[d] + 1]);
   }
   int* nodes = &nodes_[std::size_t(element) * functions_];
   space.element_control_points(element, nodes);

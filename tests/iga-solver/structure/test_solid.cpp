@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "models.h"
+#include "nurbs/gauss_legendre.h"
 #include "nurbs/refinement.h"
-#include "structure/gauss_legendre.h"
 
 namespace {
 
@@ -30,7 +30,7 @@ NodalVectors voigt_internal_force(const nurbs::Volume& patch, double E, double n
   const auto rule_at = [&](int direction, int element) {
     const auto& breaks = patch.space.knots(direction).breaks();
     const int span = patch.space.element_indices(element)[direction];
-    return structure::gauss_legendre(patch.space.degree(direction) + 1, breaks[span], breaks[span + 1]);
+    return nurbs::gauss_legendre(patch.space.degree(direction) + 1, breaks[span], breaks[span + 1]);
   };
   nurbs::RationalBasis<3> basis;
   for (int e = 0; e < patch.space.element_count(); ++e) {

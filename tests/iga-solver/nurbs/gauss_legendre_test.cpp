@@ -4,12 +4,12 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "structure/gauss_legendre.h"
+#include "nurbs/gauss_legendre.h"
 
 namespace {
 
-using structure::gauss_legendre;
-using structure::QuadratureRule;
+using nurbs::gauss_legendre;
+using nurbs::QuadratureRule;
 
 double integrate_power(const QuadratureRule& rule, int power) {
   double sum = 0.0;
@@ -19,7 +19,7 @@ double integrate_power(const QuadratureRule& rule, int power) {
 }
 
 TEST(GaussLegendre, IntegratesPolynomialsExactlyUpToDegree2nMinus1AndNoFurther) {
-  for (int n = 1; n <= structure::kMaxGaussPoints; ++n) {
+  for (int n = 1; n <= nurbs::kMaxGaussPoints; ++n) {
     const QuadratureRule rule = gauss_legendre(n);
     for (int power = 0; power < 2 * n; ++power)
       EXPECT_NEAR(integrate_power(rule, power), power % 2 ? 0.0 : 2.0 / (power + 1), 1e-15 * (n + 1))
@@ -42,7 +42,7 @@ TEST(GaussLegendre, MapsToAnInterval) {
 
 TEST(GaussLegendre, RefusesSizesItDoesNotHave) {
   EXPECT_THROW(gauss_legendre(0), std::invalid_argument);
-  EXPECT_THROW(gauss_legendre(structure::kMaxGaussPoints + 1), std::invalid_argument);
+  EXPECT_THROW(gauss_legendre(nurbs::kMaxGaussPoints + 1), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "structure/gauss_legendre.h"
+#include "nurbs/gauss_legendre.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <stdexcept>
 
-namespace structure {
+namespace nurbs {
 
 namespace {
 
@@ -54,4 +54,4 @@ QuadratureRule gauss_legendre(int n, double low, double high) {
   return rule;
 }
 
-}  // namespace structure
+}  // namespace nurbs

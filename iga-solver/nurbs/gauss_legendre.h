@@ -4,7 +4,7 @@
 
 #include <vector>
 
-namespace structure {
+namespace nurbs {
 
 constexpr int kMaxGaussPoints = 8;
 
@@ -20,4 +20,4 @@ QuadratureRule gauss_legendre(int n);
 /// The same rule on [low, high]: the weights sum to high - low.
 QuadratureRule gauss_legendre(int n, double low, double high);
 
-}  // namespace structure
+}  // namespace nurbs

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "nurbs/control_area.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+
+#include "nurbs/gauss_legendre.h"
+
+namespace nurbs {
+namespace {
+
+QuadratureRule element_rule(const KnotVector& knots, int element) {
+  return gauss_legendre(std::min(knots.degree() + 2, kMaxGaussPoints), knots.breaks()[element],
+                        knots.breaks()[element + 1]);
+}
+
+double area_jacobian(const RationalBasis<2>& basis, const NodalVectors& X) {
+  Vector3 tangent[2] = {Vector3::Zero(), Vector3::Zero()};
+  for (int a = 0; a < basis.count; ++a)
+    for (int d = 0; d < 2; ++d) tangent[d] += basis.dR[d][a] * X.col(basis.control_point[a]);
+  return tangent[0].cross(tangent[1]).norm();
+}
+
+}  // namespace
+
+Eigen::VectorXd control_point_areas(const Space<2>& space, const NodalVectors& control_points) {
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(space.control_point_count());
+  RationalBasis<2> basis;
+  for (int e = 0; e < space.element_count(); ++e) {
+    const Indices<2> indices = space.element_indices(e);
+    const QuadratureRule u = element_rule(space.knots(0), indices[0]),
+                         v = element_rule(space.knots(1), indices[1]);
+    for (std::size_t j = 0; j < v.points.size(); ++j)
+      for (std::size_t i = 0; i < u.points.size(); ++i) {
+        evaluate_on_element(space, e, {u.points[i], v.points[j]}, 1, basis);
+        const double dA = u.weights[i] * v.weights[j] * area_jacobian(basis, control_points);
+        for (int a = 0; a < basis.count; ++a) area[basis.control_point[a]] += dA * basis.R[a];
+      }
+  }
+  return area;
+}
+
+}  // namespace nurbs

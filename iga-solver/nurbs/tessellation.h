@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Triangles with their corners on the surface.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "nurbs/patch.h"
+
+namespace nurbs {
+
+struct TriangleMesh {
+  NodalVectors vertices;                      ///< 3 x n [length], each on a patch
+  std::vector<std::array<int, 3>> triangles;  ///< vertices, in the sense of dS/dxi x dS/deta
+};
+
+/// cells x cells cells per element, two triangles each.  Vertices that coincide on the rims of patches are
+/// one: poles (their degenerate triangles are left out), seams, borders between patches with the same
+/// division.  Throws std::invalid_argument unless cells >= 1.
+TriangleMesh tessellate(const std::vector<Surface>& patches, int cells);
+
+}  // namespace nurbs
