@@ -22,8 +22,8 @@ FORBIDDEN = {
     "coupling": r"^liggghts",
 }
 # a rigid wall needs these and no structural code
-RIGID = ["contact_surface", "surface_exchange", "rigid_surface", "rigid_frame", "rigid_motion", "servo", "sliding_surface",
-         "model_text", "structure_solver", "open_rigid_surface"]
+RIGID = ["contact_surface", "surface_exchange", "surface_fields", "finnie", "rigid_surface", "rigid_frame", "rigid_motion",
+         "servo", "sliding_surface", "model_text", "structure_solver", "open_rigid_surface"]
 
 
 def includes(path: Path) -> list[str]:

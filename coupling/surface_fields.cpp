@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/surface_fields.h"
+
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "nurbs/coincident.h"
+#include "nurbs/control_area.h"
+
+namespace coupling {
+
+namespace {
+
+// Which control points on rims stand at the same place; all others keep to themselves.
+std::vector<int> shared_control_points(const std::vector<nurbs::Surface>& patches, int count) {
+  std::vector<int> rim, shared(count);
+  std::iota(shared.begin(), shared.end(), 0);
+  NodalVectors points(3, count);
+  int first = 0;
+  for (const nurbs::Surface& patch : patches) {
+    const int n = patch.space.control_point_count(0), m = patch.space.control_point_count(1);
+    for (int a = 0; a < n * m; ++a)
+      if (nurbs::on_rim(a, n, m)) rim.push_back(first + a);
+    points.middleCols(first, n * m) = patch.control_points;
+    first += n * m;
+  }
+  const std::vector<int> lowest = nurbs::first_coincident(points(Eigen::all, rim));
+  for (std::size_t r = 0; r < rim.size(); ++r) shared[rim[r]] = rim[lowest[r]];
+  return shared;
+}
+
+}  // namespace
+
+SurfaceFields::SurfaceFields(MPI_Comm comm, const std::vector<nurbs::Surface>& patches) : comm_(comm) {
+  int control_points = 0, elements = 0;
+  for (const nurbs::Surface& patch : patches) {
+    spaces_.push_back(patch.space);
+    first_control_point_.push_back(control_points);
+    first_element_.push_back(elements);
+    control_points += patch.space.control_point_count();
+    elements += patch.space.element_count();
+  }
+  shared_ = shared_control_points(patches, control_points);
+  forces_.setZero(kRows, control_points);
+  contacts_.setZero(1, elements);
+}
+
+void SurfaceFields::add(const SurfaceContact& contact) {
+  const nurbs::Space<2>& space = spaces_.at(contact.patch);
+  const double normal_force = contact.force.dot(contact.normal);
+  Eigen::Matrix<double, kRows, 1> q;
+  q << -normal_force, contact.force - normal_force * contact.normal, contact.worn_volume;
+
+  nurbs::RationalBasis<2> basis;
+  nurbs::evaluate(space, contact.xi, 0, basis);
+  for (int a = 0; a < basis.count; ++a)
+    forces_.col(first_control_point_[contact.patch] + basis.control_point[a]) += basis.R[a] * q;
+  contacts_(first_element_[contact.patch] + space.element_at(contact.xi)) += 1.0;
+}
+
+Eigen::MatrixXd SurfaceFields::sum_over_ranks(const Eigen::MatrixXd& local) const {
+  Eigen::MatrixXd sum = local;
+  MPI_Reduce(local.data(), sum.data(), static_cast<int>(local.size()), MPI_DOUBLE, MPI_SUM, 0, comm_);
+  return sum;
+}
+
+Eigen::MatrixXd SurfaceFields::per_area(const Eigen::MatrixXd& sums,
+                                        const std::vector<nurbs::Surface>& patches) const {
+  Eigen::MatrixXd here = Eigen::MatrixXd::Zero(kRows, sums.cols());  // of each place
+  Eigen::VectorXd area = Eigen::VectorXd::Zero(sums.cols());
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    const Eigen::VectorXd own = nurbs::control_point_areas(patches[p].space, patches[p].control_points);
+    for (int a = 0; a < own.size(); ++a) {
+      const int A = first_control_point_[p] + a;
+      here.col(shared_[A]) += sums.col(A);
+      area[shared_[A]] += own[a];
+    }
+  }
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(kRows, sums.cols());
+  for (int A = 0; A < sums.cols(); ++A)
+    if (area[shared_[A]] > 0.0) result.col(A) = here.col(shared_[A]) / area[shared_[A]];
+  return result;
+}
+
+std::vector<vtk::PatchFields<2>> SurfaceFields::fields(const std::vector<nurbs::Surface>& patches,
+                                                       const Eigen::Matrix3d& rotation,
+                                                       const Selection& selection) const {
+  const double mean = samples_ > 0.0 ? 1.0 / samples_ : 0.0;
+  const Eigen::MatrixXd values = per_area(sum_over_ranks(forces_), patches);
+  const Eigen::MatrixXd contacts = mean * sum_over_ranks(contacts_);
+
+  std::vector<vtk::PatchFields<2>> result;
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    vtk::PatchFields<2> fields{patches[p], {}, {}};
+    const auto here = values.middleCols(first_control_point_[p], spaces_[p].control_point_count());
+    if (selection.pressure) fields.control_points.push_back({"pressure", mean * here.row(kNormal)});
+    if (selection.shear)
+      fields.control_points.push_back({"shear", mean * rotation * here.middleRows(kShear, 3)});
+    if (selection.wear) fields.control_points.push_back({"wear", here.row(kWear)});
+    if (selection.contacts)
+      fields.elements.push_back(
+          {"contacts", contacts.middleCols(first_element_[p], spaces_[p].element_count())});
+    result.push_back(std::move(fields));
+  }
+  return result;
+}
+
+void SurfaceFields::begin_interval() {
+  samples_ = 0.0;
+  forces_.topRows(kWear).setZero();
+  contacts_.setZero();
+}
+
+std::vector<double> SurfaceFields::save() const {
+  const Eigen::MatrixXd forces = sum_over_ranks(forces_), contacts = sum_over_ranks(contacts_);
+  std::vector<double> state{samples_};
+  state.insert(state.end(), forces.data(), forces.data() + forces.size());
+  state.insert(state.end(), contacts.data(), contacts.data() + contacts.size());
+  return state;
+}
+
+void SurfaceFields::load(const std::vector<double>& state) {
+  const std::size_t expected = 1 + forces_.size() + contacts_.size();
+  if (state.size() != expected)
+    throw std::invalid_argument("the restart file holds " + std::to_string(state.size()) +
+                                " numbers of surface fields, expected " + std::to_string(expected) +
+                                " for this geometry");
+  samples_ = state[0];
+  int rank = 0;
+  MPI_Comm_rank(comm_, &rank);
+  const double share = rank == 0 ? 1.0 : 0.0;  // the sums of all ranks stand on one
+  const double* next = state.data() + 1;
+  forces_ = share * Eigen::Map<const Eigen::MatrixXd>(next, kRows, forces_.cols());
+  contacts_ = share * Eigen::Map<const Eigen::MatrixXd>(next + forces_.size(), 1, contacts_.cols());
+}
+
+}  // namespace coupling

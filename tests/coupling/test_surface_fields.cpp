@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Fields of contacts on a surface: their integrals are the totals, on any number of ranks.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mpi.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "coupling/finnie.h"
+#include "coupling/surface_fields.h"
+#include "nurbs/control_area.h"
+#include "nurbs/primitives.h"
+#include "wavy_surface.h"
+
+namespace {
+
+using coupling::SurfaceContact;
+using coupling::SurfaceFields;
+using coupling::Vector3;
+using nurbs::KnotVector;
+using nurbs::Surface;
+
+const Eigen::Matrix3d kNoRotation = Eigen::Matrix3d::Identity();
+constexpr SurfaceFields::Selection kAll{true, true, true, true};
+
+int rank_of(int tag) {
+  int count;
+  MPI_Comm_size(MPI_COMM_WORLD, &count);
+  return tag % count;
+}
+int my_rank() {
+  int me;
+  MPI_Comm_rank(MPI_COMM_WORLD, &me);
+  return me;
+}
+
+/// A sphere and beside it a wavy patch: rational and polynomial, closed and open, with poles.
+std::vector<Surface> patches() {
+  const nurbs::Curve turn = nurbs::refined(nurbs::arc(0, 360), 8, 2),
+                     half = nurbs::refined(nurbs::arc(-90, 90), 4, 2);
+  return {nurbs::sphere(nurbs::frame(Vector3(3, 0, 0), Vector3(0, 0, 1)), 1.0, turn, half),
+          test::wavy_surface()};
+}
+
+SurfaceContact contact(int tag) {
+  const double t = tag;
+  Vector3 normal(std::sin(t), std::cos(2 * t), 1.5);
+  normal.normalize();
+  return {tag % 2,
+          {std::fmod(0.37 * t, 1.0), std::fmod(0.73 * t, 1.0)},
+          {std::sin(3 * t), 2.0, -t},
+          normal,
+          1e-9 * t};
+}
+
+void add_all(SurfaceFields& fields, int particles) {
+  fields.begin_sample();
+  for (int tag = 1; tag <= particles; ++tag)
+    if (rank_of(tag) == my_rank()) fields.add(contact(tag));
+}
+
+const Eigen::MatrixXd& field(const vtk::PatchFields<2>& patch, const std::string& name) {
+  for (const auto* list : {&patch.control_points, &patch.elements})
+    for (const vtk::Field& f : *list)
+      if (f.name == name) return f.values;
+  throw std::invalid_argument("no field " + name);
+}
+
+/// Integral of a control-point field over all patches.
+Eigen::VectorXd integral(const std::vector<vtk::PatchFields<2>>& fields, const std::string& name) {
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(field(fields[0], name).rows());
+  for (const vtk::PatchFields<2>& p : fields)
+    sum += field(p, name) * nurbs::control_point_areas(p.patch.space, p.patch.control_points);
+  return sum;
+}
+
+TEST(SurfaceFields, IntegrateToTheTotals) {
+  SurfaceFields fields(MPI_COMM_WORLD, patches());
+  const int particles = 50;
+  add_all(fields, particles);
+  const auto result = fields.fields(patches(), kNoRotation, kAll);
+  if (my_rank() != 0) return;
+
+  double normal = 0.0, worn = 0.0;
+  Vector3 shear = Vector3::Zero();
+  for (int tag = 1; tag <= particles; ++tag) {
+    const SurfaceContact c = contact(tag);
+    normal -= c.force.dot(c.normal);
+    shear += c.force - c.force.dot(c.normal) * c.normal;
+    worn += c.worn_volume;
+  }
+  EXPECT_NEAR(integral(result, "pressure")[0], normal, 1e-12 * std::abs(normal));
+  EXPECT_LE((integral(result, "shear") - shear).norm(), 1e-12 * shear.norm());
+  EXPECT_NEAR(integral(result, "wear")[0], worn, 1e-12 * worn);
+  EXPECT_EQ(field(result[0], "contacts").sum() + field(result[1], "contacts").sum(), particles);
+}
+
+TEST(SurfaceFields, AnEvenLoadIsAnEvenPressure) {
+  const std::array<KnotVector, 2> knots{KnotVector::uniform(2, 4), KnotVector::uniform(3, 3)};
+  const std::vector<Surface> floor{nurbs::plane({0, 0, 0}, {2, 0, 0}, {0, 1, 0}, knots)};
+  SurfaceFields fields(MPI_COMM_WORLD, floor);
+  fields.begin_sample();
+  const int n = 400;
+  for (int k = 0; k < n * n; ++k)
+    if (rank_of(k) == my_rank())
+      fields.add({0, {(k % n + 0.5) / n, (k / n + 0.5) / n}, {0.5, 0, -3.0}, {0, 0, 1}, 0.0});
+  const auto result = fields.fields(floor, kNoRotation, kAll);
+  if (my_rank() != 0) return;
+  const Eigen::MatrixXd &p = field(result[0], "pressure"), &t = field(result[0], "shear");
+  const double expected = 3.0 * n * n / 2.0;  // force per area
+  EXPECT_LE((p.array() / expected - 1.0).abs().maxCoeff(), 1e-3);
+  EXPECT_LE((t.row(0).array() / (expected / 6.0) - 1.0).abs().maxCoeff(), 1e-3);
+  EXPECT_LE(t.bottomRows(2).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(SurfaceFields, AreMeansOverTheInterval) {
+  SurfaceFields fields(MPI_COMM_WORLD, patches());
+  add_all(fields, 10);
+  const auto one = fields.fields(patches(), kNoRotation, kAll);
+  fields.begin_sample();  // a step without contacts
+  const auto two = fields.fields(patches(), kNoRotation, kAll);
+  fields.begin_interval();
+  const auto none = fields.fields(patches(), kNoRotation, kAll);
+  if (my_rank() != 0) return;
+  for (const char* name : {"pressure", "shear", "contacts"}) {
+    EXPECT_EQ(field(two[0], name), 0.5 * field(one[0], name)) << name;
+    EXPECT_TRUE(field(none[0], name).isZero(0.0)) << name;
+  }
+  EXPECT_EQ(field(none[0], "wear"), field(one[0], "wear")) << "wear stays";
+}
+
+TEST(SurfaceFields, AreOneAtSeamsAndPoles) {
+  SurfaceFields fields(MPI_COMM_WORLD, patches());
+  fields.begin_sample();
+  if (my_rank() == 0) {
+    fields.add({0, {0.0, 0.4}, {0, 0, -1}, {0, 0, 1}, 0.0});  // at the seam, reported on one side of it
+    fields.add({0, {0.3, 1.0}, {0, 0, -1}, {0, 0, 1}, 0.0});  // at a pole
+  }
+  const auto result = fields.fields(patches(), kNoRotation, kAll);
+  if (my_rank() != 0) return;
+  const Eigen::MatrixXd& p = field(result[0], "pressure");
+  const int n = result[0].patch.space.control_point_count(0),
+            m = result[0].patch.space.control_point_count(1);
+  double seam = 0.0;
+  for (int j = 0; j < m; ++j) {
+    EXPECT_EQ(p(0, n * j), p(0, n * j + n - 1));
+    seam = std::max(seam, p(0, n * j));
+  }
+  EXPECT_GT(seam, 0.0);
+  for (int i = 0; i < n; ++i) EXPECT_EQ(p(0, n * (m - 1) + i), p(0, n * (m - 1)));
+  EXPECT_GT(p(0, n * (m - 1)), 0.0);
+  EXPECT_NEAR(integral(result, "pressure")[0], 2.0, 1e-12);
+}
+
+TEST(SurfaceFields, TurnWithTheWall) {
+  SurfaceFields fields(MPI_COMM_WORLD, patches());
+  add_all(fields, 10);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+  const auto still = fields.fields(patches(), kNoRotation, kAll),
+             turned = fields.fields(patches(), turn, kAll);
+  if (my_rank() != 0) return;
+  EXPECT_LE((field(turned[1], "shear") - turn * field(still[1], "shear")).norm(),
+            1e-12 * field(still[1], "shear").norm());
+  EXPECT_EQ(field(turned[1], "pressure"), field(still[1], "pressure"));
+}
+
+TEST(SurfaceFields, ComeBackFromARestart) {
+  SurfaceFields before(MPI_COMM_WORLD, patches()), after(MPI_COMM_WORLD, patches());
+  add_all(before, 20);
+  std::vector<double> state = before.save();
+  int size = static_cast<int>(state.size());
+  MPI_Bcast(state.data(), size, MPI_DOUBLE, 0, MPI_COMM_WORLD);  // as LIGGGHTS hands it to every rank
+  after.load(state);
+  const auto expected = before.fields(patches(), kNoRotation, kAll),
+             got = after.fields(patches(), kNoRotation, kAll);
+  for (const char* name : {"pressure", "shear", "contacts", "wear"})
+    if (my_rank() == 0) {
+      EXPECT_EQ(field(got[1], name), field(expected[1], name)) << name;
+    }
+  state.pop_back();
+  EXPECT_THAT([&] { after.load(state); },
+              testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("expected")));
+}
+
+TEST(SurfaceFields, AreThoseAskedFor) {
+  SurfaceFields fields(MPI_COMM_WORLD, patches());
+  const auto result = fields.fields(patches(), kNoRotation, {false, true, false, true});
+  ASSERT_EQ(result[0].control_points.size(), 2u);
+  EXPECT_EQ(result[0].control_points[0].name, "shear");
+  EXPECT_EQ(result[0].control_points[1].name, "wear");
+  EXPECT_TRUE(result[0].elements.empty());
+}
+
+TEST(Finnie, HasTheFormulasOfBothRegimes) {
+  const double k = 2e-12, speed = 3.0, force = 5.0, pi = std::acos(-1.0);
+  const Vector3 normal(0, 0, 1);
+  const auto rate = [&](double degrees) {
+    const double gamma = degrees * pi / 180.0;
+    return coupling::finnie_wear_rate(speed * Vector3(std::cos(gamma), 0, -std::sin(gamma)), normal, force,
+                                      k) /
+           (2.0 * k * speed * force);
+  };
+  for (double degrees : {0.0, 5.0, 15.0, 18.0}) {
+    const double gamma = degrees * pi / 180.0;
+    EXPECT_NEAR(rate(degrees), std::sin(2 * gamma) - 3 * std::pow(std::sin(gamma), 2), 1e-14) << degrees;
+  }
+  for (double degrees : {19.0, 45.0, 60.0, 90.0})
+    EXPECT_NEAR(rate(degrees), std::pow(std::cos(degrees * pi / 180.0), 2) / 3, 1e-14) << degrees;
+  const double border = std::atan(1.0 / 3.0) * 180.0 / pi;
+  EXPECT_NEAR(rate(border - 1e-9), 0.3, 1e-9)
+      << "cos^2(gamma) / 3 = 0.3 where tan(gamma) = 1/3, from both sides";
+  EXPECT_NEAR(rate(border + 1e-9), 0.3, 1e-9);
+  EXPECT_EQ(rate(-10.0), 0.0) << "moving away";
+  EXPECT_EQ(coupling::finnie_wear_rate(Vector3::Zero(), normal, force, k), 0.0);
+}
+
+}  // namespace
