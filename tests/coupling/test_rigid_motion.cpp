@@ -253,7 +253,7 @@ TEST(RigidFrame, ABlownUpFrameHasNoFiniteDisplacement) {
 coupling::RigidSurface moved_surface(std::vector<Motion> motions) {
   coupling::RigidDrive drive;
   drive.motions = std::move(motions);
-  coupling::RigidSurface surface(test::wavy_surface());
+  coupling::RigidSurface surface({test::wavy_surface()});
   surface.drive(std::move(drive));
   surface.set_time_step(kDt);
   return surface;
@@ -291,7 +291,7 @@ TEST(RigidSurface, AnotherMotionStartsAnewFromTheSavedPose) {
   for (int n = 0; n < 50; ++n) first.begin_step();
   const Vector3 there = first.frame().to_space(kPoint);
 
-  coupling::RigidSurface at_rest(test::wavy_surface());
+  coupling::RigidSurface at_rest({test::wavy_surface()});
   at_rest.load(first.save());
   EXPECT_EQ(at_rest.frame().to_space(kPoint), there);
 
@@ -313,7 +313,7 @@ TEST(RigidSurface, OnlyAStateOfARigidWallFits) {
 }
 
 TEST(RigidSurface, AWallAtRestAsksForNothing) {
-  const coupling::RigidSurface surface(test::wavy_surface());
+  const coupling::RigidSurface surface({test::wavy_surface()});
   EXPECT_FALSE(surface.moves());
   EXPECT_FALSE(surface.needs_forces());
   EXPECT_TRUE(surface.save().empty());

@@ -37,7 +37,7 @@ ServoSettings press() {
 RigidSurface surface_with(ServoSettings settings) {
   RigidDrive drive;
   drive.servo = std::move(settings);
-  RigidSurface surface(test::wavy_surface());
+  RigidSurface surface({test::wavy_surface()});
   surface.drive(std::move(drive));
   surface.set_time_step(kDt);
   surface.begin_run();
@@ -209,7 +209,7 @@ TEST(Servo, AWallOnItsAxisCannotBeTurned) {
   RigidDrive drive;
   drive.servo = press();
   drive.servo->controls = ServoSettings::Controls::torque;
-  RigidSurface surface(thread);
+  RigidSurface surface({thread});
   EXPECT_THROW(surface.drive(drive), std::invalid_argument);
 }
 
@@ -257,7 +257,7 @@ TEST(SlidingSurface, VariablesHoldUntilTheNextUpdate) {
   double speed = 1.0;
   RigidDrive drive;
   drive.sliding = SlidingSurface(BeltVelocity{{Value([&speed] { return speed; }), 0.0, 0.0}});
-  RigidSurface surface(test::wavy_surface());
+  RigidSurface surface({test::wavy_surface()});
   surface.drive(std::move(drive));
   EXPECT_TRUE(surface.moves()) << "so that begin_step is called";
   surface.begin_run();
