@@ -257,7 +257,7 @@ class Descent {
     constexpr double kFirm = 1e-9;        // relative, of a slope
     constexpr double kSaddle = -1e-7;     // of phi, where a plane has 1
     constexpr double kBesidePole = 1e-6;  // of the element's size: the length of a tangent
-    constexpr double kOnPole = 1e-10;     // the same: derivatives by s tell nothing
+    constexpr double kOnPole = 1e-13;     // the same: derivatives by s tell nothing
     const double(&H)[3] = now_->f.hessian, (&A)[3] = now_->f.metric;
     const double shortest2 = std::min(A[0], A[2]), size2 = square(now_->size);
     if (shortest2 <= square(kOnPole) * size2) return DescentEnd::unknown;

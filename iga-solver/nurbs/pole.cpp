@@ -7,11 +7,19 @@
 namespace nurbs {
 namespace {
 
+constexpr double kBeside = 1e-5;           // of an element
 constexpr double kOnePoint = 1e-9;         // of an element's size: an edge shorter than that is a pole
-constexpr double kFlat = 1e-10;            // a slope, relative, that counts as none
+constexpr double kFlat = 3e-8;             // a slope, relative, that counts as none
+constexpr double kLeastCurvature = 1e-10;  // of phi, where a plane has 1
 constexpr int kPlaces = 16;                // per element, where curvatures are looked at
 constexpr double kShortest = 1e-4;         // of an element: below it a slope that may be negative is
-constexpr double kLeastCurvature = 1e-10;  // of phi, where a plane has 1
+
+// Of the kinds of two parts of a pole that of the whole: a slope outweighs all.
+PoleKind worse(PoleKind a, PoleKind b) {
+  if (a == PoleKind::none || b == PoleKind::none) return PoleKind::none;
+  if (a == PoleKind::slope || b == PoleKind::slope) return PoleKind::slope;
+  return std::max(a, b);
+}
 
 // The ways from one element's part of a pole into the patch.  With the pole P as origin, the slope of phi
 // into direction j is, up to a positive factor, sum_k B_k(s_i) b_k, b_k = r.(A_k - W_k P), r = P - d: A_k and
@@ -28,7 +36,7 @@ class PoleElement {
     const int edge = upper ? n[j] * stride[j] : 0, next = upper ? edge - stride[j] : stride[j];
     const Vector4 pole = points[edge] / weight(points[edge]);
     d_ = Vector4(d[0], d[1], d[2], elements.rational() ? 1.0 : 0.0) - origin;
-    const Eigen::Vector3d r = (pole - d_).head<3>().matrix();
+    r_ = (pole - d_).head<3>().matrix();
 
     const double size = elements.element(e).size;
     one_point_ = true;
@@ -37,10 +45,11 @@ class PoleElement {
       const Vector4 &A = points[edge + k * stride[i]], &B = points[next + k * stride[i]];
       const Vector4 along = A / weight(A) - pole, inward = B - weight(B) * pole;
       one_point_ = one_point_ && along.head<3>().matrix().norm() <= kOnePoint * size;
-      slopes[k] = r.dot(inward.head<3>().matrix());
+      slopes[k] = r_.dot(inward.head<3>().matrix());
       longest = std::max(longest, inward.head<3>().matrix().norm());
     }
-    flat_ = kFlat * r.norm() * longest;
+    scale_ = r_.norm() * longest;
+    flat_ = kFlat * scale_;
     for (int k = 0; k <= n[i]; ++k) {
       b_[k] = 0.0;
       for (int m = 0; m <= n[i]; ++m) b_[k] += elements.axis(i, e[i]).bezier[k][m] * slopes[m];
@@ -48,17 +57,33 @@ class PoleElement {
     n_ = n[i];
   }
 
-  bool one_point() const { return one_point_; }
-  bool leads_downhill() const { return leads_downhill(b_, -1.0, 1.0); }
+  const Vector3& r() const { return r_; }
+  PoleKind kind() { return one_point_ ? kind(b_, -1.0, 1.0) : PoleKind::none; }
+  /// Least slope seen by kind(), relative, and where.
+  double steepest() const { return steepest_; }
+  LocalPoint downhill() const {
+    constexpr double kFarthest = 0.5;
+    const DistanceJet jet = sample(place_);
+    const double slope = std::abs(jet.gradient[j_]), bend = jet.hessian[2 * j_];
+    LocalPoint at{{e_[0], e_[1]}, {place_, place_}};
+    at.s[j_] =
+        (upper_ ? -1.0 : 1.0) * (slope < kFarthest * bend ? slope / bend : kFarthest) + (upper_ ? 1.0 : -1.0);
+    return at;
+  }
 
  private:
   // On the part low <= s_i <= high, where the slope has the Bernstein coefficients b.
-  bool leads_downhill(const double (&b)[kMaxDegree + 1], double low, double high) const {
+  PoleKind kind(const double (&b)[kMaxDegree + 1], double low, double high) {
     const double least = *std::min_element(b, b + n_ + 1);
-    if (least > flat_) return false;
-    if (std::min(b[0], b[n_]) < -flat_) return true;
-    if (high - low <= 2.0 / kPlaces && least >= -flat_) return bends_down(low) || bends_down(high);
-    if (high - low < kShortest) return true;
+    if (least > flat_) return PoleKind::minimum;
+    const double end = std::min(b[0], b[n_]);
+    if (end < -flat_) {
+      if (end / scale_ < steepest_) steepest_ = end / scale_, place_ = b[0] < b[n_] ? low : high;
+      return PoleKind::slope;
+    }
+    if (high - low <= 2.0 / kPlaces && least >= -flat_)
+      return bends_down(low) || bends_down(high) ? PoleKind::saddle : PoleKind::minimum;
+    if (high - low < kShortest) return PoleKind::slope;
     double lower[kMaxDegree + 1], upper[kMaxDegree + 1];
     std::copy_n(b, n_ + 1, upper);
     for (int k = 0; k <= n_; ++k) {  // de Casteljau
@@ -66,42 +91,55 @@ class PoleElement {
       for (int m = 0; m < n_ - k; ++m) upper[m] = 0.5 * (upper[m] + upper[m + 1]);
     }
     const double middle = 0.5 * (low + high);
-    return leads_downhill(lower, low, middle) || leads_downhill(upper, middle, high);
+    return worse(kind(lower, low, middle), kind(upper, middle, high));
   }
 
   bool bends_down(double s) const {
+    const DistanceJet jet = sample(s);
+    return !(jet.hessian[2 * j_] > kLeastCurvature * jet.metric[2 * j_]);
+  }
+
+  DistanceJet sample(double s) const {
     double at[2];
     at[j_] = upper_ ? 1.0 : -1.0;
     at[1 - j_] = s;
     const ElementKernel& kernel = elements_.kernel();
     DistanceJet jet;
     kernel.evaluate(kernel.p, kernel.q, elements_.element(e_).a, at, d_, jet);
-    return !(jet.hessian[2 * j_] > kLeastCurvature * jet.metric[2 * j_]);
+    return jet;
   }
 
   const ElementStore& elements_;
   int e_[2], j_;
   bool upper_, one_point_;
   Vector4 d_;  // relative to the element's origin
+  Vector3 r_;
   int n_;
-  double b_[kMaxDegree + 1], flat_;
+  double b_[kMaxDegree + 1], scale_, flat_;
+  double steepest_ = 0.0, place_ = 0.0;
 };
 
 }  // namespace
 
-bool minimum_on_pole(const ElementStore& elements, const Vector3& d, const LocalPoint& at) {
+Pole pole_beside(const ElementStore& elements, const Vector3& d, const LocalPoint& near) {
   for (int j = 0; j < 2; ++j) {
-    const bool upper = at.s[j] > 0.0;
-    if (std::abs(at.s[j]) != 1.0 || !elements.axis(j, at.e[j]).at_end[upper]) continue;
-    int e[2] = {at.e[0], at.e[1]};
-    bool minimum = true;
-    for (e[1 - j] = 0; minimum && e[1 - j] < elements.count(1 - j); ++e[1 - j]) {
-      const PoleElement element(elements, d, e, j, upper);
-      minimum = element.one_point() && !element.leads_downhill();
+    const bool upper = near.s[j] > 0.0;
+    if (std::abs(near.s[j]) < 1.0 - kBeside || !elements.axis(j, near.e[j]).at_end[upper]) continue;
+    Pole pole{PoleKind::minimum, near, {}};
+    pole.at.s[j] = upper ? 1.0 : -1.0;
+    double steepest = 0.0;
+    int e[2] = {near.e[0], near.e[1]};
+    for (e[1 - j] = 0; pole.kind != PoleKind::none && e[1 - j] < elements.count(1 - j); ++e[1 - j]) {
+      PoleElement element(elements, d, e, j, upper);
+      pole.kind = worse(pole.kind, element.kind());
+      pole.r = element.r();
+      if (!(element.steepest() < steepest)) continue;
+      steepest = element.steepest();
+      pole.at = element.downhill();
     }
-    if (minimum) return true;
+    if (pole.kind != PoleKind::none) return pole;
   }
-  return false;
+  return {PoleKind::none, near, {}};
 }
 
 }  // namespace nurbs

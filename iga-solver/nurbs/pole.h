@@ -7,9 +7,22 @@
 
 namespace nurbs {
 
-/// Whether `at` lies on a pole that is a local minimum of |S - d|: no way from it into the patch leads
-/// downhill.  The slopes of these ways are proved by their Bernstein coefficients; where they vanish, as for
-/// d on the axis of a cap, curvatures decide at 17 places per element.
-bool minimum_on_pole(const ElementStore& elements, const Vector3& d, const LocalPoint& at);
+/// What a pole is to |S - d|.
+enum class PoleKind {
+  none,     ///< no pole here
+  minimum,  ///< no way into the patch leads downhill
+  slope,    ///< one does, by its slope
+  saddle    ///< slopes are none, and one bends down
+};
+struct Pole {
+  PoleKind kind;
+  LocalPoint at;  ///< if slope: downhill from the pole, one Newton step along a steep way
+  Vector3 r;      ///< S - d
+};
+
+/// The pole beside `near` (less than 1e-5 of an element away).  The slopes of the ways into the patch are
+/// proved by their Bernstein coefficients; where they are none (relative to |r|, below the root of round-off:
+/// d is on the axis of a cap), curvatures decide at 17 places per element.
+Pole pole_beside(const ElementStore& elements, const Vector3& d, const LocalPoint& near);
 
 }  // namespace nurbs

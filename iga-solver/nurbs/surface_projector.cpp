@@ -15,7 +15,8 @@ namespace nurbs {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kTie = 1e-10;             // relative: squared distances this close are equal
+constexpr double kTie = 1e-10;  // relative: squared distances this close are equal
+constexpr double kEqual = 4.0 * std::numeric_limits<double>::epsilon();  // the same, of distances: round-off
 constexpr double kSmallestPart = 0x1p-20;  // of an element: below it a part is searched from its centre
 constexpr double kSameFoot = 1e-7;         // of the surface's size: feet this close are one
 
@@ -23,6 +24,25 @@ Box united(const Box& a, const Box& b) { return {a.low.cwiseMin(b.low), a.high.c
 
 double squared_distance_to_centre(const Box& box, const Vector3& d) {
   return (0.5 * (box.low + box.high) - d).squaredNorm();
+}
+
+// A descent, and where it ends beside a pole, what the pole makes of it.
+DescentResult descend_past_poles(const ElementStore& elements, const Vector3& d, const LocalPoint& start) {
+  DescentResult found = descend(elements, d, start);
+  if (found.end == DescentEnd::minimum) return found;
+  const Pole pole = pole_beside(elements, d, found.at);
+  if (pole.kind == PoleKind::saddle) found.end = DescentEnd::unknown;
+  if (pole.kind == PoleKind::minimum && pole.r.norm() <= (1.0 + kEqual) * found.r.norm()) {
+    found.at = pole.at;
+    found.r = pole.r;
+    found.end = DescentEnd::minimum;
+  }
+  if (pole.kind == PoleKind::slope && found.end == DescentEnd::unknown) {
+    DescentResult beyond = descend(elements, d, pole.at);
+    beyond.iterations += found.iterations;
+    if (beyond.r.norm() <= (1.0 + kEqual) * found.r.norm()) found = beyond;
+  }
+  return found;
 }
 
 }  // namespace
@@ -156,7 +176,7 @@ int SurfaceProjector::element_near(int axis, double xi) const {
 SurfaceProjector::Foot SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& start) const {
   constexpr ProjectionStatus kByBorders[] = {ProjectionStatus::interior, ProjectionStatus::edge,
                                              ProjectionStatus::corner};
-  const DescentResult found = descend(elements_, d, start);
+  const DescentResult found = descend_past_poles(elements_, d, start);
   Foot foot;
   int borders = 0;
   for (int i = 0; i < 2; ++i) {
@@ -168,12 +188,10 @@ SurfaceProjector::Foot SurfaceProjector::foot_from(const Vector3& d, const Local
   }
   foot.point.foot = d + found.r;
   foot.point.distance = found.r.norm();
-  const bool finite = std::isfinite(foot.point.distance);
-  foot.point.status = finite ? kByBorders[borders] : ProjectionStatus::not_converged;
+  foot.point.status =
+      std::isfinite(foot.point.distance) ? kByBorders[borders] : ProjectionStatus::not_converged;
   foot.point.iterations = found.iterations;
   foot.end = found.end;
-  if (found.end == DescentEnd::unknown && finite && minimum_on_pole(elements_, d, found.at))
-    foot.end = DescentEnd::minimum;
   return foot;
 }
 
@@ -219,9 +237,8 @@ Projection SurfaceProjector::global(const Vector3& d, const Foot& start) const {
 }
 
 SurfaceProjector::Search SurfaceProjector::search_from(const Vector3& d, const Foot& start) const {
-  constexpr double kRoundOff = 4.0 * std::numeric_limits<double>::epsilon();
   const Box& bounds = nodes_[0].box;
-  const double same = kRoundOff * ((bounds.high - bounds.low).norm() + start.point.distance);
+  const double same = kEqual * ((bounds.high - bounds.low).norm() + start.point.distance);
   Search search{d, same, kInfinity, nullptr, start};
   search.start_with(start);
   return search;
