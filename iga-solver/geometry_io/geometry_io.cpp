@@ -33,9 +33,11 @@ const FormatEntry kFormats[] = {
 };
 const FormatEntry& entry(Format format) { return kFormats[static_cast<int>(format)]; }
 
+Format input_format(const std::string& path) { return format_of_path(path).value_or(Format::yaml); }
+
 // The file that a geometry file names names no further one.
 GeometryFile read_other_file(const std::string& path, nurbs::Units units, const ReadFile& read) {
-  GeometryFile geometry = entry(format_of_path(path)).parse(read(path), path, units);
+  GeometryFile geometry = entry(input_format(path)).parse(read(path), path, units);
   if (geometry.units != units)
     throw nurbs::InputError(fmt::format("{}: units are {}, expected {} as in the file that names this one",
                                         path, nurbs::units_name(geometry.units), nurbs::units_name(units)));
@@ -46,12 +48,12 @@ GeometryFile read_other_file(const std::string& path, nurbs::Units units, const 
 
 const char* format_name(Format format) { return entry(format).name; }
 
-Format format_of_path(const std::string& path) {
+std::optional<Format> format_of_path(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
   for (const FormatEntry& known : kFormats)
     for (const char* one : known.extensions)
       if (extension == one) return known.format;
-  return Format::yaml;
+  return std::nullopt;
 }
 
 std::string read_file(const std::string& path) {
@@ -66,7 +68,7 @@ std::string read_file(const std::string& path) {
 }
 
 GeometryFile read_geometry(const std::string& path, const ReadFile& read, nurbs::Units units) {
-  const Format format = format_of_path(path);
+  const Format format = input_format(path);
   const std::string bytes = read(path);
   if (format == Format::yaml) return nurbs::parse_geometry_file(bytes, path, geometry_opener(read));
   return entry(format).parse(bytes, path, units);

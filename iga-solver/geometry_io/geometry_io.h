@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "nurbs/geometry_file.h"
@@ -16,16 +17,17 @@ using nurbs::GeometryFile;
 enum class Format { yaml, hdf5, xml };
 /// "YAML", "HDF5", "G+Smo XML".
 const char* format_name(Format format);
-/// By the file's extension (.h5, .hdf5, .xml, .yaml, .yml), else YAML.
-Format format_of_path(const std::string& path);
+/// By the file's extension: .h5, .hdf5, .xml, .yaml or .yml.
+std::optional<Format> format_of_path(const std::string& path);
 
 /// Gives the bytes of the file at `path`; throws nurbs::InputError if it cannot.
 using ReadFile = std::function<std::string(const std::string& path)>;
 /// Reads in this process.
 std::string read_file(const std::string& path);
 
-/// Reads a geometry file, and another one that it names.  `units` are those of formats that have none.
-/// Throws nurbs::InputError: one line with file and place, what was given and what was expected.
+/// Reads a geometry file, YAML unless its extension says otherwise, and another one that it names.  `units`
+/// are those of formats that have none. Throws nurbs::InputError: one line with file and place, what was
+/// given and what was expected.
 GeometryFile read_geometry(const std::string& path, const ReadFile& read,
                            nurbs::Units units = nurbs::Units::si);
 /// For model files: what their key `geometry: {file: ...}` reads; its units must be the model's.

@@ -26,6 +26,9 @@ class Hdf5Handle {
   Close close_;
 };
 
+/// Files in memory need a name, too; HDF5 refuses one that is a file on the disk, and no file can have this.
+constexpr const char* kNameInMemory = "/dev/null/geometry";
+
 /// HDF5 prints its error stack unless told not to; a library must leave that to its caller.
 class SilentHdf5Errors {
  public:

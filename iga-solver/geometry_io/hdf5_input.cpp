@@ -42,13 +42,13 @@ constexpr hsize_t kMaxValues = std::numeric_limits<int>::max();
 constexpr const char* kSignature = "\x89HDF\r\n\x1a\n";
 
 // The file lives in memory: HDF5's "core" driver on a copy of the bytes.
-hid_t open_image(const std::string& bytes, const std::string& name) {
+hid_t open_image(const std::string& bytes) {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr size_t kIncrement = 1 << 16;
   H5Pset_fapl_core(access, kIncrement, false);
   // The interface takes an image that is not const, and copies it.
   if (H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size()) < 0) return H5I_INVALID_HID;
-  return H5Fopen(name.c_str(), H5F_ACC_RDONLY, access);
+  return H5Fopen(kNameInMemory, H5F_ACC_RDONLY, access);
 }
 
 herr_t read_data_set(hid_t object, hid_t type, void* values) {
@@ -71,7 +71,7 @@ std::string shape_text(const std::vector<hsize_t>& shape) {
 }
 
 Hdf5Input::Hdf5Input(const std::string& bytes, std::string file)
-    : file_name_(std::move(file)), file_(open_image(bytes, file_name_), H5Fclose) {
+    : file_name_(std::move(file)), file_(open_image(bytes), H5Fclose) {
   if (file_ >= 0) return;
   throw nurbs::InputError(file_name_ + (bytes.compare(0, 8, kSignature) == 0
                                             ? ": damaged or incomplete, HDF5 cannot open it"

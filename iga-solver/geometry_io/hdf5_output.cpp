@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include <algorithm>
 #include <stdexcept>
 
 #include "geometry_io/hdf5_file.h"
@@ -17,14 +16,13 @@ hid_t create_in_memory() {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr size_t kIncrement = 1 << 16;
   H5Pset_fapl_core(access, kIncrement, false);
-  return H5Fcreate("geometry", H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  return H5Fcreate(kNameInMemory, H5F_ACC_TRUNC, H5P_DEFAULT, access);
 }
 
-// Text of a fixed length, padded with NULs.
-Hdf5Handle text_type(size_t size) {
+// Text of variable length, which other programs show as text.
+Hdf5Handle text_type() {
   Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  check(H5Tset_size(type, std::max<size_t>(size, 1)), "make a text type");
-  check(H5Tset_strpad(type, H5T_STR_NULLPAD), "make a text type");
+  check(H5Tset_size(type, H5T_VARIABLE), "make a text type");
   check(H5Tset_cset(type, H5T_CSET_UTF8), "make a text type");
   return type;
 }
@@ -37,7 +35,8 @@ Hdf5Output::Hdf5Output() : file_(create_in_memory(), H5Fclose) {
 
 void Hdf5Output::set_text(const std::string& path, const char* name, const std::string& value) {
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  set_attribute(path, name, text_type(value.size()), space, value.data());
+  const char* text = value.c_str();
+  set_attribute(path, name, text_type(), space, &text);
 }
 
 void Hdf5Output::set_integers(const std::string& path, const char* name, const std::vector<int>& values) {
@@ -67,13 +66,11 @@ void Hdf5Output::add_numbers(const std::string& path, const std::vector<hsize_t>
 }
 
 void Hdf5Output::add_texts(const std::string& path, const std::vector<std::string>& values) {
-  size_t size = 1;
-  for (const std::string& value : values) size = std::max(size, value.size());
-  std::vector<char> fields(values.size() * size, '\0');
-  for (size_t i = 0; i < values.size(); ++i) values[i].copy(&fields[i * size], size);
-  const hsize_t count = values.size();
-  const Hdf5Handle type = text_type(size), space(H5Screate_simple(1, &count, nullptr), H5Sclose);
-  add_data_set(path, type, type, space, fields.data());
+  std::vector<const char*> texts;
+  for (const std::string& value : values) texts.push_back(value.c_str());
+  const hsize_t count = texts.size();
+  const Hdf5Handle type = text_type(), space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  add_data_set(path, type, type, space, texts.data());
 }
 
 void Hdf5Output::add_data_set(const std::string& path, hid_t file_type, hid_t memory_type, hid_t space,

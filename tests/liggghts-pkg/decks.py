@@ -49,17 +49,17 @@ def mpi_environment() -> dict[str, str]:
 def run(
     deck: str,
     *,
-    files: dict[str, str] | None = None,
+    files: dict[str, str | bytes] | None = None,
     ranks: int = 1,
     program: str = NURBS,
     timeout: float = 120.0,
     environment: dict[str, str] | None = None,
     launcher: list[str] | None = None,
 ) -> Run:
-    """Runs the deck's text in an empty folder that also holds `files` (name -> text)."""
+    """Runs the deck's text in an empty folder that also holds `files` (name -> text or bytes)."""
     with tempfile.TemporaryDirectory() as folder:
-        for name, text in (files or {}).items():
-            (Path(folder) / name).write_text(text)
+        for name, content in (files or {}).items():
+            (Path(folder) / name).write_bytes(content.encode() if isinstance(content, str) else content)
         (Path(folder) / "in.deck").write_text(deck)
         command = (launcher or []) + [program, "-in", "in.deck", "-log", "none"]
         if ranks > 1:

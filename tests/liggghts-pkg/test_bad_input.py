@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import ball_on_block as bob
 import decks
+from test_geometry_files import wall_file, xml_file
 
 BLOCK = bob.block()
 FLAT = """
@@ -32,6 +33,8 @@ MODELS = "model hertz tangential no_history"
 GOOD = f"{MODELS} type 2 structure block.yaml surface top"
 RIGID = f"{MODELS} type 2 geometry flat.yaml surface floor"
 SERVO = "servo com 0 0 0 ctrlPV force axis 0 0 1 target_val 5 vel_max 1"
+HDF5 = f"{MODELS} type 2 geometry wall.h5 surface all"
+XML = f"{MODELS} type 2 geometry wall.xml surface all"
 PIPE = f"{MODELS} type 2 geometry round.yaml surface wall"
 
 
@@ -49,6 +52,11 @@ def in_flat(old: str, new: str) -> dict[str, str]:
 def in_round(old: str, new: str) -> dict[str, str]:
     assert old in ROUND, old
     return {"round.yaml": ROUND.replace(old, new)}
+
+
+def in_xml(old: str, new: str) -> dict[str, str]:
+    assert old in xml_file(), old
+    return {"wall.xml": xml_file().replace(old, new, 1)}
 
 
 # name: (words after `wall/nurbs`, files that differ, what the error line must say, ...)
@@ -90,6 +98,18 @@ MODEL_FILES = {
     "cylinder's axis zero": (PIPE, in_round("[1, 0, 0]", "[0, 0, 0]"), ["round.yaml:4", "axis is", "direction"]),
     "cylinder's angles reversed": (PIPE, in_round("[0, 180]", "[180, 0]"), ["round.yaml:5", "180, 0", "from < to"]),
     "elements that split no arc": (PIPE, in_round("[4, 2]", "[3, 2]"), ["round.yaml:5", "3 elements", "multiple of 2"]),
+    "missing HDF5 file": (HDF5, {}, ["wall.h5", "No such file"]),
+    "no HDF5 file": (HDF5, {"wall.h5": FLAT}, ["wall.h5: is no HDF5 file"]),
+    "incomplete HDF5 file": (HDF5, {"wall.h5": wall_file()[:2000]}, ["wall.h5: damaged or incomplete"]),
+    "surface that an HDF5 file has not": (HDF5.replace("surface all", "surface lid"), {"wall.h5": wall_file()}, ["'lid'", "all"]),
+    "HDF5 file in other units": (HDF5, {"wall.h5": wall_file("cgs")}, ["wall.h5", "cgs", "si"]),
+    "trimmed surface": (XML, {"wall.xml": "<xml>\n<TrimSurface/>\n</xml>"}, ["wall.xml:2", "TrimSurface", "not trimmed"]),
+    "hierarchical splines": (XML, in_xml("TensorNurbs2", "THBSpline2"), ["wall.xml:1", "'THBSpline2'", "TensorNurbs2"]),
+    "knots of an XML file not open": (XML, in_xml("0.0 0.0 0.0", "0.0 0.0"), ["wall.xml:1", "KnotVector"]),
+    "broken XML": (XML, in_xml("</coefs>", ""), ["wall.xml:1: broken XML"]),
+    "a file that names a missing one": (
+        RIGID, {"flat.yaml": "units: si\ngeometry: {file: wall.xml}\nsurfaces: {floor: all}\n"}, ["wall.xml", "No such file"]),
+    "a patch that is not there": (RIGID, in_flat("floor: all", "floor: [0, 1]"), ["flat.yaml:9", "patch is '1'", "0 to 0"]),
     "material in a rigid wall's file": (RIGID, {"flat.yaml": FLAT + "material: {law: linear_elastic}\n"}, ["material"]),
     "surface patch as a solid": (f"{MODELS} type 2 structure flat.yaml surface floor", {}, ["flat.yaml"]),
     "units differ from the deck's": (GOOD, in_block("units: si", "units: cgs"), ["cgs", "si"]),

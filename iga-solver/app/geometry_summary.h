@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is inside a geometry, for people.
+#pragma once
+
+#include <string>
+
+#include "nurbs/geometry_file.h"
+
+namespace app {
+
+/// Patches with degrees, sizes, extents, area or volume and continuity at interior knots; how their edges
+/// meet; and the named surfaces.  Several lines.
+std::string summary(const nurbs::GeometryFile& geometry);
+
+}  // namespace app

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// nurbs-convert: prints what a geometry file holds, and writes it in another format.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <stdexcept>
+
+#include "geometry_io/geometry_io.h"
+#include "geometry_summary.h"
+
+namespace {
+
+using nurbs::GeometryFile;
+
+struct Options {
+  std::string in, out, surface, units = "si";
+};
+
+// The patches of one named surface, as a geometry of its own; faces of volumes become surfaces.
+GeometryFile only(const GeometryFile& geometry, const std::string& surface, const std::string& file) {
+  GeometryFile kept{geometry.units, {}, {}};
+  for (nurbs::OrientedSurface& patch : named_surface(geometry, surface, file)) {
+    kept.surfaces[surface].push_back({static_cast<int>(kept.patches.size()), std::nullopt});
+    kept.patches.push_back(std::move(patch.surface));
+  }
+  return kept;
+}
+
+void write(const GeometryFile& geometry, const std::string& path) {
+  const auto format = geometry_io::format_of_path(path);
+  if (!format)
+    throw std::runtime_error(
+        fmt::format("{}: unknown extension, expected .yaml, .yml, .h5, .hdf5 or .xml", path));
+  std::string bytes;
+  try {
+    bytes = geometry_io::write_geometry(geometry, *format);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("{}: {}", path, error.what()));
+  }
+  std::ofstream file(path, std::ios::binary);
+  if (!file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
+    throw std::runtime_error(fmt::format("{}: cannot write this file", path));
+  fmt::print("written to {} ({})\n", path, geometry_io::format_name(*format));
+}
+
+void run(const Options& options) {
+  GeometryFile geometry =
+      geometry_io::read_geometry(options.in, geometry_io::read_file, nurbs::units_from_name(options.units));
+  if (!options.surface.empty()) geometry = only(geometry, options.surface, options.in);
+  fmt::print("{}: units {}, {} patch{}\n{}", options.in, nurbs::units_name(geometry.units),
+             geometry.patches.size(), geometry.patches.size() == 1 ? "" : "es", app::summary(geometry));
+  if (!options.out.empty()) write(geometry, options.out);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Prints what a geometry file holds, and writes it in another format.");
+  app.add_option("input", options.in, "geometry file: .h5, .hdf5 (HDF5), .xml (G+Smo), else YAML")
+      ->required();
+  app.add_option("output", options.out, "file to write: .yaml, .yml, .h5, .hdf5 or .xml");
+  app.add_option("--surface", options.surface, "keep the patches of this named surface only");
+  app.add_option("--units", options.units,
+                 "units of a file that has none (G+Smo): si (default), cgs or mm-g-ms");
+  try {
+    app.parse(argc, argv);
+    run(options);
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "ERROR: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}

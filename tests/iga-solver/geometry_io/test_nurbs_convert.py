@@ -1,0 +1,287 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""nurbs-convert from outside, against files that h5py, ElementTree and PyYAML write and read: no code of ours on their
+side.  Every number survives to the last bit; what is printed is known from geometry."""
+
+import math
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import h5py
+import numpy
+import yaml
+
+PROGRAM = os.environ["NURBS_CONVERT"]
+FACES = ["xi-", "xi+", "eta-", "eta+", "zeta-", "zeta+"]
+
+
+class Patch:
+    """Random numbers in the layout of the files: control points [.., n_eta, n_xi, 3]."""
+
+    def __init__(self, seed: int, degrees: list[int], elements: list[int], rational: bool = True):
+        random = numpy.random.default_rng(seed)
+        self.degrees = degrees
+        self.knots = []
+        for degree, count in zip(degrees, elements):
+            inner = numpy.sort(random.uniform(0.1, 0.9, count - 1))
+            self.knots.append(numpy.concatenate([numpy.zeros(degree + 1), inner, numpy.ones(degree + 1)]))
+        self.net = [len(knots) - degree - 1 for degree, knots in zip(degrees, self.knots)][::-1]
+        self.points = random.normal(size=(*self.net, 3))
+        self.weights = random.uniform(0.3, 3.0, self.net) if rational else None
+
+
+SURFACES = [Patch(1, [2, 3], [4, 2]), Patch(2, [1, 4], [1, 5], rational=False), Patch(3, [3, 3], [2, 2])]
+VOLUME = Patch(4, [2, 1, 3], [2, 3, 1])
+
+
+def write_hdf5(path: Path, patches: list[Patch], surfaces: dict[str, list[str]], fixed_text: bool = False) -> None:
+    """The schema of iga-solver/geometry_io/README.md, by hand."""
+    with h5py.File(path, "w") as file:
+        file.attrs["format"] = numpy.bytes_("nurbs-geometry") if fixed_text else "nurbs-geometry"
+        file.attrs["version"] = numpy.uint8(1) if fixed_text else 1
+        file.attrs["units"] = "cgs"
+        for index, patch in enumerate(patches):
+            group = file.create_group(f"patches/{index}")
+            group.attrs["degrees"] = patch.degrees
+            for name, knots in zip(("xi", "eta", "zeta"), patch.knots):
+                group[f"knots_{name}"] = knots
+            group.create_dataset("control_points", data=patch.points, compression=None if fixed_text else "gzip")
+            if patch.weights is not None:
+                group["weights"] = patch.weights
+        for name, words in surfaces.items():
+            text = [word.encode() for word in words]
+            file.create_dataset(f"surfaces/{name}", data=numpy.array(text) if fixed_text else words)
+
+
+def write_xml(path: Path, patches: list[Patch]) -> None:
+    """As G+Smo writes it: the first parameter fastest."""
+    dim = len(patches[0].degrees)
+    root = ElementTree.Element("xml")
+    for index, patch in enumerate(patches):
+        kind = "BSpline" if patch.weights is None else "Nurbs"
+        geometry = ElementTree.SubElement(root, "Geometry", type=f"Tensor{kind}{dim}", id=str(5 + index))
+        outer = geometry
+        if patch.weights is not None:
+            outer = ElementTree.SubElement(geometry, "Basis", type=f"TensorNurbsBasis{dim}")
+        basis = ElementTree.SubElement(outer, "Basis", type=f"TensorBSplineBasis{dim}")
+        for direction, (degree, knots) in enumerate(zip(patch.degrees, patch.knots)):
+            one = ElementTree.SubElement(basis, "Basis", type="BSplineBasis", index=str(direction))
+            ElementTree.SubElement(one, "KnotVector", degree=str(degree)).text = " ".join(map(repr, knots.tolist()))
+        if patch.weights is not None:
+            ElementTree.SubElement(outer, "weights").text = "\n".join(f"{w:.17e}" for w in patch.weights.ravel())
+        ElementTree.SubElement(geometry, "coefs", geoDim="3").text = " ".join(f"{x:.17g}" for x in patch.points.ravel())
+    domain = ElementTree.SubElement(root, "MultiPatch", parDim=str(dim), id="99")
+    ElementTree.SubElement(domain, "patches", type="id_range").text = f"5 {4 + len(patches)}"
+    ElementTree.ElementTree(root).write(path, xml_declaration=True, encoding="UTF-8")
+
+
+class NurbsConvert(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def convert(self, *words: str) -> str:
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(done.stderr, "")
+        return done.stdout
+
+    def refused(self, *words: str) -> str:
+        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(done.returncode, 1, done.stdout)
+        self.assertRegex(done.stderr, r"\AERROR: [^\n]+\n\Z")
+        return done.stderr
+
+    def write(self, name: str, text: str) -> str:
+        (self.folder / name).write_text(text)
+        return name
+
+    def assert_same(self, numbers, expected: numpy.ndarray) -> None:
+        self.assertEqual(numpy.array(numbers, dtype=float).tobytes(), expected.tobytes())
+
+    def check_yaml(self, name: str, patches: list[Patch], surfaces: dict) -> None:
+        document = yaml.safe_load((self.folder / name).read_text())
+        self.assertEqual(document["units"], "cgs")
+        for given, patch in zip(document["geometry"]["patches"], patches, strict=True):
+            self.assertEqual(given["degrees"], patch.degrees)
+            for knots, expected in zip(given["knots"], patch.knots, strict=True):
+                self.assert_same(knots, expected)
+            # PyYAML takes "1e-05" for text: float() reads both.
+            self.assert_same([[float(x) for x in point] for point in given["control_points"]], patch.points.reshape(-1, 3))
+            self.assertEqual("weights" in given, patch.weights is not None)
+            if patch.weights is not None:
+                self.assert_same([float(w) for w in given["weights"]], patch.weights.ravel())
+        self.assertEqual(document["surfaces"], surfaces)
+
+    def check_hdf5(self, name: str, patches: list[Patch], surfaces: dict[str, list[bytes]]) -> None:
+        with h5py.File(self.folder / name) as file:
+            self.assertEqual(file.attrs["format"], "nurbs-geometry")
+            self.assertEqual(file.attrs["version"], 1)
+            self.assertEqual(file.attrs["units"], "cgs")
+            for index, patch in enumerate(patches):
+                group = file[f"patches/{index}"]
+                self.assertEqual(group.attrs["degrees"].tolist(), patch.degrees)
+                for direction, knots in zip(("xi", "eta", "zeta"), patch.knots):
+                    self.assert_same(group[f"knots_{direction}"], knots)
+                self.assertEqual(group["control_points"].shape, patch.points.shape)
+                self.assert_same(group["control_points"], patch.points)
+                self.assertEqual("weights" in group, patch.weights is not None)
+                if patch.weights is not None:
+                    self.assert_same(group["weights"], patch.weights)
+            self.assertEqual(len(file["patches"]), len(patches))
+            self.assertEqual({key: list(file["surfaces"][key]) for key in file["surfaces"]}, surfaces)
+
+    def check_xml(self, name: str, patches: list[Patch]) -> ElementTree.Element:
+        root = ElementTree.parse(self.folder / name).getroot()
+        for geometry, patch in zip(root.findall("Geometry"), patches, strict=True):
+            dim = len(patch.degrees)
+            kind = "BSpline" if patch.weights is None else "Nurbs"
+            self.assertEqual(geometry.get("type"), f"Tensor{kind}{dim}")
+            outer = geometry if patch.weights is None else geometry.find(f"Basis[@type='TensorNurbsBasis{dim}']")
+            directions = outer.findall(f"Basis[@type='TensorBSplineBasis{dim}']/Basis[@type='BSplineBasis']/KnotVector")
+            self.assertEqual([int(knots.get("degree")) for knots in directions], patch.degrees)
+            for knots, expected in zip(directions, patch.knots, strict=True):
+                self.assert_same(knots.text.split(), expected)
+            self.assert_same(geometry.find("coefs").text.split(), patch.points.ravel())
+            if patch.weights is not None:
+                self.assert_same(outer.find("weights").text.split(), patch.weights.ravel())
+        return root
+
+    def test_hdf5_of_h5py_to_yaml(self):
+        for fixed_text in (False, True):
+            write_hdf5(self.folder / "in.h5", SURFACES, {"shell": ["0", "2"], "rest": ["1"]}, fixed_text)
+            self.convert("in.h5", "out.yaml")
+            self.check_yaml("out.yaml", SURFACES, {"shell": [0, 2], "rest": [1]})
+        write_hdf5(self.folder / "in.h5", [VOLUME], {"top": ["zeta+"]})
+        self.convert("in.h5", "out.yaml")
+        self.check_yaml("out.yaml", [VOLUME], {"top": ["zeta+"]})
+
+    def test_hdf5_of_h5py_to_xml(self):
+        write_hdf5(self.folder / "in.hdf5", SURFACES, {"shell": ["2", "0"]})
+        self.convert("in.hdf5", "out.xml")
+        root = self.check_xml("out.xml", SURFACES)
+        self.assertEqual(root.find("MultiPatch[@label='shell']/patches").text.split(), ["2", "0"])
+        write_hdf5(self.folder / "in.h5", [VOLUME], {"top": ["zeta+"]})
+        self.convert("in.h5", "out.xml")
+        root = self.check_xml("out.xml", [VOLUME])
+        self.assertEqual(root.find("MultiPatch[@parDim='3']/boundary[@name='top']").text.split(), ["0", "6"])
+
+    def test_xml_of_element_tree_to_hdf5(self):
+        write_xml(self.folder / "in.xml", SURFACES)
+        self.convert("in.xml", "out.h5", "--units", "cgs")
+        self.check_hdf5("out.h5", SURFACES, {"all": [b"all"]})
+        write_xml(self.folder / "in.xml", [VOLUME])
+        self.convert("in.xml", "out.h5", "--units", "cgs")
+        self.check_hdf5("out.h5", [VOLUME], {face: [face.encode()] for face in FACES})
+
+    def test_integers_and_single_precision_are_numbers(self):
+        with h5py.File(self.folder / "floor.h5", "w") as file:
+            file.attrs["format"], file.attrs["version"], file.attrs["units"] = "nurbs-geometry", 1, "si"
+            patch = file.create_group("patches/0")
+            patch.attrs["degrees"] = [1, 1]
+            patch["knots_xi"], patch["knots_eta"] = [0, 0, 1, 1], numpy.float32([0, 0, 1, 1])
+            patch["control_points"] = [[[0, 0, 0], [3, 0, 0]], [[0, 2, 0], [3, 2, 0]]]
+        self.assertIn("  area 6\n", self.convert("floor.h5"))
+
+    def test_face_of_a_volume_as_a_surface(self):
+        write_hdf5(self.folder / "in.h5", [VOLUME], {"side": ["eta+"]})
+        self.convert("in.h5", "out.h5", "--surface", "side")
+        with h5py.File(self.folder / "out.h5") as file:
+            self.assert_same(file["patches/0/control_points"], numpy.ascontiguousarray(VOLUME.points[:, -1]))
+            self.assert_same(file["patches/0/weights"], numpy.ascontiguousarray(VOLUME.weights[:, -1]))
+            self.assertEqual(list(file["surfaces/side"]), [b"all"])
+
+    def test_prints_sizes_and_continuity(self):
+        self.write("box.yaml", "units: si\ngeometry:\n  box: {origin: [0, 0, 0], size: [1, 2, 3], degree: 3, "
+                   "elements: [4, 1, 2]}\nsurfaces: {top: zeta+}\n")
+        printed = self.convert("box.yaml")
+        self.assertIn("units si, 1 patch\n", printed)
+        self.assertIn("patch 0: volume, degrees 3 3 3, 7 x 4 x 5 control points, 4 x 1 x 2 elements, polynomial\n", printed)
+        self.assertIn("x 0 to 1, y 0 to 2, z 0 to 3\n", printed)
+        self.assertIn("  volume 6\n", printed)
+        self.assertIn("  interior knots of xi: 3 C2\n  interior knots of eta: none\n", printed)
+        self.assertIn("surface 'top': zeta+\n  zeta+ xi-: free\n", printed)
+
+    def test_prints_areas_of_round_shapes(self):
+        shapes = {
+            "cylinder: {origin: [0, 0, 0], axis: [1, 2, 3], radius: 0.5, length: 2, elements: [8, 2]}": 2 * math.pi,
+            "sphere: {centre: [0, 1, 0], radius: 0.5, elements: [8, 4]}": math.pi,
+            "torus: {centre: [0, 0, 0], axis: [0, 0, 1], radius: 2, tube_radius: 1, elements: [8, 8]}": 8 * math.pi**2,
+        }
+        for shape, area in shapes.items():
+            printed = self.convert(self.write("round.yaml", f"units: si\ngeometry:\n  {shape}\n"))
+            self.assertAlmostEqual(float(re.search("area (.*)", printed)[1]) / area, 1, delta=5e-6)
+
+    def test_prints_seams_and_poles(self):
+        printed = self.convert(self.write("ball.yaml", "units: si\ngeometry:\n  sphere: {centre: [0, 0, 0], radius: 1, "
+                                          "elements: [4, 2]}\nsurfaces: {ball: all}\n"))
+        self.assertRegex(printed, r"patch 0 xi-: closed with its xi\+, C1, largest angle \d(\.\d+)?e-1\d degrees\n")
+        self.assertIn("patch 0 eta-: pole\n", printed)
+        self.assertRegex(printed, r"interior knots of xi: 3 C0, largest angle at C0 \d(\.\d+)?e-1\d degrees\n")
+        self.assertIn("surface 'ball': all\n", printed)
+
+    def test_prints_how_patches_meet(self):
+        def plate(corner, u, v):
+            points = [corner, *(numpy.add(corner, edge).tolist() for edge in (u, v, numpy.add(u, v)))]
+            return f"    - {{degrees: [1, 1], knots: [[0, 0, 1, 1], [0, 0, 1, 1]], control_points: {points}}}\n"
+
+        slope = [math.cos(math.radians(30)), 0, math.sin(math.radians(30))]
+        text = "units: si\ngeometry:\n  patches:\n" + plate([0, 0, 0], [1, 0, 0], [0, 1, 0])
+        text += plate([1, 1, 0], [0, -1, 0], slope)  # beyond xi+, upwards; its xi runs against eta, its normal upwards
+        text += plate([0, 0, 0], [0, 1, 0], [-2, 1, 0])  # beyond xi-, in the plane, sheared
+        text += plate([0, 1, 0], [0, 1, 0], [1, 0, 0])  # beyond eta+, in the plane, turned over
+        printed = self.convert(self.write("plates.yaml", text))
+        self.assertIn("patch 0 xi+: welded to patch 1 eta- reversed, C0, largest angle 30 degrees\n", printed)
+        self.assertIn("patch 1 eta-: welded to patch 0 xi+ reversed, C0, largest angle 30 degrees\n", printed)
+        self.assertIn("patch 0 xi-: welded to patch 2 eta-, G1, largest angle 0 degrees\n", printed)
+        self.assertIn("patch 0 eta+: welded to patch 3 xi-, opposite orientation, C1, largest angle 0 degrees\n", printed)
+        self.assertIn("patch 0 eta-: free\n", printed)
+
+    def test_kink_at_a_C0_knot(self):
+        text = ("units: si\ngeometry:\n  patches:\n    - {degrees: [1, 1], knots: [[0, 0, 0.5, 1, 1], [0, 0, 1, 1]], "
+                "control_points: [[0, 0, 0], [1, 0, 0], [2, 0, 1], [0, 1, 0], [1, 1, 0], [2, 1, 1]]}\n")
+        self.assertIn("interior knots of xi: 1 C0, largest angle at C0 45 degrees\n", self.convert(self.write("v.yaml", text)))
+
+    def test_a_yaml_file_that_names_another(self):
+        (self.folder / "parts").mkdir()
+        write_xml(self.folder / "parts" / "in.xml", SURFACES)
+        self.write("wall.yaml", "units: cgs\ngeometry: {file: parts/in.xml}\nsurfaces: {shell: [0, 2]}\n")
+        self.convert("wall.yaml", "out.h5")
+        self.check_hdf5("out.h5", SURFACES, {"all": [b"all"], "shell": [b"0", b"2"]})
+
+    def test_wrong_input_ends_in_one_line(self):
+        write_hdf5(self.folder / "good.h5", SURFACES, {})
+        self.write("text.h5", "units: si\n")
+        (self.folder / "cut.h5").write_bytes((self.folder / "good.h5").read_bytes()[:3000])
+        self.write("trimmed.xml", "<xml>\n <TrimSurface id='0'/>\n</xml>\n")
+        self.write("units.yaml", "units: si\ngeometry: {file: good.h5}\n")
+        self.write("chain.yaml", "units: si\ngeometry: {file: units.yaml}\n")
+        self.write("gone.yaml", "units: si\ngeometry: {file: nowhere.xml}\n")
+        self.write("mixed.yaml", "units: si\n")
+        table = {
+            ("nowhere.h5",): "nowhere.h5: cannot read this file: No such file or directory",
+            (".",): "cannot read this file: Is a directory",
+            ("text.h5",): "text.h5: is no HDF5 file",
+            ("cut.h5",): "cut.h5: damaged or incomplete",
+            ("trimmed.xml",): "trimmed.xml:2: <TrimSurface>, expected <Geometry> or <MultiPatch>: .* not trimmed",
+            ("units.yaml",): "good.h5: units are cgs, expected si as in the file that names this one",
+            ("chain.yaml",): "units.yaml:2: geometry.file is good.h5 in a file that is itself read for another one",
+            ("gone.yaml",): "nowhere.xml: cannot read this file",
+            ("good.h5", "out.stl"): "out.stl: unknown extension, expected .yaml, .yml, .h5, .hdf5 or .xml",
+            ("good.h5", "none/out.h5"): "none/out.h5: cannot write this file",
+            ("good.h5", "--surface", "floor"): r"good.h5: unknown surface 'floor', expected one of: \(the file names none\)",
+            ("trimmed.xml", "--units", "inch"): "units is 'inch', expected one of: si, cgs, mm-g-ms",
+            (): "input is required",
+        }
+        for words, expected in table.items():
+            with self.subTest(words=words):
+                self.assertRegex(self.refused(*words), expected)
+
+
+if __name__ == "__main__":
+    unittest.main()
