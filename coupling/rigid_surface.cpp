@@ -63,13 +63,15 @@ void RigidSurface::begin_step() {
 // on the number of ranks.
 void RigidSurface::end_step(const NodalVectors& forces) {
   if (!servo_) return;
+  const RigidFrame& frame = body_.frame();
+  const Vector3 com = frame.to_body(servo_->com());
   Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
   for (int a = 0; a < forces.cols(); ++a) {
-    const Vector3 f = forces.col(a);
+    const Vector3 f = forces.col(a), X = positions_.col(a);
     force += f;
-    torque += (body_.frame().to_space(positions_.col(a)) - servo_->com()).cross(f);
+    torque += (X - com).cross(f);
   }
-  servo_->control(force, torque, dt_);
+  servo_->control(frame.rotation * force, frame.rotation * torque, dt_);
 }
 
 std::vector<Probe> RigidSurface::probes() const {

@@ -49,7 +49,8 @@ class StructureSolver {
   /// Before the first forces of each run: evaluates what the deck may have changed, advances nothing.
   virtual void begin_run() {}
 
-  /// Accelerations for the current state under the given nodal contact forces [force]; advances nothing.
+  /// Accelerations for the current state under the given nodal contact forces (in the body frame) [force];
+  /// advances nothing.
   virtual void initialise_forces(const NodalVectors& forces) = 0;
   virtual void begin_step() = 0;
   virtual void end_step(const NodalVectors& forces) = 0;

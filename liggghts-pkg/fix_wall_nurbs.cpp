@@ -122,7 +122,6 @@ void FixWallNurbs::init() {
     fail(problem.what());
   }
   reset_dt();
-  structure_.begin_run();
   if (!structure_.deforms()) weld_across_periodic_faces();
   inside_ = crossing_ = liggghts_pkg::RunAlarm();
 }
@@ -161,6 +160,7 @@ void FixWallNurbs::import_surface() {
 }
 
 void FixWallNurbs::setup(int vflag) {
+  structure_.begin_run();  // not in init: LIGGGHTS knows only now which computes its variables need
   import_surface();
   FixWallGran::setup(vflag);  // pre_neighbor, pre_force, post_force
   if (structure_.moves()) structure_.initialise_forces(*nodal_forces_);
@@ -196,7 +196,13 @@ void FixWallNurbs::post_force(int vflag) {
   nodal_forces_ = structure_.needs_forces() ? &exchange_.export_add(contacts_) : &no_forces_;
 }
 
-void FixWallNurbs::final_integrate() { structure_.end_step(*nodal_forces_); }
+void FixWallNurbs::final_integrate() {
+  try {
+    structure_.end_step(*nodal_forces_);
+  } catch (const std::exception& problem) {
+    fail(problem.what());
+  }
+}
 
 /* ----------------------------------------------------------------------
    global search: since LIGGGHTS built its lists a particle may be half a skin to either side, and the wall
@@ -223,6 +229,10 @@ void FixWallNurbs::build_candidates() {
   tracker_.list_is_new();
   surface_motion_ = 0.0;
   forget_lost_contacts();
+  if (options_.drive.servo) {
+    const long near = static_cast<long>(candidates_.candidates().size());
+    MPI_Allreduce(&near, &near_particles_, 1, MPI_LONG, MPI_SUM, world);
+  }
 }
 
 // Feet keep their image while the wall turns.

@@ -44,6 +44,19 @@ RigidSurface surface_with(ServoSettings settings) {
   return surface;
 }
 
+/// A wall that presses, after a restart in which it had been turned.
+RigidSurface moved_away() {
+  RigidDrive turn;
+  turn.motions = {coupling::rotate({0, 0, 0}, {1, 1, 0}, 1.0)};
+  RigidSurface before({test::wavy_surface()});
+  before.drive(turn);
+  before.set_time_step(0.1);
+  before.begin_step();
+  RigidSurface surface = surface_with(press());
+  surface.load(before.save());
+  return surface;
+}
+
 /// Force F at control point a.
 NodalVectors force_at(const RigidSurface& surface, int a, const Vector3& F) {
   NodalVectors forces = NodalVectors::Zero(3, surface.positions().cols());
@@ -173,6 +186,24 @@ TEST(Servo, TorqueIsThatAboutTheCom) {
   EXPECT_NEAR(std::atan2(x.y() - kCom.y(), x.x() - kCom.x()) -
                   std::atan2(surface.positions()(1, 7) - kCom.y(), surface.positions()(0, 7) - kCom.x()),
               omega * kDt, 1e-14);
+
+  // forces are given in the body frame, in which this one has the same torque wherever the wall has turned
+  for (int n = 0; n < 1000; ++n) {
+    surface.end_step(force_at(surface, 7, F));
+    surface.begin_step();
+  }
+  ASSERT_GT(std::abs(omega) * 1000 * kDt, 0.01);
+  EXPECT_NEAR(surface.frame().angular_velocity.z(), omega, 1e-14);
+}
+
+TEST(Servo, ForceIsTurnedIntoSpace) {
+  RigidSurface turned = moved_away();
+  const Vector3 F(3.0, -1.0, 5.0);
+  const double value = (turned.frame().rotation * F).z();
+  ASSERT_GT(std::abs(value - F.z()), 0.1);
+  turned.end_step(force_at(turned, 2, F));
+  turned.begin_step();
+  EXPECT_NEAR(turned.frame().velocity.z(), -0.1 * 0.5 * (10.0 - value) / 10.0, 1e-15);
 }
 
 TEST(Servo, AutomaticModeIsFastAloneAndSlowNearParticles) {

@@ -169,6 +169,10 @@ DECKS = {
         "variable v equal 1\nfix w2 all wall/nurbs " + RIGID + " motion linear/variable v_v 0 0\n",
         "run 1\nvariable v delete\nrun 1\n", ["id w2", "no variable v"],
     ),
+    "servo's target becomes 0": (
+        f"variable v equal 1-step\nfix w2 all wall/nurbs {RIGID} {SERVO.replace('5', 'v_v')}\n", "run 2\n",
+        ["id w2", "target_val", "0"],
+    ),
     "torque on a wall that lies on its axis": (
         f"fix w2 all wall/nurbs {RIGID.replace('flat', 'thread')} {SERVO.replace('force', 'torque')}\n", "",
         ["id w2", "axis"],
