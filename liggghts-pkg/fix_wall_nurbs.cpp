@@ -59,9 +59,15 @@ void FixWallNurbs::fail(const std::string& message) const {
   std::abort();  // error->all does not return, but is not declared so
 }
 
+// error->one aborts before what it printed has left its buffer.
 void FixWallNurbs::fail_on_this_rank(const std::string& message) const {
-  error->one(FLERR, wall_nurbs_message(id, message).c_str());
-  std::abort();  // as above
+  for (FILE* file : {screen ? screen : stderr, logfile}) {
+    if (!file) continue;
+    std::fprintf(file, "ERROR on proc %d: %s\n", comm->me, wall_nurbs_message(id, message).c_str());
+    std::fflush(file);
+  }
+  MPI_Abort(world, 1);
+  std::abort();  // MPI_Abort does not return, but is not declared so
 }
 
 void FixWallNurbs::warn(const std::string& message) const {
@@ -215,7 +221,7 @@ void FixWallNurbs::build_candidates() {
   double largest = 0.0;
   for (int i = 0; i < atom->nlocal; ++i) {
     const double travel = Vector3::Map(atom->v[i]).norm() * dt_;
-    list_reach_[i] = touch_reach(i) + std::max(1.5 * neighbor->skin, travel);
+    list_reach_[i] = touch_reach(i) + 1.5 * neighbor->skin + travel;
     largest = std::max(largest, list_reach_[i]);
   }
   if (structure_.deforms() || !candidates_.has_surface()) {
