@@ -260,6 +260,8 @@ class Descent {
     constexpr double kOnPole = 1e-13;     // the same: derivatives by s tell nothing
     const double(&H)[3] = now_->f.hessian, (&A)[3] = now_->f.metric;
     const double shortest2 = std::min(A[0], A[2]), size2 = square(now_->size);
+    const double beside_pole2 = square(kBesidePole) * size2;
+    if (convex_ && !held_[0] && !held_[1] && shortest2 > beside_pole2) return DescentEnd::minimum;
     if (shortest2 <= square(kOnPole) * size2) return DescentEnd::unknown;
     // A border pushed against with a weak slope does not hold what is no minimum without it.
     bool free[2];
@@ -267,7 +269,6 @@ class Descent {
       const double weak2 = square(kFirm) * (2.0 * now_->f.phi + size2) * A[2 * i];
       free[i] = !held_[i] || (box_ == nullptr && square(now_->f.gradient[i]) < weak2);
     }
-    const double beside_pole2 = square(kBesidePole) * size2;
     if (shortest2 > beside_pole2 && convex_on(free)) return DescentEnd::minimum;
     for (int i = 0; i < 2; ++i) free[i] = free[i] && A[2 * i] > beside_pole2;
     const double a = free[0] ? H[0] / A[0] : 1.0, c = free[1] ? H[2] / A[2] : 1.0,

@@ -173,26 +173,28 @@ int SurfaceProjector::element_near(int axis, double xi) const {
   return element.begin <= xi && xi < element.end ? guess : knots.element_at(xi);
 }
 
-SurfaceProjector::Foot SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& start) const {
+Projection SurfaceProjector::projection(const Vector3& d, const DescentResult& found) const {
   constexpr ProjectionStatus kByBorders[] = {ProjectionStatus::interior, ProjectionStatus::edge,
                                              ProjectionStatus::corner};
-  const DescentResult found = descend_past_poles(elements_, d, start);
-  Foot foot;
+  Projection result;
   int borders = 0;
   for (int i = 0; i < 2; ++i) {
     const AxisElement& element = elements_.axis(i, found.at.e[i]);
     const double s = found.at.s[i];
-    foot.point.xi[i] = element.parameter(s);
+    result.xi[i] = element.parameter(s);
     const bool end = std::abs(s) == 1.0 && element.at_end[s > 0.0];
     if (end || found.crease[i]) ++borders;
   }
-  foot.point.foot = d + found.r;
-  foot.point.distance = found.r.norm();
-  foot.point.status =
-      std::isfinite(foot.point.distance) ? kByBorders[borders] : ProjectionStatus::not_converged;
-  foot.point.iterations = found.iterations;
-  foot.end = found.end;
-  return foot;
+  result.foot = d + found.r;
+  result.distance = found.r.norm();
+  result.status = std::isfinite(result.distance) ? kByBorders[borders] : ProjectionStatus::not_converged;
+  result.iterations = found.iterations;
+  return result;
+}
+
+SurfaceProjector::Foot SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& start) const {
+  const DescentResult found = descend_past_poles(elements_, d, start);
+  return {projection(d, found), found.end};
 }
 
 LocalPoint SurfaceProjector::local(const Parameter<2>& xi) const {
@@ -205,8 +207,9 @@ LocalPoint SurfaceProjector::local(const Parameter<2>& xi) const {
 }
 
 Projection SurfaceProjector::warm(const Vector3& d, const Parameter<2>& guess) const {
-  const Foot foot = foot_from(d, local(guess));
-  return foot.end == DescentEnd::minimum ? foot.point : global(d, foot);
+  const DescentResult found = descend_past_poles(elements_, d, local(guess));
+  if (found.end == DescentEnd::minimum) return projection(d, found);
+  return global(d, {projection(d, found), found.end});
 }
 
 Projection SurfaceProjector::cold(const Vector3& d) const {

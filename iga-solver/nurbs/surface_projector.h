@@ -72,6 +72,7 @@ class SurfaceProjector {
   Box fill_bezier_net(int element, Vector4* net) const;
   int element_near(int axis, double xi) const;
   LocalPoint local(const Parameter<2>& xi) const;
+  Projection projection(const Vector3& d, const DescentResult& found) const;
   Foot foot_from(const Vector3& d, const LocalPoint& start) const;
   Projection global(const Vector3& d, const Foot& start) const;
   Search search_from(const Vector3& d, const Foot& start) const;
