@@ -87,6 +87,28 @@ class GeometryFiles(unittest.TestCase):
                 with self.subTest(wall, ranks=ranks):
                     self.assert_same(motion(f"geometry {wall}", files, ranks, **ball), reference)
 
+    def test_two_patches_are_one_wall(self):
+        """A ball strikes a plane on the border of its two patches, which are one named surface of a G+Smo file."""
+        basis = '<Basis type="BSplineBasis"><KnotVector degree="1">0 0 1 1</KnotVector></Basis>'
+        patches = "".join(
+            f'<Geometry type="TensorBSpline2" id="{p}"><Basis type="TensorBSplineBasis2">{basis}{basis}</Basis>'
+            f'<coefs geoDim="2">{x} -0.01 {x + 0.01} -0.01 {x} 0.01 {x + 0.01} 0.01</coefs></Geometry>'
+            for p, x in enumerate((-0.01, 0.0))
+        )
+        plane = "plane: {origin: [-0.01, -0.01, 0], edges: [[0.02, 0, 0], [0, 0.02, 0]], elements: [3, 2], degree: 1}"
+        files = {
+            "two.xml": f'<xml>{patches}<MultiPatch parDim="2" label="floor"><patches type="id_range">0 1</patches></MultiPatch></xml>',
+            "one.yaml": f"units: si\ngeometry: {{{plane}}}\nsurfaces: {{floor: all}}\n",
+        }
+        ball = {"balls": ((-3e-6, 0.0005, 1.001e-3),)}  # at 0.3 m/s it crosses the border while in contact
+        one = motion("geometry one.yaml surface floor", files, 1, **ball)
+        two = motion("geometry two.xml surface floor", files, 1, **ball)
+        touching = one["fz"] > 0.0
+        self.assertLess(one["x"][touching].min(), 0.0)
+        self.assertGreater(one["x"][touching].max(), 0.0)
+        for name, column in one.items():
+            self.assertLess(decks.largest_difference(two[name], column), 1e-11, name)
+
     def test_solid(self):
         """A block of one element per direction as a box, and as a file of trilinear control points."""
         block = bob.block(elements=(1, 1, 1)).replace("degree: 2", "degree: 1")
