@@ -77,7 +77,7 @@ Motion vibrot(const Vector3& centre, const Vector3& axis, Harmonics angle) {
           Rotation{centre, axis.normalized(), [=](double time) { return angle.rate(time); }, false}};
 }
 
-void MovingFrame::begin_step() {
+void MovingFrame::stop() {
   frame_.velocity.setZero();
   frame_.angular_velocity.setZero();
 }
@@ -118,7 +118,7 @@ RigidMotion::RigidMotion(std::vector<Motion> motions) : motions_(std::move(motio
 
 void RigidMotion::advance(MovingFrame& body, double dt) {
   time_ += dt;
-  body.begin_step();
+  body.stop();
   for (std::size_t k = 0; k < motions_.size(); ++k) {
     if (const auto* translation = std::get_if<Translation>(&motions_[k].rate)) {
       const Vector3 velocity = translation->velocity(time_);

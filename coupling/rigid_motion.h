@@ -60,8 +60,8 @@ class MovingFrame {
  public:
   const RigidFrame& frame() const { return frame_; }
 
-  /// Velocities are zero until the first increment of the step.
-  void begin_step();
+  /// Velocities are zero until the next increment.
+  void stop();
   void translate(const Vector3& velocity, double dt);
   void rotate(const Vector3& centre, const Vector3& axis, double rate, double dt);
 

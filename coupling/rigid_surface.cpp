@@ -40,6 +40,13 @@ void RigidSurface::drive(RigidDrive drive) {
   servo_.emplace(std::move(*drive.servo), reach);
 }
 
+void RigidSurface::set_motions(std::vector<Motion> motions) {
+  if (servo_ || sliding_)
+    throw std::invalid_argument("the wall has a servo or slides, expected one that may take a motion");
+  motion_ = RigidMotion(std::move(motions));
+  body_.stop();
+}
+
 bool RigidSurface::moves() const { return !motion_.empty() || servo_ || (sliding_ && sliding_->varies()); }
 
 double RigidSurface::stable_time_step() const { return std::numeric_limits<double>::infinity(); }

@@ -26,6 +26,9 @@ class RigidSurface final : public StructureSolver {
   explicit RigidSurface(const std::vector<nurbs::Surface>& patches, std::vector<int> outward_sign = {});
   /// Before the first step.  Throws std::invalid_argument if a servo cannot turn the wall.
   void drive(RigidDrive drive);
+  /// Between runs: other motions (or none) from where the wall is now, with a clock of their own.
+  void set_motions(std::vector<Motion> motions);
+  Servo* servo() { return servo_ ? &*servo_ : nullptr; }
 
   const ContactSurface& surface() const override { return surface_; }
   const NodalVectors& positions() const override { return positions_; }

@@ -20,7 +20,7 @@ void Servo::begin_run(double dt) {
 }
 
 void Servo::advance(MovingFrame& body, double dt) {
-  body.begin_step();
+  body.stop();
   if (!settings_.integrate) return;
   const double rate = speed_ / lever_;
   if (settings_.controls == ServoSettings::Controls::torque) {

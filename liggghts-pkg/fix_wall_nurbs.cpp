@@ -80,10 +80,9 @@ void FixWallNurbs::print(const std::string& message) const {
     if (comm->me == 0 && file) std::fprintf(file, "%s\n", wall_nurbs_message(id, message).c_str());
 }
 
-int FixWallNurbs::setmask() {
-  const int integrates = structure_.moves() ? INITIAL_INTEGRATE | FINAL_INTEGRATE : 0;
-  return FixWallGran::setmask() | integrates;
-}
+int FixWallNurbs::setmask() { return FixWallGran::setmask() | INITIAL_INTEGRATE | FINAL_INTEGRATE; }
+
+int FixWallNurbs::modify_param(int narg, char** arg) { return modify_drive(lmp, id, narg, arg); }
 
 /* ----------------------------------------------------------------------
    per-particle storage; in place of the base class' own, which has room for one contact's history only
@@ -173,6 +172,7 @@ void FixWallNurbs::setup(int vflag) {
 }
 
 void FixWallNurbs::initial_integrate(int) {
+  if (!structure_.moves()) return;
   if (late_surface_) import_surface();
   structure_.begin_step();
   if (!late_surface_) import_surface();

@@ -32,6 +32,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   FixWallNurbs(class LAMMPS*, int, char**);
 
   int setmask();
+  int modify_param(int narg, char** arg);
   void post_create();
   void pre_delete(bool unfixflag);
   void init();

@@ -123,16 +123,16 @@ Motion read_motion(WordReader& words, const VariableLookup& variable) {
                    near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near), fmt::join(known, ", ")));
 }
 
-double at_least_zero(WordReader& words, const std::string& keyword) {
-  const double number = words.number(keyword);
-  if (number < 0.0) fail(fmt::format("{} is {}, expected 0 or more", keyword, number));
-  return number;
+Value target_value(WordReader& words, const std::string& keyword, const VariableLookup& variable) {
+  const Value target = words.number_or_variable(keyword, variable);
+  if (!target.varies() && target() == 0.0)
+    fail(fmt::format("{} is 0, expected a number other than 0", keyword));
+  return target;
 }
 
-double positive(WordReader& words, const std::string& keyword) {
-  const double number = words.number(keyword);
-  if (number <= 0.0) fail(fmt::format("{} is {}, expected more than 0", keyword, number));
-  return number;
+void check_gains(const ServoSettings& servo) {
+  if (!servo.automatic && servo.kp == 0.0 && servo.ki == 0.0 && servo.kd == 0.0)
+    fail("kp, ki and kd are all 0, expected at least one of them above 0");
 }
 
 ServoSettings read_servo(WordReader& words, const VariableLookup& variable) {
@@ -154,25 +154,22 @@ ServoSettings read_servo(WordReader& words, const VariableLookup& variable) {
                            ? ServoSettings::Controls::force
                            : ServoSettings::Controls::torque;
     if (keyword == "axis") servo.axis = axis(words).normalized();
-    if (keyword == "target_val") servo.target = words.number_or_variable(keyword, variable);
-    if (keyword == "vel_max") servo.vel_max = positive(words, keyword);
-    if (keyword == "kp") servo.kp = at_least_zero(words, keyword);
-    if (keyword == "ki") servo.ki = at_least_zero(words, keyword);
-    if (keyword == "kd") servo.kd = at_least_zero(words, keyword);
+    if (keyword == "target_val") servo.target = target_value(words, keyword, variable);
+    if (keyword == "vel_max") servo.vel_max = words.number_above_zero(keyword);
+    if (keyword == "kp") servo.kp = words.number_at_least_zero(keyword);
+    if (keyword == "ki") servo.ki = words.number_at_least_zero(keyword);
+    if (keyword == "kd") servo.kd = words.number_at_least_zero(keyword);
     if (keyword == "mode") is_automatic = words.value_of(keyword, {"auto"}) == "auto";
-    if (keyword == "ratio") ratio = positive(words, keyword);
+    if (keyword == "ratio") ratio = words.number_above_zero(keyword);
   }
 
   for (const char* needed : {"com", "ctrlPV", "axis", "target_val", "vel_max"})
     if (std::find(seen.begin(), seen.end(), needed) == seen.end())
       fail(fmt::format("'{}' is missing, expected com, ctrlPV, axis, target_val and vel_max", needed));
-  if (!servo.target.varies() && servo.target() == 0.0)
-    fail("target_val is 0, expected a number other than 0");
   if (is_automatic != (ratio > 0.0))
     fail("'mode auto' and 'ratio' are given without each other, expected both or none");
   if (is_automatic) servo.automatic = ServoSettings::Automatic{ratio, {}, {}};
-  if (!is_automatic && servo.kp == 0.0 && servo.ki == 0.0 && servo.kd == 0.0)
-    fail("kp, ki and kd are all 0, expected at least one of them above 0");
+  check_gains(servo);
   return servo;
 }
 
@@ -194,6 +191,42 @@ void read_one(const std::string& keyword, WordReader& words, const VariableLooku
   if (keyword == "servo") drive.servo = read_servo(words, variable);
   if (keyword == "surface_vel") drive.sliding = coupling::SlidingSurface(read_belt(words, variable));
   if (keyword == "surface_ang_vel") drive.sliding = coupling::SlidingSurface(read_roller(words, variable));
+}
+
+std::vector<Motion> read_new_motions(WordReader& words, const VariableLookup& variable) {
+  std::vector<Motion> motions;
+  if (words.next_is_one_of({"none"})) {
+    words.keyword();
+    return motions;
+  }
+  motions.push_back(read_motion(words, variable));
+  while (words.next_is_one_of({"motion"})) {
+    words.keyword();
+    motions.push_back(read_motion(words, variable));
+  }
+  return motions;
+}
+
+void change_servo(const std::string& keyword, WordReader& words, const VariableLookup& variable,
+                  coupling::Servo& servo) {
+  ServoSettings& settings = servo.settings();
+  if (keyword == "servo/integrate") {
+    settings.integrate = words.value_of(keyword, {"start", "stop"}) == "start";
+  } else if (keyword == "servo/vel_max") {
+    settings.vel_max = words.number_above_zero(keyword);
+  } else if (keyword == "servo/target_val") {
+    settings.target = target_value(words, keyword, variable);
+    servo.forget_past_errors();
+  } else if (keyword == "servo/ctrlParam") {
+    settings.kp = words.number_at_least_zero(keyword);
+    settings.ki = words.number_at_least_zero(keyword);
+    settings.kd = words.number_at_least_zero(keyword);
+    check_gains(settings);
+    servo.forget_past_errors();
+  } else {
+    if (!settings.automatic) fail("servo/ratio belongs to a servo with 'mode auto'");
+    settings.automatic->ratio = words.number_above_zero(keyword);
+  }
 }
 
 }  // namespace
@@ -219,6 +252,25 @@ void read_drive(const std::string& keyword, WordReader& words, const VariableLoo
     read_one(keyword, words, variable, drive);
   } catch (const std::invalid_argument& problem) {
     fail(fmt::format("{}: {}", keyword, problem.what()));
+  }
+}
+
+void change_drive(WordReader& words, const VariableLookup& variable, coupling::RigidSurface& wall) {
+  static const std::vector<std::string> known = {"motion",        "servo/integrate", "servo/target_val",
+                                                 "servo/vel_max", "servo/ctrlParam", "servo/ratio"};
+  if (!words.next_is_one_of(known))
+    fail(fmt::format("fix_modify: '{}' is unknown, expected one of {}", words.keyword(),
+                     fmt::join(known, ", ")));
+  const std::string keyword = words.keyword();
+  if (keyword != "motion" && !wall.servo())
+    fail(fmt::format("fix_modify: '{}' needs a wall with a servo", keyword));
+  try {
+    if (keyword == "motion")
+      wall.set_motions(read_new_motions(words, variable));
+    else
+      change_servo(keyword, words, variable, *wall.servo());
+  } catch (const std::invalid_argument& problem) {
+    fail(fmt::format("fix_modify {}: {}", keyword, problem.what()));
   }
 }
 

@@ -22,6 +22,12 @@ const std::vector<std::string>& drive_keywords();
 void read_drive(const std::string& keyword, WordReader& words, const VariableLookup& variable,
                 coupling::RigidDrive& drive);
 
+/// Reads one of LIGGGHTS' fix_modify words, or all consecutive motions, and changes the wall between runs:
+///   motion none | motion VERB ... [motion VERB ...]
+///   servo/integrate start|stop, servo/target_val T, servo/vel_max V, servo/ctrlParam KP KI KD, servo/ratio R
+/// Throws std::invalid_argument as read_drive does.
+void change_drive(WordReader& words, const VariableLookup& variable, coupling::RigidSurface& wall);
+
 /// "motion", "servo" or "surface_vel": what drives the wall, or "" if nothing does.
 std::string drive_name(const coupling::RigidDrive& drive);
 

@@ -92,9 +92,7 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const V
     } else if (keyword == "rstar") {
       options.curvature_radius = reader.value_of(keyword, {"particle", "curvature"}) == "curvature";
     } else if (keyword == "temperature") {
-      const double temperature = reader.number(keyword);
-      if (temperature < 0.0) fail(fmt::format("temperature is {}, expected 0 or more", temperature));
-      options.temperature = fmt::format("{}", temperature);
+      options.temperature = fmt::format("{}", reader.number_at_least_zero(keyword));
     } else if (contains(drive_keywords(), keyword)) {
       read_drive(keyword, reader, variable, options.drive);
     } else if (reader.next_is_one_of({"on", "off"})) {

@@ -12,6 +12,7 @@
 #include "deck_variable.h"
 #include "error.h"
 #include "lammps.h"
+#include "motion_words.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -48,6 +49,10 @@ void check_units(const WallNurbsOptions& options, nurbs::Units units, const char
                                             options.file, nurbs::units_name(units), deck_units));
 }
 
+liggghts_pkg::VariableLookup variables_of(LAMMPS* lmp, const std::string& fix_id) {
+  return [=](const std::string& name) { return liggghts_pkg::deck_variable(lmp, fix_id, name); };
+}
+
 /// Of the particles of all ranks; infinite if there are none.
 double smallest_radius(const LAMMPS& lmp) {
   double mine = std::numeric_limits<double>::infinity(), smallest;
@@ -68,11 +73,23 @@ void WallNurbsSetup::complete_servo(LAMMPS* lmp, coupling::ServoSettings& servo)
   servo.automatic->near_particles = [this] { return near_particles_; };
 }
 
+int WallNurbsSetup::modify_drive(LAMMPS* lmp, const char* id, int narg, char** arg) {
+  const std::vector<std::string> words(arg, arg + narg);
+  liggghts_pkg::WordReader reader(words, 0);
+  try {
+    auto* const wall = dynamic_cast<coupling::RigidSurface*>(opened_.solver.get());
+    if (!wall) throw std::invalid_argument("fix_modify: a deforming wall has nothing to modify");
+    liggghts_pkg::change_drive(reader, variables_of(lmp, id), *wall);
+  } catch (const std::exception& problem) {
+    lmp->error->all(FLERR, wall_nurbs_message(id, problem.what()).c_str());
+  }
+  return static_cast<int>(reader.position());
+}
+
 WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
   try {
-    options_ = liggghts_pkg::parse_wall_nurbs(
-        std::vector<std::string>(arg + 3, arg + narg),
-        [&](const std::string& name) { return liggghts_pkg::deck_variable(lmp, arg[0], name); });
+    options_ = liggghts_pkg::parse_wall_nurbs(std::vector<std::string>(arg + 3, arg + narg),
+                                              variables_of(lmp, arg[0]));
     if (options_.drive.servo) complete_servo(lmp, *options_.drive.servo);
     check_type(options_.atom_type, lmp->atom->ntypes);
     opened_ = options_.body == WallNurbsOptions::Body::iga

@@ -21,6 +21,8 @@ std::string wall_nurbs_message(const char* id, const std::string& what);
 class WallNurbsSetup {
  protected:
   WallNurbsSetup(class LAMMPS* lmp, int narg, char** arg);
+  /// fix_modify: changes what drives a rigid wall; returns how many words that took.
+  int modify_drive(class LAMMPS* lmp, const char* id, int narg, char** arg);
 
   liggghts_pkg::WallNurbsOptions options_;
   coupling::OpenedStructure opened_;

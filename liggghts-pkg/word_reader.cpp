@@ -62,6 +62,18 @@ double WordReader::number(const std::string& keyword) {
   return *number;
 }
 
+double WordReader::number_at_least_zero(const std::string& keyword) {
+  const double given = number(keyword);
+  if (given < 0.0) fail(fmt::format("{} is '{}', expected a number, 0 or more", keyword, words_[next_ - 1]));
+  return given;
+}
+
+double WordReader::number_above_zero(const std::string& keyword) {
+  const double given = number(keyword);
+  if (given <= 0.0) fail(fmt::format("{} is '{}', expected a number above 0", keyword, words_[next_ - 1]));
+  return given;
+}
+
 nurbs::Vector3 WordReader::vector(const std::string& keyword) {
   nurbs::Vector3 v;
   for (int d = 0; d < 3; ++d) v[d] = number(keyword);

@@ -20,6 +20,7 @@ class WordReader {
   WordReader(const std::vector<std::string>& words, std::size_t next) : words_(words), next_(next) {}
 
   bool at_end() const { return next_ == words_.size(); }
+  std::size_t position() const { return next_; }  ///< words read so far
   bool next_is_one_of(const std::vector<std::string>& choices) const;
   std::string keyword() { return words_[next_++]; }
 
@@ -28,6 +29,8 @@ class WordReader {
   std::string value_of(const std::string& keyword, const std::vector<std::string>& allowed);
   int count(const std::string& keyword, const std::string& expected);  ///< 1 or more
   double number(const std::string& keyword);                           ///< finite
+  double number_at_least_zero(const std::string& keyword);
+  double number_above_zero(const std::string& keyword);
   nurbs::Vector3 vector(const std::string& keyword);
   std::vector<double> numbers(const std::string& keyword, int count);
   coupling::Value number_or_variable(const std::string& keyword, const VariableLookup& variable);

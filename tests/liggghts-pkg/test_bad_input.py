@@ -177,6 +177,9 @@ DECKS = {
         f"fix w2 all wall/nurbs {RIGID.replace('flat', 'thread')} {SERVO.replace('force', 'torque')}\n", "",
         ["id w2", "axis"],
     ),
+    "fix_modify of an unknown word": (
+        f"fix w2 all wall/nurbs {RIGID}\n", "fix_modify w2 colour red\n", ["id w2", "'colour'", "motion"]),
+    "fix_modify of a deforming wall": ("", "fix_modify plate motion none\n", ["id plate", "deforming"]),
     "multicontact of the pairs": (
         "pair_style gran model hertz tangential no_history surface multicontact\npair_coeff * *\n"
         "fix mc all multicontact/halfspace\n", "run 1\n", ["multicontact|geometric|Poisson|prefactor"],

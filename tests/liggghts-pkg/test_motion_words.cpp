@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "motion_words.h"
+#include "nurbs/primitives.h"
 
 namespace {
 
@@ -113,6 +114,84 @@ TEST(MotionWords, SlidingSurfacesOfFixMeshSurface) {
   EXPECT_LE((roller.sliding->velocity(x, normal) - Vector3(3, 3, 0)).norm(), 1e-15);
 }
 
+/// A wall of one flat patch.
+coupling::RigidSurface wall_with(const std::string& line) {
+  const nurbs::KnotVector linear = nurbs::KnotVector::from_breaks(1, {0.0, 1.0});
+  coupling::RigidSurface wall({nurbs::plane({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {linear, linear})});
+  wall.drive(read(line));
+  wall.set_time_step(0.01);
+  return wall;
+}
+
+/// Reads a line of fix_modify's words; returns how many were read.
+std::size_t change(const std::string& line, coupling::RigidSurface& wall) {
+  std::istringstream stream(line);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  WordReader reader(words, 0);
+  liggghts_pkg::change_drive(reader, variable, wall);
+  return reader.position();
+}
+
+TEST(FixModify, OtherMotionsStartFromWhereTheWallIs) {
+  coupling::RigidSurface wall = wall_with("motion linear 1 0 0");
+  wall.begin_step();
+  EXPECT_EQ(change("motion linear 0 2 0 motion rotate origin 0 0 0 axis 0 0 1 period 1 energy yes", wall),
+            17u);
+  EXPECT_EQ(wall.frame().velocity, Vector3::Zero());
+  wall.begin_step();
+  const Vector3 moved(0.01, 0.02, 0), centre(0, 0.02, 0);
+  const Eigen::AngleAxisd turn(0.02 * EIGEN_PI, Vector3::UnitZ());
+  EXPECT_LE((wall.frame().origin - (centre + turn * (moved - centre))).norm(), 1e-16);
+  change("motion none", wall);
+  EXPECT_FALSE(wall.moves());
+  EXPECT_EQ(wall.frame().velocity_at({1, 2, 3}), Vector3::Zero());
+}
+
+TEST(FixModify, WordsOfTheMeshModuleServo) {
+  coupling::RigidSurface wall =
+      wall_with("servo com 0 0 0 ctrlPV force axis 0 0 1 target_val 5 vel_max 1 mode auto ratio 0.1");
+  const coupling::ServoSettings& settings = wall.servo()->settings();
+  EXPECT_EQ(change("servo/integrate stop", wall), 2u);
+  EXPECT_FALSE(settings.integrate);
+  change("servo/integrate start", wall);
+  EXPECT_TRUE(settings.integrate);
+  change("servo/target_val v_speed", wall);
+  EXPECT_EQ(settings.target(), 7.0);
+  change("servo/vel_max 0.25", wall);
+  EXPECT_EQ(settings.vel_max, 0.25);
+  EXPECT_EQ(change("servo/ctrlParam 1 2 3", wall), 4u);
+  EXPECT_EQ(settings.kp + 10 * settings.ki + 100 * settings.kd, 321.0);
+  change("servo/ratio 0.5", wall);
+  EXPECT_EQ(settings.automatic->ratio, 0.5);
+}
+
+TEST(FixModify, WrongWordsAreRefused) {
+  coupling::RigidSurface servo = wall_with("servo com 0 0 0 ctrlPV force axis 0 0 1 target_val 5 vel_max 1");
+  coupling::RigidSurface moving = wall_with("motion linear 1 0 0");
+  const std::vector<std::tuple<coupling::RigidSurface*, std::string, std::string>> table = {
+      {&moving, "colour red", "'colour' is unknown, expected one of motion"},
+      {&moving, "motion", "'motion' is the last word"},
+      {&moving, "motion rotat", "'rotat'"},
+      {&moving, "servo/vel_max 1", "'servo/vel_max' needs a wall with a servo"},
+      {&servo, "motion linear 1 0 0", "servo"},
+      {&servo, "servo/vel_max 0", "above 0"},
+      {&servo, "servo/integrate pause", "'start' or 'stop'"},
+      {&servo, "servo/target_val 0", "0"},
+      {&servo, "servo/ctrlParam 0 0 0", "all 0"},
+      {&servo, "servo/ratio 0.1", "mode auto"},
+  };
+  for (const auto& [wall, line, expected] : table) {
+    SCOPED_TRACE(line);
+    try {
+      change(line, *wall);
+      ADD_FAILURE() << "expected std::invalid_argument";
+    } catch (const std::invalid_argument& problem) {
+      EXPECT_THAT(problem.what(), testing::AllOf(HasSubstr("fix_modify"), HasSubstr(expected)));
+    }
+  }
+}
+
 struct WrongWords {
   std::string line;
   std::vector<std::string> expected;  ///< parts of the message
@@ -148,8 +227,8 @@ TEST(MotionWords, WrongWordsAreRefused) {
       {servo + " com 0 0 0", {"'com' is given twice"}},
       {"servo com 0 0 0 ctrlPV force axis 0 0 0", {"axis is 0 0 0"}},
       {"servo com 0 0 0 ctrlPV force axis 0 0 1 target_val 0 vel_max 1", {"target_val is 0"}},
-      {"servo com 0 0 0 ctrlPV force axis 0 0 1 target_val 1 vel_max 0", {"vel_max is 0", "more than 0"}},
-      {servo + " kp -1", {"kp is -1", "0 or more"}},
+      {"servo com 0 0 0 ctrlPV force axis 0 0 1 target_val 1 vel_max 0", {"vel_max is '0'", "above 0"}},
+      {servo + " kp -1", {"kp is '-1'", "0 or more"}},
       {servo + " kp 0", {"kp, ki and kd are all 0"}},
       {servo + " mode manual", {"mode is 'manual'", "'auto'"}},
       {servo + " mode auto", {"'mode auto' and 'ratio'"}},

@@ -213,6 +213,32 @@ class LifeCycle(unittest.TestCase):
             for column, reference in tables[1].items():
                 np.testing.assert_array_equal(tables[2][column][same_rows], reference[rows], column)
 
+    def test_fix_modify_changes_the_motion_between_runs(self):
+        # at rest, then moved, then at rest again; beside fix move/mesh added and taken away
+        def run(program, wall, start, stop):
+            deck = mw.deck(wall) + mw.output()
+            deck += f"run 120\n{start}\nrun 130\n{stop}\nrun 500\n"
+            return decks.good(deck, files=mw.FILES, program=program).table
+
+        words = "linear 0.1 -0.2 0.3"
+        ours = run(decks.NURBS, mw.nurbs_wall(MODELS, ""), f"fix_modify wall motion {words}", "fix_modify wall motion none")
+        stock = run(decks.STOCK, mw.stock_wall(MODELS), f"fix move all move/mesh mesh cad {words}", "unfix move")
+        self.assertGreater(stock["fz"][250], 0.05, "the motion ends during the contact")
+        for kind, difference in mw.largest_differences(ours, stock).items():
+            self.assertLessEqual(difference, 1e-10, kind)
+
+    def test_fix_modify_of_a_servo(self):
+        # before the contact: LIGGGHTS' mesh counts its force twice where a run starts in contact
+        pauses = "run 150\nfix_modify {0} servo/integrate stop\nrun 50\nfix_modify {0} servo/integrate start\n" \
+            "fix_modify {0} servo/target_val -0.03\nfix_modify {0} servo/ctrlParam 0.4 900 0.\nrun 2500\n"
+        words = SERVOS["pid"]
+        ours = decks.good(SERVO_DECK.ours(words).replace("run 4000\n", pauses.format("wall")), files=SERVO_DECK.files).table
+        stock = decks.good(SERVO_DECK.stock(words).replace("run 4000\n", pauses.format("cad")), files=SERVO_DECK.files,
+                           program=decks.STOCK).table
+        self.assertAlmostEqual(ours["push"][-1] / 0.03, 1.0, delta=0.01)
+        for column in ("push", "height", "z"):
+            self.assertLessEqual(decks.largest_difference(ours[column], stock[column]), 1e-9, column)
+
     def test_two_ranks_give_the_same(self):
         # the ball starts just beside the border of the ranks and crosses it during the contact
         for drive in ("motion linear 0.1 -0.2 0.5 motion " + ROTATE, "surface_vel 0.7 0.2 0"):
