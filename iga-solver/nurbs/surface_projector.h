@@ -2,20 +2,21 @@
 // Closest-point projection of points on a NURBS surface: exact, bounded and fast.
 //
 // Warm: Newton's method with the exact Hessian on the elements' power form (power_element.h,
-// element_descent.h).  Cold: branch and bound over a tree of Bezier-net boxes, and inside an element over
-// Bernstein bounds of the squared distance (distance_polynomial.h), so that no minimum is overlooked.
-// Where Newton's method ends on no minimum (on saddles, in flat valleys, beside poles) branch and bound takes
-// over: no iteration has to converge for its result to be right.
-// Source: Piegl & Tiller (1997), section 6.1; Johnson & Cohen (1998), "A framework for efficient minimum
-// distance computations"; Chen et al. (2008), "Computing the minimum distance between a point and a NURBS
-// curve" (the Bernstein form of the squared distance).
+// element_descent.h).  Cold: branch and bound over a tree of boxes (surface_tree.h), past the neighbourhood
+// of a foot that is proved to be the nearest there (local_reach.h), and inside an element over Bernstein
+// bounds of the squared distance (distance_polynomial.h), so that no minimum is overlooked. Where Newton's
+// method ends on no minimum (on saddles, in flat valleys, beside poles) branch and bound takes over: no
+// iteration has to converge for its result to be right. Source: Piegl & Tiller (1997), section 6.1; Johnson &
+// Cohen (1998), "A framework for efficient minimum distance computations"; Chen et al. (2008), "Computing the
+// minimum distance between a point and a NURBS curve" (the Bernstein form of the squared distance).
 #pragma once
 
 #include <vector>
 
-#include "nurbs/box_tree.h"
 #include "nurbs/element_descent.h"
+#include "nurbs/local_reach.h"
 #include "nurbs/projection.h"
+#include "nurbs/surface_tree.h"
 
 namespace nurbs {
 
@@ -59,27 +60,29 @@ class SurfaceProjector {
   const NodalVectors& control_points() const { return elements_.control_points(); }
 
  private:
-  struct Node {
-    Box box;
-    int element;      // leaf; -1 for an inner node
-    int children[2];  // indices larger than the node's own
-  };
   struct Foot;
   struct Search;
 
-  int add_node(const Indices<2>& begin, const Indices<2>& end);
-  void refit() const;
-  Box fill_bezier_net(int element, Vector4* net) const;
   int element_near(int axis, double xi) const;
   LocalPoint local(const Parameter<2>& xi) const;
   Projection projection(const Vector3& d, const DescentResult& found) const;
   Foot foot_from(const Vector3& d, const LocalPoint& start) const;
+  Foot foot(const Vector3& d, const DescentResult& found) const;
   Projection global(const Vector3& d, const Foot& start) const;
-  Search search_from(const Vector3& d, const Foot& start) const;
+  LocalPoint centre(int element) const;
   template <class Examine>
   void collect(const Vector3& d, double reach, std::vector<Projection>& out, Examine examine) const;
-  void visit(int node, Search& search) const;
+  // surface_search.cpp:
+  void search_tree(Search& search) const;
+  void search_elements(const int* elements, int count, Search& search) const;
+  void visit(const ElementBlock& block, Search& search) const;
+  void descend_to(const ElementBlock& block, Search& search) const;
+  bool settled(const ElementBlock& block, Search& search) const;
+  bool has_its_only_foot(const ElementBlock& block, Search& search) const;
+  bool interior_of_region(const LocalPoint& at) const;
   void examine_element(int element, Search& search) const;
+  bool beyond(int element, const Search& search) const;
+  const Vector4* bezier_net(int element) const;
   void examine(const DistancePolynomial& F, Search& search) const;
   bool descend_in(const DistancePolynomial& F, Search& search) const;
   bool on_region_border(const DistancePolynomial& F, int i, bool upper) const;
@@ -91,10 +94,12 @@ class SurfaceProjector {
   ElementStore elements_;
   std::vector<ProductTerm> products_;
   std::vector<double> binomials_;  // C(p, i) C(q, j)
-  std::vector<int> leaf_;          // node of each element
-  mutable std::vector<Node> nodes_;
-  mutable std::vector<Vector4> bezier_;  // nets, times binomials, of all elements
-  mutable bool boxes_current_ = false;
+  mutable SurfaceTree tree_;
+  mutable bool tree_current_ = false;
+  LocalReach reach_;
+  unsigned version_ = 1;  // of the control points
+  mutable std::vector<unsigned> net_version_;
+  mutable std::vector<Vector4> nets_;  // Bezier nets times binomials, of the elements that needed one
 };
 
 }  // namespace nurbs

@@ -156,7 +156,10 @@ TEST(SurfaceProjector, WrongArguments) {
   const Surface hills =
       shapes::random_hills(random, {KnotVector::uniform(2, 2), KnotVector::uniform(2, 2)}, 0.1, false);
   SurfaceProjector projector(hills.space);
+  const int first = 0;
   EXPECT_THROW(projector.warm({0, 0, 0}, {0.5, 0.5}), std::logic_error);
+  EXPECT_THROW(projector.cold({0, 0, 0}), std::logic_error);
+  EXPECT_THROW(projector.cold_on({0, 0, 0}, &first, 1), std::logic_error);
   EXPECT_THROW(projector.set_control_points(NodalVectors::Zero(3, 5)), std::invalid_argument);
   projector.set_control_points(hills.control_points);
   EXPECT_THROW(projector.cold_on({0, 0, 0}, nullptr, 0), std::invalid_argument);

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "nurbs/surface_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace nurbs {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr float kNothing = std::numeric_limits<float>::infinity();
+constexpr double kHalfUlp = 0x1p-24;  // of single precision, relative
+
+struct Bounds {
+  Vector4 low = Vector4::Constant(kInfinity), high = Vector4::Constant(-kInfinity);
+  void add(const Bounds& other) {
+    low = low.min(other.low);
+    high = high.max(other.high);
+  }
+};
+
+}  // namespace
+
+SurfaceTree::SurfaceTree(const Space<2>& space)
+    : degree_{space.degree(0), space.degree(1)}, control_points_0_(space.control_point_count(0)) {
+  for (int i = 0; i < 2; ++i) {
+    const KnotVector& knots = space.knots(i);
+    elements_[i] = knots.element_count();
+    for (int e = 0; e < elements_[i]; ++e) first_[i].push_back(knots.span_of_element(e) - degree_[i]);
+  }
+  Children none;
+  for (int i = 0; i < 3; ++i) none.low[i].setConstant(kNothing), none.high[i].setConstant(kNothing);
+  int count[2] = {elements_[0], elements_[1]};
+  do {
+    for (int& n : count) n = (n + 3) / 4;
+    levels_.push_back({{count[0], count[1]}, std::vector<Children>(count[0] * count[1], none)});
+  } while (count[0] * count[1] > 1);
+}
+
+void SurfaceTree::refit(const NodalVectors& control_points) {
+  const Vector3 low = control_points.rowwise().minCoeff(), high = control_points.rowwise().maxCoeff();
+  size_ = (high - low).norm();
+  centre_ << 0.5 * (low + high), 0.0;
+  int exponent;
+  std::frexp(size_, &exponent);
+  scale_ = size_ > 0.0 ? std::ldexp(1.0, -exponent) : 1.0;
+  fit_elements(control_points);
+  for (size_t level = 1; level < levels_.size(); ++level) {
+    const Level& below = levels_[level - 1];
+    Level& here = levels_[level];
+    for (int b = 0; b < below.count[1]; ++b)
+      for (int a = 0; a < below.count[0]; ++a) {
+        const Children& from = below.children[a + below.count[0] * b];
+        Children& to = here.children[a / 4 + here.count[0] * (b / 4)];
+        const int k = a % 4 + 4 * (b % 4);
+        for (int i = 0; i < 3; ++i) {
+          to.low[i][k] = from.low[i].minCoeff();
+          to.high[i][k] = (from.high[i] < kNothing).select(from.high[i], -kNothing).maxCoeff();
+        }
+      }
+  }
+}
+
+// A box over (p+1) x (q+1) control points is one over q+1 boxes of p+1 in a row.
+void SurfaceTree::fit_elements(const NodalVectors& control_points) {
+  const int p = degree_[0], q = degree_[1], n = elements_[0];
+  std::vector<Bounds> rows(static_cast<size_t>(n) * (q + 1));  // of the last q+1 rows, row j at j % (q+1)
+  std::vector<Bounds> points(control_points_0_);
+  Level& level = levels_[0];
+  int done = 0;
+  for (int e1 = 0; e1 < elements_[1]; ++e1) {
+    for (; done <= first_[1][e1] + q; ++done) {
+      for (int c = 0; c < control_points_0_; ++c) {
+        const auto x = control_points.col(c + control_points_0_ * done);
+        points[c].low = points[c].high = Vector4(x[0], x[1], x[2], 0.0);
+      }
+      for (int e0 = 0; e0 < n; ++e0) {
+        Bounds row = points[first_[0][e0]];
+        for (int c = 1; c <= p; ++c) row.add(points[first_[0][e0] + c]);
+        rows[e0 + n * (done % (q + 1))] = row;
+      }
+    }
+    for (int e0 = 0; e0 < n; ++e0) {
+      Bounds box = rows[e0];
+      for (int j = 1; j <= q; ++j) box.add(rows[e0 + n * j]);
+      Children& to = level.children[e0 / 4 + level.count[0] * (e1 / 4)];
+      const int k = e0 % 4 + 4 * (e1 % 4);
+      // Coordinates are below 1/2 here: rounding moves them by half of this at most.
+      const Eigen::Array4f box_low = ((box.low - centre_) * scale_ - kHalfUlp).cast<float>(),
+                           box_high = ((box.high - centre_) * scale_ + kHalfUlp).cast<float>();
+      for (int i = 0; i < 3; ++i) to.low[i][k] = box_low[i], to.high[i][k] = box_high[i];
+    }
+  }
+}
+
+SurfaceTree::Point SurfaceTree::point(const Vector3& d) const {
+  const Vector3 x = scale_ * (d - centre_.head<3>().matrix());
+  return {{static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])}, x.norm()};
+}
+
+// Rounding moves the point by half an ulp of its coordinates, and distances by some half ulps of theirs.
+float SurfaceTree::limit(const Point& point, double distance2) const {
+  const double distance =
+      (scale_ * std::sqrt(distance2) + 2.0 * kHalfUlp * point.far) * (1.0 + 8.0 * kHalfUlp);
+  return static_cast<float>(distance * distance);
+}
+
+}  // namespace nurbs

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Boxes around blocks of 4^k x 4^k elements of a surface, a tree without pointers: which elements may be
+// nearer to a point than something already found.  A block lies in the convex hull of its control points
+// (Piegl & Tiller 1997, P4.8), so their box encloses it.  The sixteen boxes below a block are looked at
+// together, in loops that compilers vectorise; they are in single precision, rounded outwards, in units of
+// the surface's size from its centre. Source: Samet (1984), "The quadtree and related hierarchical data
+// structures".
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <vector>
+
+#include "nurbs/box_tree.h"
+#include "nurbs/power_element.h"
+
+namespace nurbs {
+
+/// The elements [at_i 4^level, (at_i + 1) 4^level) of direction i, as far as there are.
+struct ElementBlock {
+  int level, at[2];
+};
+
+/// Elements begin_i <= e_i < end_i.
+struct ElementWindow {
+  int begin[2], end[2];
+  bool holds(const int (&e)[2]) const {
+    return begin[0] <= e[0] && e[0] < end[0] && begin[1] <= e[1] && e[1] < end[1];
+  }
+  bool holds(const ElementWindow& other) const {
+    return begin[0] <= other.begin[0] && other.end[0] <= end[0] && begin[1] <= other.begin[1] &&
+           other.end[1] <= end[1];
+  }
+};
+
+class SurfaceTree {
+ public:
+  explicit SurfaceTree(const Space<2>& space);
+
+  /// New coordinates (3 x n).
+  void refit(const NodalVectors& control_points);
+
+  /// The block that holds all elements; its level is at least 1.
+  ElementBlock root() const { return {static_cast<int>(levels_.size()), {0, 0}}; }
+  static ElementBlock child(const ElementBlock& block, int k) {
+    return {block.level - 1, {4 * block.at[0] + k % 4, 4 * block.at[1] + k / 4}};
+  }
+  ElementWindow elements(const ElementBlock& block) const {
+    ElementWindow range;
+    for (int i = 0; i < 2; ++i) {
+      range.begin[i] = block.at[i] << 2 * block.level;
+      range.end[i] = std::min((block.at[i] + 1) << 2 * block.level, elements_[i]);
+    }
+    return range;
+  }
+  /// Length of the diagonal of the box around all control points.
+  double size() const { return size_; }
+
+  /// A point in the tree's units.
+  struct Point {
+    float d[3];
+    double far;  // from the surface's centre
+  };
+  Point point(const Vector3& d) const;
+  using Lanes = Eigen::Array<float, 16, 1>;  // one number for each child
+  /// Squared distances of a point from the nearest or the farthest point of the children's boxes; infinite
+  /// where there is no child.
+  Lanes near2(const ElementBlock& block, const Point& point) const {
+    const Children& children = this->children(block);
+    Lanes sum = Lanes::Zero();
+    for (int i = 0; i < 3; ++i)
+      sum += (children.low[i] - point.d[i]).max(point.d[i] - children.high[i]).max(0.0f).square();
+    return sum;
+  }
+  Lanes far2(const ElementBlock& block, const Point& point) const {
+    const Children& children = this->children(block);
+    Lanes sum = Lanes::Zero();
+    for (int i = 0; i < 3; ++i)
+      sum += (point.d[i] - children.low[i]).max(children.high[i] - point.d[i]).square();
+    return sum;
+  }
+  /// Where the least of some numbers >= 0 is, up to differences of 16 ulps.
+  static int least(const Lanes& numbers);
+  /// Bit k: number k, all being >= 0, is less than the limit.
+  static unsigned below(const Lanes& numbers, float limit);
+  /// near2 from which on nothing in a box is nearer than a squared distance [length^2].
+  float limit(const Point& point, double distance2) const;
+
+ private:
+  struct Children {
+    Lanes low[3], high[3];  // of one coordinate; infinite where there is no child
+  };
+  struct Level {
+    int count[2];  // blocks per direction
+    std::vector<Children> children;
+  };
+  const Children& children(const ElementBlock& block) const {
+    const Level& level = levels_[block.level - 1];
+    return level.children[block.at[0] + level.count[0] * block.at[1]];
+  }
+  void fit_elements(const NodalVectors& control_points);
+
+  int elements_[2], degree_[2], control_points_0_;
+  std::vector<int> first_[2];  // control point of each element, per direction
+  std::vector<Level> levels_;  // of the blocks of level 1, 2, ...
+  Vector4 centre_ = Vector4::Zero();
+  double size_ = 0.0, scale_ = 1.0;  // 1 / length, a power of two
+};
+
+// As integers, floats that are not negative have the same order.
+inline int SurfaceTree::least(const Lanes& numbers) {
+  std::int32_t keys[16];
+  std::memcpy(keys, numbers.data(), sizeof keys);
+  std::int32_t least = std::numeric_limits<std::int32_t>::max();
+  for (int k = 0; k < 16; ++k) least = std::min(least, (keys[k] & ~15) | k);
+  return least & 15;
+}
+
+inline unsigned SurfaceTree::below(const Lanes& numbers, float limit) {
+  std::int32_t keys[16], bound;
+  std::memcpy(keys, numbers.data(), sizeof keys);
+  std::memcpy(&bound, &limit, sizeof bound);
+  std::int32_t bits = 0;
+  for (int k = 0; k < 16; ++k) bits |= ((keys[k] - bound) >> 31) & (1 << k);  // the sign
+  return static_cast<unsigned>(bits);
+}
+
+}  // namespace nurbs
