@@ -54,6 +54,32 @@ Vector3 to_point(shapes::Random& random, const Tangents& t, bool on_border) {
   return std::cos(angle) * n - std::sin(angle) * inward;
 }
 
+// Feet in a window of points at half the reach and more, against points of the window.
+void expect_nearest(shapes::Random& random, const Surface& surface, const LocalReach& reach, int level,
+                    const int (&e)[2]) {
+  const double rho = reach(level, e, surface.control_points);
+  const ElementWindow window = reach.window(level, e);
+  ASSERT_TRUE(window.holds(e));
+  const Region region(surface.space, window);
+  for (int foot = 0; foot < 10; ++foot) {
+    const bool on_border = foot % 3 == 0;
+    const Parameter<2> xi = region.point(random, on_border);
+    const int element =
+        on_border ? surface.space.element_index({window.begin[0], surface.space.knots(1).element_at(xi[1])})
+                  : surface.space.element_at(xi);
+    const Tangents t = tangents(surface, element, xi);
+    const double r = std::min(rho, 10.0) * uniform(random, 0.5, 1.0);
+    const Vector3 d = t.S + r * to_point(random, t, on_border);
+    for (int sample = 0; sample < 40; ++sample) {
+      Parameter<2> other = region.point(random);
+      if (sample % 2 == 0)  // near the foot, where there is least to spare
+        for (int i = 0; i < 2; ++i) other[i] = xi[i] + 0.1 * (other[i] - xi[i]);
+      EXPECT_GE((interpolate(surface.space, surface.control_points, other) - d).norm(), r * (1.0 - 1e-12))
+          << "level " << level << ", reach " << rho;
+    }
+  }
+}
+
 TEST(LocalReach, NothingInTheWindowIsNearer) {
   shapes::Random random(43);
   int useful[LocalReach::kLevels] = {0};
@@ -61,8 +87,13 @@ TEST(LocalReach, NothingInTheWindowIsNearer) {
     const int n = 3 + k % 40;
     const double height = std::pow(10.0, uniform(random, -4.0, -0.5));
     Surface surface = shapes::random_hills(
-        random, {KnotVector::uniform(1 + k % 4, n), shapes::random_knots(random, 2 + k % 3, 4)}, height,
-        k % 2 == 1);
+        random,
+        {KnotVector::uniform(2 + k % 4, n),
+         k % 5 == 0 ? shapes::random_knots(random, 2 + k % 3, 4) : KnotVector::uniform(2 + k % 3, 16)},
+        height, k % 2 == 1);
+    const double uneven = k % 3 * 0.25 / n;  // speed of the parameters, too
+    for (auto x : surface.control_points.colwise())
+      x += Vector3(uniform(random, -uneven, uneven), uniform(random, -uneven, uneven), 0.0);
     const Eigen::Matrix3d turn =
         Eigen::AngleAxisd(uniform(random, 0, 6), Vector3(1, 2, 3).normalized()).toRotationMatrix();
     Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
@@ -76,30 +107,30 @@ TEST(LocalReach, NothingInTheWindowIsNearer) {
       ASSERT_GE(rho, 0.0);
       if (rho == 0.0) continue;
       ++useful[level];
-      const ElementWindow window = reach.window(level, e);
-      ASSERT_TRUE(window.holds(e));
-      const Region region(surface.space, window);
-      for (int foot = 0; foot < 10; ++foot) {
-        const bool on_border = foot % 3 == 0;
-        const Parameter<2> xi = region.point(random, on_border);
-        const int element =
-            on_border
-                ? surface.space.element_index({window.begin[0], surface.space.knots(1).element_at(xi[1])})
-                : surface.space.element_at(xi);
-        const Tangents t = tangents(surface, element, xi);
-        const double r = std::min(rho, 10.0) * uniform(random, 0.5, 1.0);
-        const Vector3 d = t.S + r * to_point(random, t, on_border);
-        for (int sample = 0; sample < 40; ++sample) {
-          Parameter<2> other = region.point(random);
-          if (sample % 2 == 0)  // near the foot, where there is least to spare
-            for (int i = 0; i < 2; ++i) other[i] = xi[i] + 0.1 * (other[i] - xi[i]);
-          EXPECT_GE((interpolate(surface.space, surface.control_points, other) - d).norm(), r * (1.0 - 1e-12))
-              << "level " << level << ", reach " << rho << ", surface " << k;
-        }
-      }
+      expect_nearest(random, surface, reach, level, e);
     }
   }
   for (int level = 0; level < 4; ++level) EXPECT_GT(useful[level], 10) << "level " << level;
+}
+
+// What random surfaces seldom show: parameters that run slowly at one end, and curvature by twist alone.
+TEST(LocalReach, SlowParametersAndTwist) {
+  shapes::Random random(44);
+  const KnotVector line(1, {0, 0, 1, 1}), parabola(2, {0, 0, 0, 1, 1, 1});
+  Surface slow{Space<2>({parabola, line}), NodalVectors(3, 6)};  // x = u - 0.8 u^2, z = u^2 / 2, |u| < 1/2
+  slow.control_points << -0.7, 0.2, 0.3, -0.7, 0.2, 0.3,         //
+      0, 0, 0, 0.1, 0.1, 0.1,                                    //
+      0.125, -0.125, 0.125, 0.125, -0.125, 0.125;
+  Surface twisted{Space<2>({line, line}), NodalVectors(3, 4)};  // z = x y
+  twisted.control_points << -0.2, 0.2, -0.2, 0.2,               //
+      -0.2, -0.2, 0.2, 0.2,                                     //
+      0.04, -0.04, -0.04, 0.04;
+  for (const Surface& surface : {slow, twisted}) {
+    const LocalReach reach(surface.space);
+    const int e[2] = {0, 0};
+    EXPECT_GT(reach(0, e, surface.control_points), 0.001);
+    for (int k = 0; k < 100; ++k) expect_nearest(random, surface, reach, 0, e);
+  }
 }
 
 // A window ends at creases; one that a crease would cut in its own block is empty.
