@@ -26,7 +26,8 @@ struct ProductTerm;
 /// All lengths in those of the control points.  Results do not depend on earlier calls.  Elements and tree
 /// are brought up to date when first used, by const members too: one object must not be shared by threads.
 /// Tolerances are relative to the size of the surface and the round-off of its evaluation.  A search ends as
-/// not_converged if lengths are not finite, and never else.  None allocates, but for the list of all_minima.
+/// not_converged if lengths are not finite, and never else.  None allocates, but for the list of
+/// all_minima and the first search over the tree after the surface moved.
 class SurfaceProjector {
  public:
   /// Keeps a reference to `space`, which must outlive it.
