@@ -13,17 +13,13 @@ namespace coupling {
 namespace {
 
 // Which control points on rims stand at the same place; all others keep to themselves.
-std::vector<int> shared_control_points(const std::vector<nurbs::Surface>& patches, int count) {
-  std::vector<int> rim, shared(count);
+std::vector<int> shared_control_points(const nurbs::MultiPatch& surface, const NodalVectors& points) {
+  std::vector<int> rim, shared(points.cols());
   std::iota(shared.begin(), shared.end(), 0);
-  NodalVectors points(3, count);
-  int first = 0;
-  for (const nurbs::Surface& patch : patches) {
-    const int n = patch.space.control_point_count(0), m = patch.space.control_point_count(1);
+  for (int p = 0; p < surface.patch_count(); ++p) {
+    const int n = surface.patch(p).control_point_count(0), m = surface.patch(p).control_point_count(1);
     for (int a = 0; a < n * m; ++a)
-      if (nurbs::on_rim(a, n, m)) rim.push_back(first + a);
-    points.middleCols(first, n * m) = patch.control_points;
-    first += n * m;
+      if (nurbs::on_rim(a, n, m)) rim.push_back(surface.first_control_point(p) + a);
   }
   const std::vector<int> lowest = nurbs::first_coincident(points(Eigen::all, rim));
   for (std::size_t r = 0; r < rim.size(); ++r) shared[rim[r]] = rim[lowest[r]];
@@ -32,31 +28,24 @@ std::vector<int> shared_control_points(const std::vector<nurbs::Surface>& patche
 
 }  // namespace
 
-SurfaceFields::SurfaceFields(MPI_Comm comm, const std::vector<nurbs::Surface>& patches) : comm_(comm) {
-  int control_points = 0, elements = 0;
-  for (const nurbs::Surface& patch : patches) {
-    spaces_.push_back(patch.space);
-    first_control_point_.push_back(control_points);
-    first_element_.push_back(elements);
-    control_points += patch.space.control_point_count();
-    elements += patch.space.element_count();
-  }
-  shared_ = shared_control_points(patches, control_points);
-  forces_.setZero(kRows, control_points);
-  contacts_.setZero(1, elements);
-}
+SurfaceFields::SurfaceFields(MPI_Comm comm, const nurbs::MultiPatch& surface,
+                             const NodalVectors& control_points)
+    : comm_(comm),
+      surface_(surface),
+      shared_(shared_control_points(surface, control_points)),
+      forces_(Eigen::MatrixXd::Zero(kRows, surface.control_point_count())),
+      contacts_(Eigen::MatrixXd::Zero(1, surface.element_count())) {}
 
 void SurfaceFields::add(const SurfaceContact& contact) {
-  const nurbs::Space<2>& space = spaces_.at(contact.patch);
+  const nurbs::SurfacePoint& foot = contact.foot;
   const double normal_force = contact.force.dot(contact.normal);
   Eigen::Matrix<double, kRows, 1> q;
   q << -normal_force, contact.force - normal_force * contact.normal, contact.worn_volume;
 
   nurbs::RationalBasis<2> basis;
-  nurbs::evaluate(space, contact.xi, 0, basis);
-  for (int a = 0; a < basis.count; ++a)
-    forces_.col(first_control_point_[contact.patch] + basis.control_point[a]) += basis.R[a] * q;
-  contacts_(first_element_[contact.patch] + space.element_at(contact.xi)) += 1.0;
+  nurbs::evaluate(surface_, foot, 0, basis);
+  for (int a = 0; a < basis.count; ++a) forces_.col(basis.control_point[a]) += basis.R[a] * q;
+  contacts_(surface_.first_element(foot.patch) + surface_.patch(foot.patch).element_at(foot.xi)) += 1.0;
 }
 
 Eigen::MatrixXd SurfaceFields::sum_over_ranks(const Eigen::MatrixXd& local) const {
@@ -66,13 +55,14 @@ Eigen::MatrixXd SurfaceFields::sum_over_ranks(const Eigen::MatrixXd& local) cons
 }
 
 Eigen::MatrixXd SurfaceFields::per_area(const Eigen::MatrixXd& sums,
-                                        const std::vector<nurbs::Surface>& patches) const {
+                                        const NodalVectors& control_points) const {
   Eigen::MatrixXd here = Eigen::MatrixXd::Zero(kRows, sums.cols());  // of each place
   Eigen::VectorXd area = Eigen::VectorXd::Zero(sums.cols());
-  for (std::size_t p = 0; p < patches.size(); ++p) {
-    const Eigen::VectorXd own = nurbs::control_point_areas(patches[p].space, patches[p].control_points);
+  for (int p = 0; p < surface_.patch_count(); ++p) {
+    const Eigen::VectorXd own =
+        nurbs::control_point_areas(surface_.patch(p), surface_.control_points_of(p, control_points));
     for (int a = 0; a < own.size(); ++a) {
-      const int A = first_control_point_[p] + a;
+      const int A = surface_.first_control_point(p) + a;
       here.col(shared_[A]) += sums.col(A);
       area[shared_[A]] += own[a];
     }
@@ -83,24 +73,25 @@ Eigen::MatrixXd SurfaceFields::per_area(const Eigen::MatrixXd& sums,
   return result;
 }
 
-std::vector<vtk::PatchFields<2>> SurfaceFields::fields(const std::vector<nurbs::Surface>& patches,
-                                                       const Eigen::Matrix3d& rotation,
+std::vector<vtk::PatchFields<2>> SurfaceFields::fields(const NodalVectors& control_points,
+                                                       const RigidFrame& frame,
                                                        const Selection& selection) const {
   const double mean = samples_ > 0.0 ? 1.0 / samples_ : 0.0;
-  const Eigen::MatrixXd values = per_area(sum_over_ranks(forces_), patches);
-  const Eigen::MatrixXd contacts = mean * sum_over_ranks(contacts_);
+  const Eigen::MatrixXd values = per_area(sum_over_ranks(forces_), control_points);
+  const Eigen::MatrixXd count = mean * sum_over_ranks(contacts_);
+  const NodalVectors in_space = (frame.rotation * control_points).colwise() + frame.origin;
 
   std::vector<vtk::PatchFields<2>> result;
-  for (std::size_t p = 0; p < patches.size(); ++p) {
-    vtk::PatchFields<2> fields{patches[p], {}, {}};
-    const auto here = values.middleCols(first_control_point_[p], spaces_[p].control_point_count());
+  for (nurbs::Surface& patch : nurbs::split(surface_, in_space)) {
+    const int p = static_cast<int>(result.size());
+    const auto here = values.middleCols(surface_.first_control_point(p), patch.space.control_point_count());
+    const auto elements = count.middleCols(surface_.first_element(p), patch.space.element_count());
+    vtk::PatchFields<2> fields{std::move(patch), {}, {}};
     if (selection.pressure) fields.control_points.push_back({"pressure", mean * here.row(kNormal)});
     if (selection.shear)
-      fields.control_points.push_back({"shear", mean * rotation * here.middleRows(kShear, 3)});
+      fields.control_points.push_back({"shear", mean * frame.rotation * here.middleRows(kShear, 3)});
     if (selection.wear) fields.control_points.push_back({"wear", here.row(kWear)});
-    if (selection.contacts)
-      fields.elements.push_back(
-          {"contacts", contacts.middleCols(first_element_[p], spaces_[p].element_count())});
+    if (selection.contact_count) fields.elements.push_back({"contact_count", elements});
     result.push_back(std::move(fields));
   }
   return result;

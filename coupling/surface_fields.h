@@ -13,14 +13,14 @@
 #include <vector>
 
 #include "coupling/contact_surface.h"
+#include "coupling/rigid_frame.h"
 #include "vtk/bezier_cells.h"
 
 namespace coupling {
 
-/// One contact as the surface feels it, in the frame in which the surface is at rest if it is rigid.
+/// One contact as the surface feels it, in the body frame.
 struct SurfaceContact {
-  int patch;
-  nurbs::Parameter<2> xi;
+  nurbs::SurfacePoint foot;
   Vector3 force;       ///< on the surface [force]
   Vector3 normal;      ///< unit, from the surface to the particle
   double worn_volume;  ///< in this step [length^3]
@@ -29,26 +29,26 @@ struct SurfaceContact {
 class SurfaceFields {
  public:
   struct Selection {
-    bool pressure = true, shear = true, contacts = true, wear = false;
+    bool pressure = true, shear = true, contact_count = true, wear = false;
   };
 
-  /// Every rank builds the same, from the undeformed patches.
-  SurfaceFields(MPI_Comm comm, const std::vector<nurbs::Surface>& patches);
+  /// Every rank builds the same, from the undeformed surface (3 x n).
+  SurfaceFields(MPI_Comm comm, const nurbs::MultiPatch& surface, const NodalVectors& control_points);
 
   /// A new step whose contacts count; the same on every rank.
   void begin_sample() { ++samples_; }
   /// A contact of this rank's particles.
   void add(const SurfaceContact& contact);
 
-  /// Collective; the result is complete on rank 0.  `patches`: the surface as it now is; `rotation`: from the
-  /// frame of the contacts to that of the patches.  Per control point
+  /// Collective; the result is complete on rank 0.  `control_points` (3 x n): the surface as it now is, in
+  /// the body frame; the result is in space.  Per control point
   ///   pressure  normal force per area, pressing > 0 [pressure];  shear  tangential force per area, a vector
   ///   wear      depth worn off since the beginning [length],
   /// per element
-  ///   contacts  their number;
+  ///   contact_count;
   /// all but wear are means over the samples, 0 without samples.
-  std::vector<vtk::PatchFields<2>> fields(const std::vector<nurbs::Surface>& patches,
-                                          const Eigen::Matrix3d& rotation, const Selection& selection) const;
+  std::vector<vtk::PatchFields<2>> fields(const NodalVectors& control_points, const RigidFrame& frame,
+                                          const Selection& selection) const;
   /// Forgets all samples, not the wear.
   void begin_interval();
 
@@ -61,11 +61,10 @@ class SurfaceFields {
   enum Row { kNormal, kShear, kWear = kShear + 3, kRows };
 
   Eigen::MatrixXd sum_over_ranks(const Eigen::MatrixXd& local) const;
-  Eigen::MatrixXd per_area(const Eigen::MatrixXd& sums, const std::vector<nurbs::Surface>& patches) const;
+  Eigen::MatrixXd per_area(const Eigen::MatrixXd& sums, const NodalVectors& control_points) const;
 
   MPI_Comm comm_;
-  std::vector<nurbs::Space<2>> spaces_;
-  std::vector<int> first_control_point_, first_element_;  // of each patch, in the arrays below
+  nurbs::MultiPatch surface_;
   std::vector<int> shared_;  // per control point: the one that keeps the sums of its place
   // of this rank; sums over samples (kNormal, kShear, contacts), over all time (kWear)
   Eigen::MatrixXd forces_;    // kRows x control points [force], kWear [length^3]

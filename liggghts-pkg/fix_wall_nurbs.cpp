@@ -51,6 +51,8 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
   size_local_cols = kLocalColumns;
   local_freq = 1;
   restart_global = 1;
+  can_create_mesh_ = true;
+  open_output();
   late_surface_ = std::getenv("LIGGGHTS_NURBS_TEST_LATE_SURFACE") != nullptr;
 }
 
@@ -80,7 +82,9 @@ void FixWallNurbs::print(const std::string& message) const {
     if (comm->me == 0 && file) std::fprintf(file, "%s\n", wall_nurbs_message(id, message).c_str());
 }
 
-int FixWallNurbs::setmask() { return FixWallGran::setmask() | INITIAL_INTEGRATE | FINAL_INTEGRATE; }
+int FixWallNurbs::setmask() {
+  return FixWallGran::setmask() | INITIAL_INTEGRATE | FINAL_INTEGRATE | (output_ ? END_OF_STEP : 0);
+}
 
 int FixWallNurbs::modify_param(int narg, char** arg) { return modify_drive(lmp, id, narg, arg); }
 
@@ -126,6 +130,7 @@ void FixWallNurbs::init() {
   } catch (const std::exception& problem) {
     fail(problem.what());
   }
+  init_wear();
   reset_dt();
   if (!structure_.deforms()) weld_across_periodic_faces();
   inside_ = crossing_ = liggghts_pkg::RunAlarm();
@@ -169,6 +174,7 @@ void FixWallNurbs::setup(int vflag) {
   import_surface();
   FixWallGran::setup(vflag);  // pre_neighbor, pre_force, post_force
   if (structure_.moves()) structure_.initialise_forces(*nodal_forces_);
+  if (output_ && output_->at_beginning()) end_of_step();
 }
 
 void FixWallNurbs::initial_integrate(int) {
@@ -196,6 +202,7 @@ void FixWallNurbs::pre_force(int) {
 }
 
 void FixWallNurbs::post_force(int vflag) {
+  if (output_) output_->begin_step(update->setupflag);
   FixWallGran::post_force(vflag);  // calls post_force_primitive
   totals_are_summed_ = false;
   publish_local_rows();

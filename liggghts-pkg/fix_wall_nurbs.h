@@ -22,8 +22,10 @@ FixStyle(wall/nurbs,FixWallNurbs)
 #include "coupling/surface_exchange.h"
 #include "fix_wall_gran.h"
 #include "local_search.h"
+#include "nurbs/tessellation.h"
 #include "run_alarm.h"
 #include "wall_nurbs_setup.h"
+#include "wall_output.h"
 
 namespace LAMMPS_NS {
 
@@ -40,6 +42,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   void initial_integrate(int vflag);
   void post_force(int vflag);
   void final_integrate();
+  void end_of_step();
   void post_run();
   void reset_dt();
   void createMulticontactData();
@@ -47,6 +50,8 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   double compute_vector(int column);
   void write_restart(FILE* file);
   void restart(char* buffer);
+  int getCreateMeshTriCount();
+  double* getCreateMeshTriNode(const int i);
 
  protected:
   void pre_neighbor();
@@ -101,6 +106,12 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   double structure_column(int column) const;
   void publish_local_rows();
 
+  // fix_wall_nurbs_fields.cpp
+  void open_output();
+  void init_wear();
+  void tell_output(int particle, const nurbs::SurfacePoint& foot, const nurbs::Vector3& delta,
+                   const nurbs::Vector3& F, const nurbs::Vector3& v_wall);
+
   [[noreturn]] void fail(const std::string& message) const;  // collective
   [[noreturn]] void fail_on_this_rank(const std::string& message) const;
   void warn(const std::string& message) const;
@@ -134,6 +145,10 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   Totals totals_, all_totals_;
   bool totals_are_summed_ = false;
   liggghts_pkg::RunAlarm inside_, crossing_;
+
+  std::unique_ptr<liggghts_pkg::WallOutput> output_;  // null: none asked for
+  const double* const* k_finnie_ = nullptr;           // of the deck, [type - 1][type - 1]
+  nurbs::TriangleMesh twin_;
 };
 
 }  // namespace LAMMPS_NS

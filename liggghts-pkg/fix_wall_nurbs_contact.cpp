@@ -93,6 +93,8 @@ void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& del
                          {-F[0], -F[1], -F[2]},
                          overlap});
 
+  if (output_) tell_output(i, at, delta, F, v_wall);
+
   if (inside_body(foot, delta)) inside_.raise(atom->tag[i], atom->radius[i], Vector3::Map(atom->v[i]).norm());
 }
 

@@ -70,25 +70,36 @@ void FixWallNurbs::post_run() {
 }
 
 /* ----------------------------------------------------------------------
-   restart: the structure's state; contact memory restarts with its fix property/atom
+   restart: the structure's state, the surface fields; contact memory restarts with its fix property/atom
 ------------------------------------------------------------------------- */
 
+// Each part is its length and its numbers.
 void FixWallNurbs::write_restart(FILE* file) {
-  std::vector<double> state = structure_.save();
-  state.insert(state.begin(), static_cast<double>(state.size()));
+  std::vector<double> all;
+  for (const std::vector<double>& part :
+       {structure_.save(), output_ ? output_->save() : std::vector<double>()}) {
+    all.push_back(static_cast<double>(part.size()));
+    all.insert(all.end(), part.begin(), part.end());
+  }
   if (comm->me != 0) return;
-  const int bytes = static_cast<int>(state.size() * sizeof(double));
+  const int bytes = static_cast<int>(all.size() * sizeof(double));
   std::fwrite(&bytes, sizeof(int), 1, file);
-  std::fwrite(state.data(), sizeof(double), state.size(), file);
+  std::fwrite(all.data(), sizeof(double), all.size(), file);
 }
 
 void FixWallNurbs::restart(char* buffer) {
-  double size;
-  std::memcpy(&size, buffer, sizeof(double));
-  std::vector<double> state(static_cast<std::size_t>(size));
-  std::memcpy(state.data(), buffer + sizeof(double), state.size() * sizeof(double));
+  const auto next_part = [&buffer] {
+    double size;
+    std::memcpy(&size, buffer, sizeof(double));
+    std::vector<double> part(static_cast<std::size_t>(size));
+    std::memcpy(part.data(), buffer + sizeof(double), part.size() * sizeof(double));
+    buffer += sizeof(double) * (1 + part.size());
+    return part;
+  };
   try {
-    structure_.load(state);
+    structure_.load(next_part());
+    const std::vector<double> fields = next_part();
+    if (output_ && !fields.empty()) output_->load(fields, update->ntimestep);
   } catch (const std::exception& problem) {
     fail(problem.what());
   }

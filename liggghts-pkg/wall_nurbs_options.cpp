@@ -16,8 +16,8 @@ namespace liggghts_pkg {
 namespace {
 
 const std::vector<std::string> kKeywords = {
-    "type",     "structure", "geometry",    "surface", "material", "store_force", "search",
-    "contacts", "rstar",     "temperature", "motion",  "servo",    "surface_vel", "surface_ang_vel"};
+    "type",  "structure",   "geometry", "surface", "material",    "store_force",     "search", "contacts",
+    "rstar", "temperature", "motion",   "servo",   "surface_vel", "surface_ang_vel", "output", "twin"};
 const std::vector<std::string> kModelKeywords = {"model", "tangential", "cohesion", "rolling_friction"};
 
 [[noreturn]] void fail(const std::string& message) { throw std::invalid_argument(message); }
@@ -95,6 +95,10 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const V
       options.temperature = fmt::format("{}", reader.number_at_least_zero(keyword));
     } else if (contains(drive_keywords(), keyword)) {
       read_drive(keyword, reader, variable, options.drive);
+    } else if (keyword == "output") {
+      options.output = read_output(reader);
+    } else if (keyword == "twin") {
+      options.twin = reader.count(keyword, "how many cells of triangles an element has in each direction");
     } else if (reader.next_is_one_of({"on", "off"})) {
       options.setting_words.push_back(keyword);
       options.setting_words.push_back(reader.keyword());

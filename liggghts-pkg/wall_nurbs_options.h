@@ -7,6 +7,7 @@
 
 #include "coupling/rigid_surface.h"
 #include "local_search.h"
+#include "output_words.h"
 #include "word_reader.h"
 
 namespace liggghts_pkg {
@@ -27,6 +28,8 @@ struct WallNurbsOptions {
   bool curvature_radius = false;  ///< the effective radius takes the wall's curvature into account
   std::string temperature;        ///< of the wall, as LIGGGHTS reads it; empty: no heat transfer
   coupling::RigidDrive drive;     ///< what moves a rigid wall
+  OutputOptions output;
+  int twin = 2;  ///< cells per element and direction of the triangle twin
 };
 
 /// Parses the words after `wall/nurbs`.  Throws std::invalid_argument: what was given, what was expected.

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <pugixml.hpp>
@@ -77,6 +78,12 @@ void save(const pugi::xml_document& document, const std::string& path) {
         "cannot write '{}' (does the folder exist, may it be written to, is there room on the disk?)", path));
 }
 
+// 20 of "wall_20.vtu"
+long step_of(const std::string& file) {
+  const std::size_t underscore = file.rfind('_');
+  return underscore == std::string::npos ? 0 : std::atol(file.c_str() + underscore + 1);
+}
+
 }  // namespace
 
 template <int Dim>
@@ -108,14 +115,14 @@ void write_vtu(const std::string& path, const std::vector<PatchFields<Dim>>& pat
   save(document, path);
 }
 
-void Series::resume(double time) {
+void Series::resume(long step) {
   if (!std::filesystem::exists(path())) return;
   pugi::xml_document document;
   if (!document.load_file(path().c_str()) || !document.child("VTKFile").child("Collection"))
     throw std::runtime_error(
         fmt::format("'{}' is no ParaView series, so it cannot be continued: remove it", path()));
   for (pugi::xml_node entry : document.child("VTKFile").child("Collection").children("DataSet"))
-    if (entry.attribute("timestep").as_double() < time)
+    if (step_of(entry.attribute("file").as_string()) <= step)
       entries_.emplace_back(entry.attribute("timestep").as_double(), entry.attribute("file").as_string());
 }
 

@@ -21,9 +21,9 @@ class Series {
  public:
   explicit Series(std::string stem) : stem_(std::move(stem)) {}
 
-  /// Goes on with the STEM.pvd of an earlier run: its states before `time` stay in the series.  No such file:
+  /// Goes on with the STEM.pvd of an earlier run: its states up to `step` stay in the series.  No such file:
   /// an empty series.  Throws std::runtime_error if the file is no series.
-  void resume(double time);
+  void resume(long step);
   /// Throws as write_vtu.
   template <int Dim>
   void write(long step, double time, const std::vector<PatchFields<Dim>>& patches);

@@ -21,7 +21,7 @@ using coupling::Vector3;
 using nurbs::KnotVector;
 using nurbs::Surface;
 
-const Eigen::Matrix3d kNoRotation = Eigen::Matrix3d::Identity();
+const coupling::RigidFrame kAtRest;
 constexpr SurfaceFields::Selection kAll{true, true, true, true};
 
 int rank_of(int tag) {
@@ -36,19 +36,22 @@ int my_rank() {
 }
 
 /// A sphere and beside it a wavy patch: rational and polynomial, closed and open, with poles.
-std::vector<Surface> patches() {
+nurbs::PatchedSurface surface() {
   const nurbs::Curve turn = nurbs::refined(nurbs::arc(0, 360), 8, 2),
                      half = nurbs::refined(nurbs::arc(-90, 90), 4, 2);
-  return {nurbs::sphere(nurbs::frame(Vector3(3, 0, 0), Vector3(0, 0, 1)), 1.0, turn, half),
-          test::wavy_surface()};
+  return nurbs::join({nurbs::sphere(nurbs::frame(Vector3(3, 0, 0), Vector3(0, 0, 1)), 1.0, turn, half),
+                      test::wavy_surface()});
+}
+
+SurfaceFields start(const nurbs::PatchedSurface& s) {
+  return SurfaceFields(MPI_COMM_WORLD, s.topology, s.control_points);
 }
 
 SurfaceContact contact(int tag) {
   const double t = tag;
   Vector3 normal(std::sin(t), std::cos(2 * t), 1.5);
   normal.normalize();
-  return {tag % 2,
-          {std::fmod(0.37 * t, 1.0), std::fmod(0.73 * t, 1.0)},
+  return {{tag % 2, {std::fmod(0.37 * t, 1.0), std::fmod(0.73 * t, 1.0)}},
           {std::sin(3 * t), 2.0, -t},
           normal,
           1e-9 * t};
@@ -76,10 +79,10 @@ Eigen::VectorXd integral(const std::vector<vtk::PatchFields<2>>& fields, const s
 }
 
 TEST(SurfaceFields, IntegrateToTheTotals) {
-  SurfaceFields fields(MPI_COMM_WORLD, patches());
+  SurfaceFields fields = start(surface());
   const int particles = 50;
   add_all(fields, particles);
-  const auto result = fields.fields(patches(), kNoRotation, kAll);
+  const auto result = fields.fields(surface().control_points, kAtRest, kAll);
   if (my_rank() != 0) return;
 
   double normal = 0.0, worn = 0.0;
@@ -93,19 +96,19 @@ TEST(SurfaceFields, IntegrateToTheTotals) {
   EXPECT_NEAR(integral(result, "pressure")[0], normal, 1e-12 * std::abs(normal));
   EXPECT_LE((integral(result, "shear") - shear).norm(), 1e-12 * shear.norm());
   EXPECT_NEAR(integral(result, "wear")[0], worn, 1e-12 * worn);
-  EXPECT_EQ(field(result[0], "contacts").sum() + field(result[1], "contacts").sum(), particles);
+  EXPECT_EQ(field(result[0], "contact_count").sum() + field(result[1], "contact_count").sum(), particles);
 }
 
 TEST(SurfaceFields, AnEvenLoadIsAnEvenPressure) {
   const std::array<KnotVector, 2> knots{KnotVector::uniform(2, 4), KnotVector::uniform(3, 3)};
-  const std::vector<Surface> floor{nurbs::plane({0, 0, 0}, {2, 0, 0}, {0, 1, 0}, knots)};
-  SurfaceFields fields(MPI_COMM_WORLD, floor);
+  const nurbs::PatchedSurface floor = nurbs::join({nurbs::plane({0, 0, 0}, {2, 0, 0}, {0, 1, 0}, knots)});
+  SurfaceFields fields = start(floor);
   fields.begin_sample();
   const int n = 400;
   for (int k = 0; k < n * n; ++k)
     if (rank_of(k) == my_rank())
-      fields.add({0, {(k % n + 0.5) / n, (k / n + 0.5) / n}, {0.5, 0, -3.0}, {0, 0, 1}, 0.0});
-  const auto result = fields.fields(floor, kNoRotation, kAll);
+      fields.add({{0, {(k % n + 0.5) / n, (k / n + 0.5) / n}}, {0.5, 0, -3.0}, {0, 0, 1}, 0.0});
+  const auto result = fields.fields(floor.control_points, kAtRest, kAll);
   if (my_rank() != 0) return;
   const Eigen::MatrixXd &p = field(result[0], "pressure"), &t = field(result[0], "shear");
   const double expected = 3.0 * n * n / 2.0;  // force per area
@@ -115,15 +118,15 @@ TEST(SurfaceFields, AnEvenLoadIsAnEvenPressure) {
 }
 
 TEST(SurfaceFields, AreMeansOverTheInterval) {
-  SurfaceFields fields(MPI_COMM_WORLD, patches());
+  SurfaceFields fields = start(surface());
   add_all(fields, 10);
-  const auto one = fields.fields(patches(), kNoRotation, kAll);
+  const auto one = fields.fields(surface().control_points, kAtRest, kAll);
   fields.begin_sample();  // a step without contacts
-  const auto two = fields.fields(patches(), kNoRotation, kAll);
+  const auto two = fields.fields(surface().control_points, kAtRest, kAll);
   fields.begin_interval();
-  const auto none = fields.fields(patches(), kNoRotation, kAll);
+  const auto none = fields.fields(surface().control_points, kAtRest, kAll);
   if (my_rank() != 0) return;
-  for (const char* name : {"pressure", "shear", "contacts"}) {
+  for (const char* name : {"pressure", "shear", "contact_count"}) {
     EXPECT_EQ(field(two[0], name), 0.5 * field(one[0], name)) << name;
     EXPECT_TRUE(field(none[0], name).isZero(0.0)) << name;
   }
@@ -131,13 +134,13 @@ TEST(SurfaceFields, AreMeansOverTheInterval) {
 }
 
 TEST(SurfaceFields, AreOneAtSeamsAndPoles) {
-  SurfaceFields fields(MPI_COMM_WORLD, patches());
+  SurfaceFields fields = start(surface());
   fields.begin_sample();
   if (my_rank() == 0) {
-    fields.add({0, {0.0, 0.4}, {0, 0, -1}, {0, 0, 1}, 0.0});  // at the seam, reported on one side of it
-    fields.add({0, {0.3, 1.0}, {0, 0, -1}, {0, 0, 1}, 0.0});  // at a pole
+    fields.add({{0, {0.0, 0.4}}, {0, 0, -1}, {0, 0, 1}, 0.0});  // at the seam, reported on one side of it
+    fields.add({{0, {0.3, 1.0}}, {0, 0, -1}, {0, 0, 1}, 0.0});  // at a pole
   }
-  const auto result = fields.fields(patches(), kNoRotation, kAll);
+  const auto result = fields.fields(surface().control_points, kAtRest, kAll);
   if (my_rank() != 0) return;
   const Eigen::MatrixXd& p = field(result[0], "pressure");
   const int n = result[0].patch.space.control_point_count(0),
@@ -153,28 +156,34 @@ TEST(SurfaceFields, AreOneAtSeamsAndPoles) {
   EXPECT_NEAR(integral(result, "pressure")[0], 2.0, 1e-12);
 }
 
-TEST(SurfaceFields, TurnWithTheWall) {
-  SurfaceFields fields(MPI_COMM_WORLD, patches());
+TEST(SurfaceFields, MoveWithTheWall) {
+  SurfaceFields fields = start(surface());
   add_all(fields, 10);
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix();
-  const auto still = fields.fields(patches(), kNoRotation, kAll),
-             turned = fields.fields(patches(), turn, kAll);
+  coupling::RigidFrame turned_frame;
+  turned_frame.rotation = Eigen::AngleAxisd(0.7, Vector3(1, 2, 3).normalized()).toRotationMatrix();
+  turned_frame.origin = Vector3(4, 5, 6);
+  const Eigen::Matrix3d& turn = turned_frame.rotation;
+  const auto still = fields.fields(surface().control_points, kAtRest, kAll),
+             turned = fields.fields(surface().control_points, turned_frame, kAll);
   if (my_rank() != 0) return;
   EXPECT_LE((field(turned[1], "shear") - turn * field(still[1], "shear")).norm(),
             1e-12 * field(still[1], "shear").norm());
   EXPECT_EQ(field(turned[1], "pressure"), field(still[1], "pressure"));
+  for (int a = 0; a < still[1].patch.control_points.cols(); ++a)
+    EXPECT_EQ(Vector3(turned[1].patch.control_points.col(a)),
+              turned_frame.to_space(still[1].patch.control_points.col(a)));
 }
 
 TEST(SurfaceFields, ComeBackFromARestart) {
-  SurfaceFields before(MPI_COMM_WORLD, patches()), after(MPI_COMM_WORLD, patches());
+  SurfaceFields before = start(surface()), after = start(surface());
   add_all(before, 20);
   std::vector<double> state = before.save();
   int size = static_cast<int>(state.size());
   MPI_Bcast(state.data(), size, MPI_DOUBLE, 0, MPI_COMM_WORLD);  // as LIGGGHTS hands it to every rank
   after.load(state);
-  const auto expected = before.fields(patches(), kNoRotation, kAll),
-             got = after.fields(patches(), kNoRotation, kAll);
-  for (const char* name : {"pressure", "shear", "contacts", "wear"})
+  const auto expected = before.fields(surface().control_points, kAtRest, kAll),
+             got = after.fields(surface().control_points, kAtRest, kAll);
+  for (const char* name : {"pressure", "shear", "contact_count", "wear"})
     if (my_rank() == 0) {
       EXPECT_EQ(field(got[1], name), field(expected[1], name)) << name;
     }
@@ -184,8 +193,8 @@ TEST(SurfaceFields, ComeBackFromARestart) {
 }
 
 TEST(SurfaceFields, AreThoseAskedFor) {
-  SurfaceFields fields(MPI_COMM_WORLD, patches());
-  const auto result = fields.fields(patches(), kNoRotation, {false, true, false, true});
+  SurfaceFields fields = start(surface());
+  const auto result = fields.fields(surface().control_points, kAtRest, {false, true, false, true});
   ASSERT_EQ(result[0].control_points.size(), 2u);
   EXPECT_EQ(result[0].control_points[0].name, "shear");
   EXPECT_EQ(result[0].control_points[1].name, "wear");

@@ -76,7 +76,7 @@ TEST_F(VtkSeries, GoesOnAfterARestart) {
   vtk::Series before((*this)("wall"));
   for (long step : {0L, 10L, 20L}) before.write<2>(step, 0.1 * step, {square()});
   vtk::Series after((*this)("wall"));
-  after.resume(1.5);
+  after.resume(10);
   after.write<2>(15, 1.5, {square()});
   const std::string index = text("wall.pvd");
   EXPECT_THAT(index, HasSubstr("wall_10.vtu"));
@@ -87,7 +87,7 @@ TEST_F(VtkSeries, GoesOnAfterARestart) {
 TEST_F(VtkSeries, DoesNotContinueAnotherFile) {
   std::ofstream((*this)("wall.pvd")) << "not a series";
   vtk::Series series((*this)("wall"));
-  EXPECT_THAT([&] { series.resume(1.0); }, testing::ThrowsMessage<std::runtime_error>(HasSubstr("wall.pvd")));
+  EXPECT_THAT([&] { series.resume(1); }, testing::ThrowsMessage<std::runtime_error>(HasSubstr("wall.pvd")));
 }
 
 TEST_F(VtuFile, NamesTheFileThatCannotBeWritten) {

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix wall/nurbs: fields on the surface for ParaView, and the triangle twin for fix mesh/surface.
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+
+#include "atom.h"
+#include "coupling/finnie.h"
+#include "fix_property_global.h"
+#include "fix_wall_nurbs.h"
+#include "modify.h"
+#include "update.h"
+
+using namespace LAMMPS_NS;
+using nurbs::Vector3;
+
+void FixWallNurbs::open_output() {
+  if (options_.output.file.empty()) return;
+  output_ =
+      std::make_unique<liggghts_pkg::WallOutput>(world, options_.output, surface_, exchange_.positions());
+  nevery = output_->every();
+}
+
+void FixWallNurbs::init_wear() {
+  if (!output_ || !output_->tracks_wear()) return;
+  const int types = atom->ntypes;
+  Fix* constants =
+      modify->find_fix_property("k_finnie", "property/global", "peratomtypepair", types, types, style, false);
+  if (!constants)
+    fail(
+        fmt::format("field wear needs Finnie's constants [1/pressure], expected 'fix ID all property/global "
+                    "k_finnie peratomtypepair {0} ...' with {0} x {0} numbers in the deck",
+                    types));
+  k_finnie_ = static_cast<FixPropertyGlobal*>(constants)->get_array();
+}
+
+// In space: `delta` from the foot to the centre, F the force on the particle.
+void FixWallNurbs::tell_output(int i, const nurbs::SurfacePoint& foot, const Vector3& delta, const Vector3& F,
+                               const Vector3& v_wall) {
+  const Vector3 normal = delta.normalized();
+  double worn_volume = 0.0;
+  if (output_->tracks_wear()) {
+    const double k = k_finnie_[atom_type_wall_ - 1][atom->type[i] - 1];
+    const Vector3 v = Vector3::Map(atom->v[i]) - v_wall;
+    worn_volume = dt_ * coupling::finnie_wear_rate(v, normal, F.norm(), k);
+  }
+  const Eigen::Matrix3d to_body = frame_.rotation.transpose();
+  output_->add({foot, -(to_body * F), to_body * normal, worn_volume});
+}
+
+void FixWallNurbs::end_of_step() {
+  try {
+    output_->write(update->ntimestep, update->get_cur_time(), exchange_.positions(), frame_);
+  } catch (const std::exception& problem) {
+    fail(problem.what());
+  }
+}
+
+/* ----------------------------------------------------------------------
+   fix mesh/surface ... fix ID: this wall in triangles, as it stands when that fix is created
+------------------------------------------------------------------------- */
+
+int FixWallNurbs::getCreateMeshTriCount() {
+  twin_ = nurbs::tessellate(nurbs::split(surface_, exchange_.positions()), options_.twin);
+  const coupling::RigidFrame frame = structure_.frame();
+  twin_.vertices = (frame.rotation * twin_.vertices).colwise() + frame.origin;
+  return static_cast<int>(twin_.triangles.size());
+}
+
+double* FixWallNurbs::getCreateMeshTriNode(const int i) {
+  return twin_.vertices.col(twin_.triangles[i / 3][i % 3]).data();
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "wall_output.h"
+
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace liggghts_pkg {
+
+namespace {
+
+// Rank 0 acts; if it fails every rank throws.
+template <class Action>
+void on_first_rank(MPI_Comm comm, Action action) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::string problem;
+  if (rank == 0) try {
+      action();
+    } catch (const std::exception& caught) {
+      problem = caught.what();
+    }
+  int length = static_cast<int>(problem.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, comm);
+  if (length == 0) return;
+  problem.resize(length);
+  MPI_Bcast(problem.data(), length, MPI_CHAR, 0, comm);
+  throw std::runtime_error(problem);
+}
+
+}  // namespace
+
+WallOutput::WallOutput(MPI_Comm comm, OutputOptions options, const nurbs::MultiPatch& surface,
+                       const coupling::NodalVectors& control_points)
+    : comm_(comm),
+      options_(std::move(options)),
+      fields_(comm, surface, control_points),
+      series_(options_.file) {}
+
+void WallOutput::begin_step(bool setup) {
+  setup_ = setup;
+  sampling_ = !setup || at_beginning_;
+  if (!sampling_) return;
+  if (!options_.average) fields_.begin_interval();
+  fields_.begin_sample();
+}
+
+void WallOutput::add(const coupling::SurfaceContact& contact) {
+  if (!sampling_) return;
+  coupling::SurfaceContact counted = contact;
+  if (setup_) counted.worn_volume = 0.0;
+  fields_.add(counted);
+}
+
+void WallOutput::write(long step, double time, const coupling::NodalVectors& control_points,
+                       const coupling::RigidFrame& frame) {
+  const std::vector<vtk::PatchFields<2>> state = fields_.fields(control_points, frame, options_.fields);
+  on_first_rank(comm_, [&] { series_.write(step, time, state); });
+  fields_.begin_interval();
+  at_beginning_ = false;
+}
+
+void WallOutput::load(const std::vector<double>& state, long step) {
+  fields_.load(state);
+  on_first_rank(comm_, [&] { series_.resume(step); });
+  at_beginning_ = false;
+}
+
+}  // namespace liggghts_pkg

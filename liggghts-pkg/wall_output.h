@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Surface fields of a wall as a time series for ParaView: when to sample, when to write.
+#pragma once
+
+#include <mpi.h>
+
+#include <vector>
+
+#include "coupling/surface_fields.h"
+#include "output_words.h"
+#include "vtk/vtu_file.h"
+
+namespace liggghts_pkg {
+
+class WallOutput {
+ public:
+  /// Every rank, from the undeformed surface (3 x n).
+  WallOutput(MPI_Comm comm, OutputOptions options, const nurbs::MultiPatch& surface,
+             const coupling::NodalVectors& control_points);
+
+  int every() const { return options_.every; }
+  bool tracks_wear() const { return options_.fields.wear; }
+  /// Before the contacts of a step.  The forces of setup belong to a step that has been counted, unless it is
+  /// the very first one: its contacts are the first state of the series, and wear nothing.
+  void begin_step(bool setup);
+  void add(const coupling::SurfaceContact& contact);
+  /// The first state is still to be written, at the end of setup.
+  bool at_beginning() const { return at_beginning_; }
+
+  /// Collective, as all that follows.  Writes the state and begins the next interval; arguments as in
+  /// SurfaceFields::fields.  Throws std::runtime_error on every rank if rank 0 cannot write.
+  void write(long step, double time, const coupling::NodalVectors& control_points,
+             const coupling::RigidFrame& frame);
+
+  /// Restart: fields since the last state, and the wear.  After load the series goes on after `step`.
+  std::vector<double> save() const { return fields_.save(); }
+  void load(const std::vector<double>& state, long step);
+
+ private:
+  MPI_Comm comm_;
+  OutputOptions options_;
+  coupling::SurfaceFields fields_;
+  vtk::Series series_;
+  bool at_beginning_ = true, sampling_ = false, setup_ = false;
+};
+
+}  // namespace liggghts_pkg

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`fix mesh/surface fix ID`: the triangle twin of a NURBS wall, made by LIGGGHTS itself in the same deck."""
+
+import re
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import decks
+from test_wall_output import MATERIAL, MODELS, SETUP
+
+RADIUS, LENGTH = 0.003, 0.006
+CYLINDER = f"""
+units: si
+geometry:
+  cylinder: {{origin: [0, {-LENGTH / 2}, 0.0025], axis: [0, 1, 0], radius: {RADIUS}, length: {LENGTH}, elements: [8, 3]}}
+surfaces: {{wall: all}}
+"""
+# large triangles: the ball stays off their edges, where stock walls hand contacts on from one to the next
+FLOOR = """
+units: si
+geometry:
+  plane: {origin: [-0.004, -0.004, 0], edges: [[0.008, 0, 0], [0, 0.008, 0]], elements: [2, 2], degree: 2}
+surfaces: {floor: all}
+"""
+TWIN = f"""
+fix twin all mesh/surface fix floor type 2
+fix mesh all wall/gran {MODELS} mesh n_meshes 1 meshes twin
+"""
+BALL_FAR_AWAY = """
+create_atoms 1 single 0 0 0.0025 units box
+set group all diameter 0.0005 density 2480
+fix integrate all nve/sphere
+"""
+
+
+def read_stl(path: Path) -> np.ndarray:
+    """triangles x 3 corners x 3 coordinates"""
+    corners = re.findall(r"vertex (\S+) (\S+) (\S+)", path.read_text())
+    return np.array(corners, dtype=float).reshape(-1, 3, 3)
+
+
+class Twin(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+
+    def twin_of_the_cylinder(self, words: str, ranks: int = 1) -> np.ndarray:
+        deck = SETUP + "create_box 2 box\n" + MATERIAL + BALL_FAR_AWAY + f"""
+fix drum all wall/nurbs {MODELS} type 2 geometry drum.yaml surface wall {words}
+fix twin all mesh/surface fix drum type 2
+dump twin all mesh/stl 1 {self.folder}/twin*.stl twin
+thermo_style custom step f_drum[1]
+run 0
+"""
+        decks.good(deck, files={"drum.yaml": CYLINDER}, ranks=ranks)
+        return read_stl(self.folder / "twin0.stl")
+
+    def test_corners_lie_on_the_cylinder(self):
+        triangles = self.twin_of_the_cylinder("twin 3")
+        self.assertEqual(len(triangles), 2 * (8 * 3) * (3 * 3))
+        distance = np.hypot(triangles[..., 0], triangles[..., 2] - 0.0025)
+        np.testing.assert_allclose(distance, RADIUS, rtol=5e-6)  # the STL file has six digits
+        self.assertEqual(triangles[..., 1].min(), -LENGTH / 2)
+        self.assertEqual(triangles[..., 1].max(), LENGTH / 2)
+
+    def test_area_is_that_of_chords(self):
+        """One chord per element of 45 degrees: 2 n sin(pi/n) r l, n = 8.  The same on two ranks."""
+        for ranks in (1, 2):
+            triangles = self.twin_of_the_cylinder("twin 1", ranks)
+            edges = triangles[:, 1:] - triangles[:, :1]
+            area = 0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum()
+            np.testing.assert_allclose(area, 2 * 8 * np.sin(np.pi / 8) * RADIUS * LENGTH, rtol=1e-5)
+
+    def test_elements_are_cut_in_four_by_default(self):
+        self.assertEqual(len(self.twin_of_the_cylinder("")), 2 * (8 * 2) * (3 * 2))
+
+    def test_a_ball_on_a_flat_twin_moves_as_on_the_nurbs_wall(self):
+        """The stock mesh wall acts on all particles, whatever its group: so the NURBS wall acts on none beside it."""
+        nurbs, twin = (self.bounce(group, mesh) for group, mesh in (("all", ""), ("nobody", TWIN)))
+        self.assertGreater(nurbs["floor[7]"].sum(), 20)
+        self.assertEqual(twin["floor[7]"].sum(), 0)
+        self.assertGreater(nurbs["vz"][-1], 0.0)
+        for name in ("vx", "vy", "vz", "z", "wx", "wy"):
+            with self.subTest(name=name):
+                self.assertLess(decks.largest_difference(nurbs[name], twin[name]), 1e-10)
+
+    def bounce(self, group: str, mesh: str) -> dict[str, np.ndarray]:
+        deck = SETUP + "create_box 2 box\n" + MATERIAL + f"""
+create_atoms 1 single 0.0012 0.0027 0.00101 units box
+set group all diameter 0.002 density 2480
+velocity all set 0.2 0.1 -0.5 units box
+group nobody type 2
+fix floor {group} wall/nurbs {MODELS} type 2 geometry floor.yaml surface floor twin 1
+{mesh}
+fix integrate all nve/sphere
+compute spin all property/atom omegax omegay omegaz
+variable vx equal vx[1]
+variable vy equal vy[1]
+variable vz equal vz[1]
+variable z equal z[1]
+variable wx equal c_spin[1][1]
+variable wy equal c_spin[1][2]
+thermo_style custom step v_vx v_vy v_vz v_z v_wx v_wy f_floor[7]
+thermo_modify format float %.17g lost error
+thermo 1
+run 200
+"""
+        return decks.good(deck, files={"floor.yaml": FLOOR}).table
+
+
+if __name__ == "__main__":
+    unittest.main()

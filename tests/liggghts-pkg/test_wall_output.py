@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`output` of fix wall/nurbs: the fields' integrals are the wall's forces, wear is that of LIGGGHTS' own mesh wall, and
+the series survives restarts and does not depend on the number of ranks."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import decks
+import vtu
+
+ELEMENTS, SIDE = 8, 0.008
+FLOOR = f"""
+units: si
+geometry:
+  plane: {{origin: [{-SIDE / 2}, {-SIDE / 2}, 0], edges: [[{SIDE}, 0, 0], [0, {SIDE}, 0]], elements: [{ELEMENTS}, {ELEMENTS}], degree: 2}}
+surfaces: {{floor: all}}
+"""
+ELEMENT_AREA = (SIDE / ELEMENTS) ** 2
+MODELS = "model hertz tangential history"
+
+SETUP = """
+units si
+atom_style granular
+atom_modify map array
+boundary f f f
+newton off
+communicate single vel yes
+region box block -0.005 0.005 -0.005 0.005 -0.001 0.006 units box
+"""
+MATERIAL = f"""
+neighbor 0.0002 bin
+hard_particles yes
+fix m1 all property/global youngsModulus peratomtype 1e8 1e8
+fix m2 all property/global poissonsRatio peratomtype 0.3 0.3
+fix m3 all property/global coefficientRestitution peratomtypepair 2 0.7 0.7 0.7 0.7
+fix m4 all property/global coefficientFriction peratomtypepair 2 0.3 0.3 0.3 0.3
+fix m5 all property/global k_finnie peratomtypepair 2 1e-10 2e-10 2e-10 4e-10
+pair_style gran {MODELS}
+pair_coeff * *
+timestep 1e-6
+"""
+# Balls apart from each other that fall on the floor one after the other, at an angle.
+BALLS = SETUP + "create_box 2 box\n" + MATERIAL + "".join(
+    f"create_atoms 1 single {-0.003 + 0.0015 * (k % 5)} {-0.003 + 0.0015 * (k // 5)} {0.0005 + 7e-6 * k} units box\n"
+    for k in range(20)
+) + """
+set group all diameter 0.001 density 2480
+velocity all set 0.4 0.3 -0.5 units box
+fix integrate all nve/sphere
+"""
+ONE_BALL = SETUP + "create_box 2 box\n" + MATERIAL + """
+create_atoms 1 single 0.0013 -0.0015 0.00101 units box
+set group all diameter 0.002 density 2480
+set atom 1 vx {vx} vy 0.5 vz {vz}
+fix integrate all nve/sphere
+"""
+THERMO = """
+thermo_style custom step f_wall[1] f_wall[2] f_wall[3] f_wall[7]
+thermo_modify format float %.17g lost error
+thermo {every}
+"""
+STL = """solid plane
+facet normal 0 0 1
+outer loop
+vertex -0.004 -0.004 0
+vertex 0.004 -0.004 0
+vertex 0.004 0.004 0
+endloop
+endfacet
+facet normal 0 0 1
+outer loop
+vertex -0.004 -0.004 0
+vertex 0.004 0.004 0
+vertex -0.004 0.004 0
+endloop
+endfacet
+endsolid plane
+"""
+
+
+def wall(folder: str, every: int, words: str = "") -> str:
+    return (
+        f"fix wall all wall/nurbs {MODELS} type 2 geometry floor.yaml surface floor "
+        f"output {folder}/floor every {every} {words}\n"
+    )
+
+
+class WallOutput(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory()
+        self.addCleanup(scratch.cleanup)
+        self.folder = scratch.name
+
+    def run_deck(self, deck: str, **options) -> decks.Run:
+        return decks.good(deck, files={"floor.yaml": FLOOR, "plane.stl": STL}, **options)
+
+    def state(self, step: int) -> vtu.State:
+        return vtu.read(Path(self.folder) / f"floor_{step}.vtu")
+
+    def total(self, step: int, name: str) -> np.ndarray:
+        return self.state(step).integral_on_parallelograms(name, ELEMENT_AREA)
+
+    def test_integrals_of_one_step_are_the_forces_on_the_wall(self):
+        """sum_A area_A p_A = total normal force, likewise shear; contacts are counted."""
+        table = self.run_deck(BALLS + wall(self.folder, 20, "average no") + THERMO.format(every=20) + "run 200\n").table
+        self.assertGreater(max(table["wall[7]"]), 3)
+        for k, step in enumerate(table["Step"].astype(int)):
+            scale = 1e-12 * max(1.0, np.abs(table["wall[3]"]).max())
+            np.testing.assert_allclose(self.total(step, "pressure"), -table["wall[3]"][k], rtol=1e-12, atol=scale)
+            np.testing.assert_allclose(
+                self.total(step, "shear"), [table["wall[1]"][k], table["wall[2]"][k], 0.0], rtol=1e-11, atol=scale
+            )
+            self.assertEqual(self.state(step).elements["contact_count"].sum(), table["wall[7]"][k])
+
+    def test_fields_are_means_over_the_interval(self):
+        deck = BALLS + wall(self.folder, 50) + THERMO.format(every=1) + "run 120\nrun 80\n"
+        first, second = self.run_deck(deck).tables
+        # the set-up of the second run evaluates the forces of step 120 once more: they count once
+        force, contacts = (
+            np.concatenate([first[name], second[name][1:]]) for name in ("wall[3]", "wall[7]")
+        )
+        for step in (50, 100, 150, 200):
+            steps = slice(step - 49, step + 1)
+            np.testing.assert_allclose(self.total(step, "pressure"), -force[steps].mean(), rtol=1e-11)
+            np.testing.assert_allclose(self.state(step).elements["contact_count"].sum(), contacts[steps].mean(), rtol=1e-12)
+
+    def test_the_series_lists_every_state(self):
+        self.run_deck(BALLS + wall(self.folder, 50) + THERMO.format(every=50) + "run 100\n")
+        listed = vtu.series(Path(self.folder) / "floor.pvd")
+        self.assertEqual([path.name for path in listed.values()], ["floor_0.vtu", "floor_50.vtu", "floor_100.vtu"])
+        np.testing.assert_allclose(list(listed), [0.0, 5e-5, 1e-4], rtol=1e-12)
+        self.assertEqual(len(list(Path(self.folder).iterdir())), 4, "no unfinished file")
+
+    def test_wear_is_that_of_a_stock_mesh(self):
+        """Of a grazing and of a steep impact (LIGGGHTS has 0.33333 for 1/3 there): volume worn off."""
+        for vx, vz, tolerance in ((1.0, -0.2, 1e-9), (0.1, -0.6, 2e-5)):
+            with self.subTest(vx=vx, vz=vz):
+                ball = ONE_BALL.format(vx=vx, vz=vz)
+                self.run_deck(ball + wall(self.folder, 400, "fields wear") + THERMO.format(every=400) + "run 400\n")
+                stock = f"""
+fix mesh all mesh/surface/stress file plane.stl type 2 wear finnie
+fix wall all wall/gran {MODELS} mesh n_meshes 1 meshes mesh
+dump wear all mesh/vtk 400 {self.folder}/mesh*.vtk wear mesh
+thermo 400
+run 400
+"""
+                self.run_deck(ball + stock, program=decks.STOCK)
+                lines = (Path(self.folder) / "mesh400.vtk").read_text().splitlines()
+                wear = np.array(lines[lines.index("wear 1 2 double") + 1].split(), dtype=float)
+                expected = (wear * SIDE**2 / 2).sum()
+                self.assertGreater(expected, 0.0)
+                np.testing.assert_allclose(self.total(400, "wear"), expected, rtol=tolerance)
+
+    def test_fields_are_the_same_on_two_ranks(self):
+        deck = BALLS + wall(self.folder, 50, "fields pressure shear contact_count wear") + THERMO.format(every=50) + "run 200\n"
+        self.run_deck(deck)
+        one = self.state(200)
+        self.run_deck(deck, ranks=2)
+        two = self.state(200)
+        for a, b in ((one.fields, two.fields), (one.elements, two.elements)):
+            for name in a:
+                np.testing.assert_allclose(a[name], b[name], rtol=1e-9, atol=1e-12 * np.abs(a[name]).max(), err_msg=name)
+        self.assertGreater(one.fields["wear"].max(), 0.0)
+
+    def test_a_restart_goes_on_with_wear_means_and_series(self):
+        fields = "fields pressure contact_count wear"
+        restart = f"{self.folder}/half.restart"
+        head = BALLS + wall(self.folder, 50, fields) + THERMO.format(every=100)
+        # in the midst of an interval; the states of the first attempt to go on are written again
+        self.run_deck(head + f"run 120\nwrite_restart {restart}\nrun 80\n")
+        whole = self.state(200)
+        self.run_deck(
+            SETUP + f"read_restart {restart}\n" + MATERIAL + wall(self.folder, 50, fields)
+            + "fix integrate all nve/sphere\n" + THERMO.format(every=100) + "run 80\n"
+        )
+        again = self.state(200)
+        for name in ("pressure", "wear"):
+            np.testing.assert_allclose(again.fields[name], whole.fields[name], rtol=1e-12, err_msg=name)
+        np.testing.assert_array_equal(again.elements["contact_count"], whole.elements["contact_count"])
+        names = [path.name for path in vtu.series(Path(self.folder) / "floor.pvd").values()]
+        self.assertEqual(names, [f"floor_{step}.vtu" for step in (0, 50, 100, 150, 200)])
+
+    def test_wrong_output_ends_in_one_line(self):
+        thermo = THERMO.format(every=50) + "run 50\n"
+        no_constants = BALLS.replace("fix m5", "#")
+        cases = {
+            "cannot write '/no/such/folder/floor_0.vtu'": (BALLS, wall("/no/such/folder", 50)),
+            "field wear needs Finnie's constants": (no_constants, wall(self.folder, 50, "fields wear")),
+            "output every is '0', expected a number of steps, 1 or more": (BALLS, wall(self.folder, 0)),
+            "twin is 'x', expected how many cells of triangles": (BALLS, wall(self.folder, 5, "twin x")),
+        }
+        for message, (head, line) in cases.items():
+            for ranks in (1, 2):
+                with self.subTest(message=message, ranks=ranks):
+                    run = decks.run(head + line + thermo, files={"floor.yaml": FLOOR}, ranks=ranks)
+                    self.assertNotEqual(run.code, 0)
+                    self.assertEqual(len(run.errors), 1, run.text[-2000:])
+                    self.assertIn(message, run.errors[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
