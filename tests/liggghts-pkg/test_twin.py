@@ -15,7 +15,8 @@ RADIUS, LENGTH = 0.003, 0.006
 CYLINDER = f"""
 units: si
 geometry:
-  cylinder: {{origin: [0, {-LENGTH / 2}, 0.0025], axis: [0, 1, 0], radius: {RADIUS}, length: {LENGTH}, elements: [8, 3]}}
+  cylinder: {{origin: [0, {-LENGTH / 2}, 0.0025], axis: [0, 1, 0], radius: {RADIUS}, length: {LENGTH},
+    elements: [8, 3]}}
 surfaces: {{wall: all}}
 """
 # large triangles: the ball stays off their edges, where stock walls hand contacts on from one to the next

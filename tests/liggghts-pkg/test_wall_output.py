@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+import ball_on_block as bob
 import decks
 import vtu
 
@@ -15,7 +16,8 @@ ELEMENTS, SIDE = 8, 0.008
 FLOOR = f"""
 units: si
 geometry:
-  plane: {{origin: [{-SIDE / 2}, {-SIDE / 2}, 0], edges: [[{SIDE}, 0, 0], [0, {SIDE}, 0]], elements: [{ELEMENTS}, {ELEMENTS}], degree: 2}}
+  plane: {{origin: [{-SIDE / 2}, {-SIDE / 2}, 0], edges: [[{SIDE}, 0, 0], [0, {SIDE}, 0]],
+    elements: [{ELEMENTS}, {ELEMENTS}], degree: 2}}
 surfaces: {{floor: all}}
 """
 ELEMENT_AREA = (SIDE / ELEMENTS) ** 2
@@ -125,7 +127,8 @@ class WallOutput(unittest.TestCase):
         for step in (50, 100, 150, 200):
             steps = slice(step - 49, step + 1)
             np.testing.assert_allclose(self.total(step, "pressure"), -force[steps].mean(), rtol=1e-11)
-            np.testing.assert_allclose(self.state(step).elements["contact_count"].sum(), contacts[steps].mean(), rtol=1e-12)
+            counted = self.state(step).elements["contact_count"].sum()
+            np.testing.assert_allclose(counted, contacts[steps].mean(), rtol=1e-12)
 
     def test_the_series_lists_every_state(self):
         self.run_deck(BALLS + wall(self.folder, 50) + THERMO.format(every=50) + "run 100\n")
@@ -155,14 +158,16 @@ run 400
                 np.testing.assert_allclose(self.total(400, "wear"), expected, rtol=tolerance)
 
     def test_fields_are_the_same_on_two_ranks(self):
-        deck = BALLS + wall(self.folder, 50, "fields pressure shear contact_count wear") + THERMO.format(every=50) + "run 200\n"
+        fields = "fields pressure shear contact_count wear"
+        deck = BALLS + wall(self.folder, 50, fields) + THERMO.format(every=50) + "run 200\n"
         self.run_deck(deck)
         one = self.state(200)
         self.run_deck(deck, ranks=2)
         two = self.state(200)
         for a, b in ((one.fields, two.fields), (one.elements, two.elements)):
             for name in a:
-                np.testing.assert_allclose(a[name], b[name], rtol=1e-9, atol=1e-12 * np.abs(a[name]).max(), err_msg=name)
+                scale = 1e-12 * np.abs(a[name]).max()
+                np.testing.assert_allclose(a[name], b[name], rtol=1e-9, atol=scale, err_msg=name)
         self.assertGreater(one.fields["wear"].max(), 0.0)
 
     def test_a_restart_goes_on_with_wear_means_and_series(self):
@@ -182,6 +187,32 @@ run 400
         np.testing.assert_array_equal(again.elements["contact_count"], whole.elements["contact_count"])
         names = [path.name for path in vtu.series(Path(self.folder) / "floor.pvd").values()]
         self.assertEqual(names, [f"floor_{step}.vtu" for step in (0, 50, 100, 150, 200)])
+
+    def test_the_first_state_has_the_forces_of_set_up_and_no_wear(self):
+        touching = ONE_BALL.format(vx=1.0, vz=-0.2).replace("0.00101 units", "0.00099 units")
+        fields = "fields pressure contact_count wear"
+        deck = touching + wall(self.folder, 50, fields) + THERMO.format(every=1) + "run 10\n"
+        table = self.run_deck(deck).table
+        self.assertGreater(-table["wall[3]"][0], 0.0)
+        np.testing.assert_allclose(self.total(0, "pressure"), -table["wall[3]"][0], rtol=1e-12)
+        self.assertEqual(self.state(0).elements["contact_count"].sum(), 1)
+        self.assertEqual(self.total(0, "wear"), 0.0)
+
+    def test_a_deforming_wall_is_written_where_it_is(self):
+        """The centre of the top moves as the probe there does."""
+        deck = (
+            bob.prelude() + bob.wall(rest=f"structure block.yaml surface top output {self.folder}/floor every 200")
+            + bob.output(columns=(18, 19, 20), every=200) + "run 200\n"
+        )
+        table = decks.good(deck, files={"block.yaml": bob.block()}).table
+        before, after = self.state(0), self.state(200)
+        # a corner of four elements, so a point of the surface
+        centre = np.argmin(np.linalg.norm(before.points, axis=1))
+        moved = after.points[centre] - before.points[centre]
+        probe = [table[f"plate{c}"][-1] for c in (18, 19, 20)]
+        self.assertLess(moved[2], -1e-8)
+        np.testing.assert_allclose(moved, probe, rtol=1e-9, atol=1e-15)
+        self.assertGreater(after.fields["pressure"].max(), 0.0)
 
     def test_wrong_output_ends_in_one_line(self):
         thermo = THERMO.format(every=50) + "run 50\n"

@@ -99,7 +99,8 @@ class VtkReader(unittest.TestCase):
         dimension = len(patches[0].degrees)
         sizes = [int(np.prod(p.element_counts())) for p in patches]
         self.assertEqual(grid.GetNumberOfCells(), sum(sizes))
-        data = {n: vtk_to_numpy(grid.GetPointData().GetArray(n)).reshape(-1, c) for n, c in (("scalar", 1), ("vector", 3))}
+        point_data = grid.GetPointData()
+        data = {n: vtk_to_numpy(point_data.GetArray(n)).reshape(-1, c) for n, c in (("scalar", 1), ("vector", 3))}
         number = vtk_to_numpy(grid.GetCellData().GetArray("number"))
         worst = 0.0
         for _ in range(POINTS_PER_CASE):
