@@ -8,6 +8,8 @@ solver   starts the runs, a few at a time (progress: how far they are)
 pulse    peak, duration and impulse of a contact force
 hertz    closed forms of an impact on a rigid wall
 zener    an impact on a thin plate
+sliding  a ball that slides on a surface without friction
+waves    a surface of waves: spline, model file, triangles
 summary  rows, table, JSON
 figures  contact force against time
 """

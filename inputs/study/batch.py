@@ -9,6 +9,7 @@ import sys
 import tempfile
 from contextlib import closing
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Mapping, Sequence
 
@@ -48,7 +49,8 @@ class Batch:
         shared: dict[tuple, tuple[Run, list[Case]]] = {}
         for case in self.cases:
             variables = run_variables(case, self.defaults(case), self.user)
-            run = Run(case.name, self.folder, case.deck, variables, scratch / case.name)
+            files = partial(case.files, numbers(variables)) if case.files else dict
+            run = Run(case.name, self.folder, case.deck, variables, scratch / case.name, files)
             same = (case.deck, tuple(numbers(variables).items()))
             shared.setdefault(same, (run, []))[1].append(case)
         return list(shared.values())
@@ -111,7 +113,9 @@ class Batch:
                 self.complete = False
                 self.rows[case.name] = [Row(case.name, "completed", 0.0, "1", 1.0, 0.0)]
             else:
-                put(run.folder / "contact_force.csv", out / f"contact_force_{case.name}.csv")
+                for name in ["contact_force.csv", *run.written]:
+                    stem, dot, ending = name.partition(".")
+                    put(run.folder / name, out / f"{stem}_{case.name}{dot}{ending}")
         if failure:
             print(f"see {out / f'log_{run.name}.txt'}", file=sys.stderr)
 

@@ -28,6 +28,7 @@ class Case:
     rows: Callable[["Result"], "list[Row]"]
     variables: Mapping[str, float | str] = field(default_factory=dict)  # -var of the deck, SI
     steps: Callable[[Values], int] | None = None  # how long to run; None: as the deck says
+    files: Callable[[Values], Mapping[str, str]] | None = None  # name -> text, beside the deck
 
 
 @dataclass(frozen=True)

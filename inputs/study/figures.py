@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Contact force against time: computed samples over closed forms."""
+"""Contact force against time: computed samples over closed forms.  Colours and the writing of all figures."""
 
 from __future__ import annotations
 

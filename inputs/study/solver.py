@@ -51,12 +51,18 @@ class Run:
     deck: str
     variables: Mapping[str, str]
     folder: Path
+    files: Callable[[], Mapping[str, str]] = dict  # name -> text, written beside the deck
+    written: Sequence[str] = ()  # their names, once it has started
     seconds: float = 0.0
     process: subprocess.Popen | None = field(default=None, repr=False)
 
     def start(self, solver: Solver) -> None:
         ignored = shutil.ignore_patterns("*.py", "*.md", "__pycache__")
         shutil.copytree(self.source, self.folder, ignore=ignored)
+        files = self.files()
+        for name, text in files.items():
+            (self.folder / name).write_text(text, encoding="utf-8")
+        self.written = list(files)
         self.seconds = -time.monotonic()
         with open(self.folder / LOG, "w", encoding="utf-8") as log:
             self.process = subprocess.Popen(

@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The wall z = A sin(kx) sin(ky), three waves in each direction of a periodic box of 62 x 62 mm: as a spline, as its
+model file for `fix wall/nurbs`, as triangles, and as a function with its derivatives.
+
+The spline s(x) of sin(kx) interpolates it at equidistant points (the knots of odd degrees, the middles between them of
+even ones) and is periodic, so s and all derivatives that it has are continuous across the box.  The wall is
+z = A s(x) s(y) with x and y themselves as parameters.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Callable
+
+import numpy as np
+from scipy.interpolate import BSpline, make_interp_spline
+
+SIDE = 62e-3  # of the periodic box [m]
+WAVES = 3  # along a side
+K = 2.0 * np.pi * WAVES / SIDE  # [1/m]
+
+
+@dataclass(frozen=True)
+class Slope:
+    """Height of a wall z(x, y) with its first and second derivatives."""
+
+    z: float
+    zx: float
+    zy: float
+    zxx: float
+    zxy: float
+    zyy: float
+
+
+Surface = Callable[[float, float], Slope]
+
+
+@dataclass(frozen=True)
+class SplineWave:
+    """The periodic spline s of sin(kx), on `elements` equal elements of [0, SIDE]."""
+
+    degree: int
+    elements: int
+
+    @cached_property
+    def spline(self) -> BSpline:
+        """Coefficients sin(kx) on equidistant knots make a spline that is a multiple of sin(kx) at the points named
+        above, where the B-splines have their centres; divided by that factor they interpolate."""
+        p, h = self.degree, SIDE / self.elements
+        knots = h * np.arange(-p, self.elements + p + 1)
+        centres = h * (np.arange(self.elements + p) - 0.5 * (p - 1))
+        wave = BSpline(knots, np.sin(K * centres), p)
+        somewhere = centres[p + np.argmax(wave.c[p:-p])]
+        return BSpline(knots, wave.c / (wave(somewhere) / np.sin(K * somewhere)), p)
+
+    @cached_property
+    def clamped(self) -> BSpline:
+        """The same function on [0, SIDE] with open knots, as NURBS files want them."""
+        p, h = self.degree, SIDE / self.elements
+        knots = np.concatenate([np.zeros(p), np.linspace(0.0, SIDE, self.elements + 1), np.full(p, SIDE)])
+        greville = np.convolve(knots[1:-1], np.full(p, 1.0 / p), "valid")
+        greville[[0, -1]] = 0.0, SIDE
+        return make_interp_spline(greville, self.spline(greville), k=p, t=knots)
+
+
+def spline_surface(wave: SplineWave, amplitude: float) -> Surface:
+    """The NURBS wall; x and y in [0, SIDE]."""
+    s, ds, dds = (wave.spline.derivative(d) if d else wave.spline for d in range(3))
+
+    def at(x: float, y: float) -> Slope:
+        a, da, dda, b, db, ddb = s(x), ds(x), dds(x), s(y), ds(y), dds(y)
+        return Slope(*(amplitude * np.array([a * b, da * b, a * db, dda * b, da * db, a * ddb])))
+
+    return at
+
+
+def sine_surface(amplitude: float) -> Surface:
+    """What all walls approximate."""
+
+    def at(x: float, y: float) -> Slope:
+        a, b, da, db = np.sin(K * x), np.sin(K * y), K * np.cos(K * x), K * np.cos(K * y)
+        curvature = -K * K * a * b
+        return Slope(*(amplitude * np.array([a * b, da * b, a * db, curvature, da * db, curvature])))
+
+    return at
+
+
+def model_file(wave: SplineWave, amplitude: float) -> str:
+    """For `geometry`: the patch as surface `wall`."""
+    knots, c, n = wave.clamped.t, wave.clamped.c, len(wave.clamped.c)
+    x = [knots[i + 1 : i + 1 + wave.degree].mean() for i in range(n)]  # so that x(xi) = xi
+    points = (f"[{x[i]!r}, {x[j]!r}, {amplitude * c[i] * c[j]!r}]" for j in range(n) for i in range(n))
+    return (
+        "units: si\ngeometry:\n  patches:\n"
+        f"    - degrees: [{wave.degree}, {wave.degree}]\n"
+        f"      knots: [{knots.tolist()}, {knots.tolist()}]\n"
+        "      control_points:\n        [" + ",\n        ".join(points) + "]\n"
+        "surfaces: {wall: all}\n"
+    )
+
+
+def triangles(cells: int, amplitude: float) -> str:
+    """STL of cells x cells squares, each cut in two, with corners on the sine."""
+    grid = np.linspace(0.0, SIDE, cells + 1)
+    sine = np.sin(K * grid)
+    corner = [[f"vertex {x!r} {y!r} {amplitude * a * b!r}\n" for x, a in zip(grid, sine)] for y, b in zip(grid, sine)]
+    facets = []
+    for low, high in zip(corner, corner[1:]):
+        for a, b, c, d in zip(low, low[1:], high[1:], high):
+            for triangle in (a + b + c, a + c + d):
+                facets.append(f"facet normal 0 0 1\nouter loop\n{triangle}endloop\nendfacet\n")
+    return "solid wall\n" + "".join(facets) + "endsolid wall\n"

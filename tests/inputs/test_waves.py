@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The wavy wall: its spline against the sine, its files against the spline."""
+
+import re
+import unittest
+
+import numpy as np
+import yaml
+from scipy.interpolate import BSpline
+
+from study.waves import K, SIDE, SplineWave, model_file, sine_surface, spline_surface, triangles
+
+AMPLITUDE = 0.5e-3
+
+
+def tensor_product(text: str, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+    """Points (3, len(x)) of the patch in a model file at parameters (x, y)."""
+    (patch,) = yaml.safe_load(text)["geometry"]["patches"]
+    (p, q), (U, V) = patch["degrees"], (np.array(knots, dtype=float) for knots in patch["knots"])
+    points = np.array(patch["control_points"], dtype=float).reshape(len(V) - q - 1, len(U) - p - 1, 3)
+    Nx = BSpline(U, np.eye(len(U) - p - 1), p)(x)
+    Ny = BSpline(V, np.eye(len(V) - q - 1), q)(y)
+    return np.einsum("nj,ni,jid->dn", Ny, Nx, points)
+
+
+class Spline(unittest.TestCase):
+    def test_interpolates_the_sine(self):
+        for degree, shift in ((2, 0.5), (3, 0.0)):
+            x = (np.arange(62) + shift) * SIDE / 62
+            with self.subTest(degree=degree):
+                np.testing.assert_allclose(SplineWave(degree, 62).spline(x), np.sin(K * x), atol=1e-14)
+
+    def test_is_smooth_across_the_box(self):
+        for degree in (2, 3):
+            spline = SplineWave(degree, 62).spline
+            for order in range(degree):
+                with self.subTest(degree=degree, order=order):
+                    self.assertAlmostEqual(spline(0.0, order) / K**order, spline(SIDE, order) / K**order, delta=1e-12)
+
+    def test_order_of_the_curvature(self):
+        x = np.linspace(0.0, SIDE, 5001)
+        for degree, order in ((2, 1), (3, 2)):
+            coarse, fine = (
+                np.abs(SplineWave(degree, n).spline(x, 2) / K**2 + np.sin(K * x)).max() for n in (62, 124)
+            )
+            with self.subTest(degree=degree):
+                self.assertAlmostEqual(np.log2(coarse / fine), order, delta=0.05)
+
+    def test_derivatives_of_the_surfaces(self):
+        h = 1e-6
+        for surface in (sine_surface(AMPLITUDE), spline_surface(SplineWave(3, 62), AMPLITUDE)):
+            x, y = 0.0173, 0.0058
+            s, e, n = surface(x, y), surface(x + h, y), surface(x, y + h)
+            w, so = surface(x - h, y), surface(x, y - h)
+            differences = {
+                "zx": (e.z - w.z) / (2 * h),
+                "zy": (n.z - so.z) / (2 * h),
+                "zxx": (e.zx - w.zx) / (2 * h),
+                "zxy": (n.zx - so.zx) / (2 * h),
+                "zyy": (n.zy - so.zy) / (2 * h),
+            }
+            for name, value in differences.items():
+                self.assertAlmostEqual(getattr(s, name), value, delta=1e-6 * AMPLITUDE * K ** (len(name) - 1))
+
+
+class Files(unittest.TestCase):
+    def test_model_file_is_the_spline(self):
+        x, y = np.random.default_rng(1).uniform(0.0, SIDE, (2, 50))
+        for degree in (2, 3):
+            wave = SplineWave(degree, 62)
+            points = tensor_product(model_file(wave, AMPLITUDE), x, y)
+            expected = [x, y, AMPLITUDE * wave.spline(x) * wave.spline(y)]
+            with self.subTest(degree=degree):
+                np.testing.assert_allclose(points, expected, rtol=0.0, atol=1e-15)
+
+    def test_triangles(self):
+        corners = np.array(re.findall(r"vertex (\S+) (\S+) (\S+)", triangles(31, AMPLITUDE)), dtype=float)
+        x, y, z = corners.T
+        np.testing.assert_allclose(z, AMPLITUDE * np.sin(K * x) * np.sin(K * y), atol=1e-18)
+        facets = corners.reshape(-1, 3, 3)
+        self.assertEqual(len(facets), 1922)
+        normals = np.cross(facets[:, 1] - facets[:, 0], facets[:, 2] - facets[:, 0])
+        self.assertAlmostEqual(0.5 * normals[:, 2].sum(), SIDE**2, delta=1e-12)  # once over the box
+        self.assertGreater(normals[:, 2].min(), 0.0)
+
+
+if __name__ == "__main__":
+    unittest.main()
