@@ -52,13 +52,18 @@ bool MultiPatchProjector::leads_on(const Vector3& d, const SurfaceFoot& foot, Su
 
 void MultiPatchProjector::add_minima(const Vector3& d, const Vector3& image, double reach, double same_foot,
                                      const int* elements, int count, std::vector<SurfaceFoot>& out) const {
+  const auto same = [&](const SurfaceFoot& a, const SurfaceFoot& b) {
+    return (a.foot - b.foot).squaredNorm() <= same_foot * same_foot;
+  };
   const auto known = [&](const SurfaceFoot& foot) {
-    return std::any_of(out.begin(), out.end(), [&](const SurfaceFoot& other) {
-      return (other.foot - foot.foot).squaredNorm() <= same_foot * same_foot;
-    });
+    return std::any_of(out.begin(), out.end(), [&](const SurfaceFoot& other) { return same(foot, other); });
+  };
+  // A minimum within round-off of a border may seem to lie beyond it from either side.
+  const auto lies_beyond = [&](const SurfaceFoot& foot) {
+    SurfaceFoot beyond;
+    return leads_on(d, foot, beyond) && !same(foot, beyond);
   };
   const auto first_new = static_cast<std::ptrdiff_t>(out.size());
-  SurfaceFoot beyond;
   for (int k = 0; k < count;) {
     const int p = surface_.patch_of_element(elements[k]);
     const int first = surface_.first_element(p), next = surface_.first_element(p + 1);
@@ -68,7 +73,7 @@ void MultiPatchProjector::add_minima(const Vector3& d, const Vector3& image, dou
                                static_cast<int>(patch_elements_.size()), found_);
     for (const Projection& projection : found_) {
       const SurfaceFoot foot = on_surface(p, image, projection);
-      if (!known(foot) && !leads_on(d, foot, beyond)) out.push_back(foot);
+      if (!known(foot) && !lies_beyond(foot)) out.push_back(foot);
     }
   }
   std::sort(out.begin() + first_new, out.end(),
