@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Rigid NURBS walls against closed forms: rest, incline, bowl, oblique impact, and the time step's error of a bounce."""
+"""Rigid NURBS walls against closed forms: rest, incline, bowl, effective radius, impact, error of the time step."""
 
 import math
 import unittest
@@ -106,7 +106,8 @@ def plane(tilt: float, half: float, elements=(7, 5)) -> str:
     a = np.array([math.cos(tilt), 0.0, -math.sin(tilt)]) * 2 * half
     b = np.array([0.0, 2 * half, 0.0])
     origin = -0.5 * (a + b)
-    return f"plane: {{origin: {origin.tolist()}, edges: [{a.tolist()}, {b.tolist()}], elements: {list(elements)}, degree: 2}}"
+    place = f"origin: {origin.tolist()}, edges: [{a.tolist()}, {b.tolist()}]"
+    return f"plane: {{{place}, elements: {list(elements)}, degree: 2}}"
 
 
 def frame(tilt: float) -> tuple[np.ndarray, np.ndarray]:
@@ -124,7 +125,7 @@ class Rest(unittest.TestCase):
         case = Case(
             plane(0.0, 0.01), 1e-3, [(0.0, 0.0, 1e-3)], density=2480.0, young=(74.6e9, 210.6e9), nu=(0.2285, 0.286),
             dt=1e-7, steps=20000, low=(-0.01,) * 3, high=(0.01,) * 3,
-        )  # fmt: skip
+        )
         table = case.run()
         self.assertAlmostEqual(table["overlap"][-1] / 1.193756e-9, 1.0, delta=1e-6)
         self.assertLess(abs(table["vz"][-1]), 1e-10)
@@ -140,7 +141,8 @@ class Incline(unittest.TestCase):
         tilt = math.radians(degrees)
         downhill, normal = frame(tilt)
         uphill = 0.25
-        case = Case(plane(tilt, 0.5, (40, 5)), self.radius, [], mu=mu, e=e, dt=5e-6, steps=round(seconds / 5e-6), every=20)
+        case = Case(plane(tilt, 0.5, (40, 5)), self.radius, [], mu=mu, e=e, dt=5e-6, every=20)
+        case.steps = round(seconds / case.dt)
         height = self.radius - case.rest_overlap(case.mass * G * math.cos(tilt))
         case.at = [tuple((-uphill * downhill + height * normal).tolist())]
         case.v = tuple((v0 * downhill).tolist())
@@ -165,7 +167,7 @@ class Incline(unittest.TestCase):
                 self.assertAlmostEqual(self.radius * spin[-1] / (spin_up * t[-1]), 1.0, delta=5e-3)
 
     def test_from_sliding_to_rolling(self):
-        # e = 1: LIGGGHTS adds the tangential damper, unbounded, to the friction spring while that is below Coulomb's bound
+        # e = 1: LIGGGHTS' tangential damper has no bound while the friction spring is below Coulomb's
         t, v, spin, x = self.slide(0, 0.2, 0.25, v0=1.0, e=1.0)
         sliding = v - self.radius * spin
         rolls = np.argmax(sliding < 1e-3)
@@ -179,8 +181,8 @@ class Bowl(unittest.TestCase):
 
     WALLS = {
         "sphere": "sphere: {{centre: [0, 0, 0], radius: {R}, latitude: [-90, 0], elements: [8, 4], degree: {p}}}",
-        "cylinder": "cylinder: {{origin: [0, -0.02, 0], axis: [0, 1, 0], reference: [1, 0, 0], radius: {R}, length: 0.04, "
-        "elements: [12, 3], degree: {p}}}",
+        "cylinder": "cylinder: {{origin: [0, -0.02, 0], axis: [0, 1, 0], reference: [1, 0, 0], radius: {R}, "
+        "length: 0.04, elements: [12, 3], degree: {p}}}",
     }
 
     def period(self, wall: str, degree: int, R: float, r: float, degrees: float, mu: float, y: float) -> float:
@@ -190,7 +192,7 @@ class Bowl(unittest.TestCase):
             self.WALLS[wall].format(R=R, p=degree), r, [], mu=mu, e=0.5, every=10,
             steps=round(1.1 * 0.75 * 2 * math.pi * math.sqrt(7 * (R - r) / (5 * G)) * 1.08 / 1e-5),
             low=(-0.15,) * 3, high=(0.15,) * 3,
-        )  # fmt: skip
+        )
         distance = R - r + case.rest_overlap(case.mass * G * math.cos(angle))
         case.at = [(distance * math.sin(angle), y, -distance * math.cos(angle))]
         table = case.run()
@@ -215,7 +217,7 @@ class Bowl(unittest.TestCase):
         ]
         for wall, degree, (R, r), degrees, rolling, expected in rows:
             with self.subTest(wall=wall, degree=degree, R=R, degrees=degrees, rolling=rolling):
-                # off the wall's lines of symmetry; in a sphere only through its lowest point does a ball swing in a plane
+                # in the cylinder off its lines of symmetry; a sphere's swing in a plane goes through the lowest point
                 y = 3e-3 if wall == "cylinder" else 0.0
                 period = self.period(wall, degree, R, r, degrees, 0.8 if rolling else 0.0, y)
                 self.assertAlmostEqual(period / expected, 1.0, delta=5e-3)
@@ -266,8 +268,8 @@ def elliptic_contact(A: float, B: float) -> float:
     """(r_e)^(1/2) for F = 4/3 E* (r_e)^(1/2) overlap^1.5 of two bodies with relative curvatures A and B [1/m].
 
     Half axes a > b, m = 1 - (b/a)^2.  A pressure p (1 - x^2/a^2 - y^2/b^2)^(1/2) presses the surfaces in by
-    (L - M x^2 - N y^2)/E* with L = p b K, M = p b (K - E)/(m a^2), N = p b (E/(1 - m) - K)/(m a^2)  (Johnson, eq. 3.41);
-    so overlap = L/E*, the curvatures are 2 M/E* and 2 N/E*, and F = 2/3 pi a b p."""
+    (L - M x^2 - N y^2)/E* with L = p b K, M = p b (K - E)/(m a^2), N = p b (E/(1 - m) - K)/(m a^2)
+    (Johnson, eq. 3.41); so overlap = L/E*, the curvatures are 2 M/E* and 2 N/E*, and F = 2/3 pi a b p."""
     small, large = sorted((A, B))
 
     def ratio(m: float) -> float:  # of the curvatures, large/small
@@ -293,7 +295,7 @@ class Impact(unittest.TestCase):
                 plane(tilt, 0.01), r, [tuple(((r + 1.3e-7) * normal).tolist())], tuple(v.tolist()), e=1.0, mu=mu,
                 young=(74.6e9, 210.6e9), density=2480.0, gravity=0.0, dt=1e-8, steps=2500, every=100,
                 low=(-0.02,) * 3, high=(0.02,) * 3,
-            )  # fmt: skip
+            )
             table = case.run()
             self.assertEqual(table["overlap"][-1], 0.0, "the ball has left")
             with self.subTest(speed=speed):
@@ -309,10 +311,11 @@ class Impact(unittest.TestCase):
             case = Case(
                 plane(0.0, 0.02, (3, 4)), r, [], (0.0, 0.0, -V), e=1.0, gravity=0.0, density=2480.0,
                 young=(74.6e9, 210.6e9), nu=(0.2285, 0.286), low=(-0.02,) * 3, high=(0.02,) * 3,
-                output="variable contacts equal f_wall[7]\ncompute fast all reduce max vz\ncompute slow all reduce min vz\n"
+                output="variable contacts equal f_wall[7]\n"
+                "compute fast all reduce max vz\ncompute slow all reduce min vz\n"
                 "thermo_style custom step c_fast c_slow v_contacts\n"
                 "thermo_modify format float %.17g lost error norm no\nthermo {steps}\nrun {steps}\n",
-            )  # fmt: skip
+            )
             case.dt = 2.943275 * (1.25 * case.mass / (case.stiffness * math.sqrt(V))) ** 0.4 / N
             case.steps = N + 5
             side = 15
