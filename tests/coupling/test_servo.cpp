@@ -45,14 +45,14 @@ RigidSurface surface_with(ServoSettings settings) {
 }
 
 /// A wall that presses, after a restart in which it had been turned.
-RigidSurface moved_away() {
+RigidSurface turned_wall(ServoSettings settings) {
   RigidDrive turn;
   turn.motions = {coupling::rotate({0, 0, 0}, {1, 1, 0}, 1.0)};
   RigidSurface before({test::wavy_surface()});
   before.drive(turn);
   before.set_time_step(0.1);
   before.begin_step();
-  RigidSurface surface = surface_with(press());
+  RigidSurface surface = surface_with(std::move(settings));
   surface.load(before.save());
   return surface;
 }
@@ -197,13 +197,33 @@ TEST(Servo, TorqueIsThatAboutTheCom) {
 }
 
 TEST(Servo, ForceIsTurnedIntoSpace) {
-  RigidSurface turned = moved_away();
+  RigidSurface turned = turned_wall(press());
   const Vector3 F(3.0, -1.0, 5.0);
   const double value = (turned.frame().rotation * F).z();
   ASSERT_GT(std::abs(value - F.z()), 0.1);
   turned.end_step(force_at(turned, 2, F));
   turned.begin_step();
   EXPECT_NEAR(turned.frame().velocity.z(), -0.1 * 0.5 * (10.0 - value) / 10.0, 1e-15);
+}
+
+TEST(Servo, TorqueIsTurnedIntoSpace) {
+  ServoSettings settings = press();
+  settings.controls = ServoSettings::Controls::torque;
+  RigidSurface turned = turned_wall(settings), straight = surface_with(settings);
+  const Vector3 F(3.0, -1.0, 5.0), x = turned.frame().to_space(turned.positions().col(7));
+  const double torque = (x - kCom).cross(turned.frame().rotation * F).z();
+  turned.end_step(force_at(turned, 7, F));
+  turned.begin_step();
+  // the same torque on a wall that has not been turned, from a couple
+  NodalVectors couple = force_at(straight, 0, Vector3::Zero());
+  const Vector3 arm = straight.positions().col(1) - straight.positions().col(0);
+  const Vector3 f = torque * Vector3::UnitZ().cross(arm) / Vector3::UnitZ().cross(arm).squaredNorm();
+  couple.col(1) = f;
+  couple.col(0) = -f;
+  straight.end_step(couple);
+  straight.begin_step();
+  EXPECT_NEAR(turned.frame().angular_velocity.z(), straight.frame().angular_velocity.z(), 1e-14);
+  EXPECT_GT(std::abs(straight.frame().angular_velocity.z()), 1e-4);
 }
 
 TEST(Servo, AutomaticModeIsFastAloneAndSlowNearParticles) {

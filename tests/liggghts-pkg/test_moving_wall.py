@@ -116,6 +116,16 @@ class BesideStock(unittest.TestCase):
                     self.assertLessEqual(decks.largest_difference(ours[column], stock[column]), 1e-9, column)
                 self.check_settled(ours, 0.02)
 
+    def test_servo_that_controls_a_torque(self):
+        words = "com 0 8e-3 2.01033e-3 ctrlPV torque axis 2 0 0 target_val 2e-4 vel_max 0.05 kp 0.5"
+        ours = decks.good(SERVO_DECK.ours(words), files=SERVO_DECK.files).table
+        stock = decks.good(SERVO_DECK.stock(words), files=SERVO_DECK.files, program=decks.STOCK).table
+        arm = 8e-3 - ours["y"]
+        torque = ours["push"] * arm / 2e-4
+        self.assertAlmostEqual(torque[-1], 1.0, delta=0.01, msg="the wall is not level, so the ball slides and is followed")
+        for column in ("push", "z"):
+            self.assertLessEqual(decks.largest_difference(ours[column], stock[column]), 1e-9, column)
+
     def check_settled(self, table, force):
         """The ball lies between two Hertz contacts that each carry the force."""
         E_star = mw.YOUNG / (2 * (1 - mw.POISSON**2))
