@@ -17,6 +17,7 @@ import numpy as np
 
 NURBS = os.environ.get("LIGGGHTS_NURBS", "liggghts-nurbs")
 STOCK = os.environ.get("LIGGGHTS", "liggghts")
+LOG = "log.deck"
 
 
 @dataclass
@@ -61,7 +62,7 @@ def run(
         for name, content in (files or {}).items():
             (Path(folder) / name).write_bytes(content.encode() if isinstance(content, str) else content)
         (Path(folder) / "in.deck").write_text(deck)
-        command = (launcher or []) + [program, "-in", "in.deck", "-log", "none"]
+        command = (launcher or []) + [program, "-in", "in.deck", "-log", LOG]
         if ranks > 1:
             command = ["mpirun", "-n", str(ranks)] + command
         done = subprocess.run(
@@ -76,7 +77,10 @@ def run(
             timeout=timeout,
             check=False,
         )
-    return Run(done.returncode, done.stdout, thermo_tables(done.stdout))
+        # not from the screen: other ranks may print into the middle of its lines
+        log = Path(folder) / LOG
+        tables = thermo_tables(log.read_text(errors="replace")) if log.exists() else []
+    return Run(done.returncode, done.stdout, tables)
 
 
 def good(deck: str, **options) -> Run:

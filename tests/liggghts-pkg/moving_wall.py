@@ -33,6 +33,7 @@ fix m1 all property/global youngsModulus peratomtype {young!r} {young!r}
 fix m2 all property/global poissonsRatio peratomtype 0.3 0.3
 fix m3 all property/global coefficientRestitution peratomtypepair 2 {e} {e} {e} {e}
 fix m4 all property/global coefficientFriction peratomtypepair 2 {mu} {mu} {mu} {mu}
+fix m5 all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1
 pair_style gran {models}
 pair_coeff * *
 timestep {dt!r}

@@ -88,6 +88,14 @@ class BesideStock(unittest.TestCase):
                 self.assertEqual(stock["fz"][-1], 0.0, "and leaves")
                 self.compare(ours, stock, 1e-10)
 
+    def test_rolling_friction_on_a_moving_wall(self):
+        motions = MOTIONS["linear, then rotate"]
+        ours, stock = mw.both(
+            as_motions(motions), {"motions": motions}, mw.output() + "run 800\n", models=MODELS + " rolling_friction epsd2"
+        )
+        self.assertGreater(stock["fz"].max(), 0.05)
+        self.compare(ours, stock, 1e-10)
+
     def test_a_rotation_carries_the_next(self):
         # the wall's place is LIGGGHTS'; of two rotations at once its velocities are not those of a rigid body (they differ
         # in first order of the timestep), so forces are compared that do not depend on velocities
@@ -217,11 +225,8 @@ class LifeCycle(unittest.TestCase):
         for ranks in (1, 2):
             tables = decks.good(deck + write + "clear\n" + again + f"run {second}\n", files=files, ranks=ranks).tables
             self.assertGreater(abs(tables[1]["fz"][0]), 1e-5, "the restart falls into the contact")
-            # read_restart prints on all ranks, and may do so into the middle of a line of a table
-            steps, rows, same_rows = np.intersect1d(tables[1]["Step"], tables[2]["Step"], return_indices=True)
-            self.assertGreaterEqual(len(steps), second - 1)
             for column, reference in tables[1].items():
-                np.testing.assert_array_equal(tables[2][column][same_rows], reference[rows], column)
+                np.testing.assert_array_equal(tables[2][column], reference, column)
 
     def test_fix_modify_changes_the_motion_between_runs(self):
         # at rest, then moved, then at rest again; beside fix move/mesh added and taken away
