@@ -54,30 +54,31 @@ Eigen::MatrixXd SurfaceFields::sum_over_ranks(const Eigen::MatrixXd& local) cons
   return sum;
 }
 
-Eigen::MatrixXd SurfaceFields::per_area(const Eigen::MatrixXd& sums,
-                                        const NodalVectors& control_points) const {
-  Eigen::MatrixXd here = Eigen::MatrixXd::Zero(kRows, sums.cols());  // of each place
-  Eigen::VectorXd area = Eigen::VectorXd::Zero(sums.cols());
+void SurfaceFields::measure(const NodalVectors& control_points) {
+  if (measured_.cols() == control_points.cols() && measured_ == control_points) return;
+  measured_ = control_points;
+  area_.setZero(control_points.cols());
   for (int p = 0; p < surface_.patch_count(); ++p) {
     const Eigen::VectorXd own =
         nurbs::control_point_areas(surface_.patch(p), surface_.control_points_of(p, control_points));
-    for (int a = 0; a < own.size(); ++a) {
-      const int A = surface_.first_control_point(p) + a;
-      here.col(shared_[A]) += sums.col(A);
-      area[shared_[A]] += own[a];
-    }
+    for (int a = 0; a < own.size(); ++a) area_[shared_[surface_.first_control_point(p) + a]] += own[a];
   }
+}
+
+Eigen::MatrixXd SurfaceFields::per_area(const Eigen::MatrixXd& sums) const {
+  Eigen::MatrixXd here = Eigen::MatrixXd::Zero(kRows, sums.cols());  // of each place
+  for (int A = 0; A < sums.cols(); ++A) here.col(shared_[A]) += sums.col(A);
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(kRows, sums.cols());
   for (int A = 0; A < sums.cols(); ++A)
-    if (area[shared_[A]] > 0.0) result.col(A) = here.col(shared_[A]) / area[shared_[A]];
+    if (area_[shared_[A]] > 0.0) result.col(A) = here.col(shared_[A]) / area_[shared_[A]];
   return result;
 }
 
 std::vector<vtk::PatchFields<2>> SurfaceFields::fields(const NodalVectors& control_points,
-                                                       const RigidFrame& frame,
-                                                       const Selection& selection) const {
+                                                       const RigidFrame& frame, const Selection& selection) {
+  measure(control_points);
   const double mean = samples_ > 0.0 ? 1.0 / samples_ : 0.0;
-  const Eigen::MatrixXd values = per_area(sum_over_ranks(forces_), control_points);
+  const Eigen::MatrixXd values = per_area(sum_over_ranks(forces_));
   const Eigen::MatrixXd count = mean * sum_over_ranks(contacts_);
   const NodalVectors in_space = (frame.rotation * control_points).colwise() + frame.origin;
 

@@ -48,7 +48,7 @@ class SurfaceFields {
   ///   contact_count;
   /// all but wear are means over the samples, 0 without samples.
   std::vector<vtk::PatchFields<2>> fields(const NodalVectors& control_points, const RigidFrame& frame,
-                                          const Selection& selection) const;
+                                          const Selection& selection);
   /// Forgets all samples, not the wear.
   void begin_interval();
 
@@ -61,11 +61,14 @@ class SurfaceFields {
   enum Row { kNormal, kShear, kWear = kShear + 3, kRows };
 
   Eigen::MatrixXd sum_over_ranks(const Eigen::MatrixXd& local) const;
-  Eigen::MatrixXd per_area(const Eigen::MatrixXd& sums, const NodalVectors& control_points) const;
+  Eigen::MatrixXd per_area(const Eigen::MatrixXd& sums) const;
+  void measure(const NodalVectors& control_points);
 
   MPI_Comm comm_;
   nurbs::MultiPatch surface_;
   std::vector<int> shared_;  // per control point: the one that keeps the sums of its place
+  NodalVectors measured_;    // the control points of area_: a rigid surface is measured once
+  Eigen::VectorXd area_;  // of the control points, those of one place together at the one that keeps its sums
   // of this rank; sums over samples (kNormal, kShear, contacts), over all time (kWear)
   Eigen::MatrixXd forces_;    // kRows x control points [force], kWear [length^3]
   Eigen::MatrixXd contacts_;  // 1 x elements

@@ -18,13 +18,15 @@ static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the files are declared
 // RFC 4648, section 4.
 std::string base64(const std::vector<unsigned char>& bytes) {
   static const char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
+  std::string text((bytes.size() + 2) / 3 * 4, '=');
+  char* out = text.data();
   for (std::size_t i = 0; i < bytes.size(); i += 3) {
     const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k) group = group << 8 | (k < count ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
+    unsigned group = bytes[i] << 16;
+    if (count > 1) group |= bytes[i + 1] << 8;
+    if (count > 2) group |= bytes[i + 2];
+    for (std::size_t k = 0; k <= count; ++k) out[k] = kDigits[group >> (18 - 6 * k) & 63u];
+    out += 4;
   }
   return text;
 }

@@ -192,6 +192,16 @@ TEST(SurfaceFields, ComeBackFromARestart) {
               testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("expected")));
 }
 
+TEST(SurfaceFields, AreForcesPerAreaOfTheDeformedSurface) {
+  SurfaceFields fields = start(surface());
+  add_all(fields, 10);
+  const auto before = fields.fields(surface().control_points, kAtRest, kAll),
+             stretched = fields.fields(2.0 * surface().control_points, kAtRest, kAll);
+  if (my_rank() != 0) return;
+  const Eigen::MatrixXd &p = field(before[1], "pressure"), &q = field(stretched[1], "pressure");
+  EXPECT_LE((4.0 * q - p).norm(), 1e-13 * p.norm());
+}
+
 TEST(SurfaceFields, AreThoseAskedFor) {
   SurfaceFields fields = start(surface());
   const auto result = fields.fields(surface().control_points, kAtRest, {false, true, false, true});
