@@ -14,6 +14,15 @@
 namespace nurbs {
 namespace {
 
+bool close_to_pole(const ElementStore& elements, const LocalPoint& at) {
+  constexpr double kClose = 1e-6;  // of an element
+  for (int j = 0; j < 2; ++j) {
+    const double from_end = 1.0 - std::abs(at.s[j]);
+    if (from_end > 0.0 && from_end <= kClose && elements.axis(j, at.e[j]).at_end[at.s[j] > 0.0]) return true;
+  }
+  return false;
+}
+
 // A descent, and where it ends beside a pole, what the pole makes of it.
 DescentResult descend_past_poles(const ElementStore& elements, const Vector3& d, const LocalPoint& start) {
   DescentResult found = descend(elements, d, start);
@@ -25,10 +34,13 @@ DescentResult descend_past_poles(const ElementStore& elements, const Vector3& d,
     found.r = pole.r;
     found.end = DescentEnd::minimum;
   }
-  if (pole.kind == PoleKind::slope && found.end == DescentEnd::unknown) {
+  if (pole.kind == PoleKind::slope) {
     DescentResult beyond = descend(elements, d, pole.at);
     beyond.iterations += found.iterations;
     if (beyond.r.norm() <= (1.0 + kEqual) * found.r.norm()) found = beyond;
+    // So close to the pole that steps along it are round-off, but off it, and downhill of it.
+    if (found.end == DescentEnd::unknown && close_to_pole(elements, found.at))
+      found.end = DescentEnd::degenerate;
   }
   return found;
 }

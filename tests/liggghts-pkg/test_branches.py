@@ -228,6 +228,81 @@ class Hollow(unittest.TestCase):
         self.assertLess(steps, 0.02)
 
 
+class Edges(unittest.TestCase):
+    """Balls at rest that touch an edge, a corner or a kink: the force points from the nearest point of the wall."""
+
+    HERTZ = 4 / 3 * 5e7 / (2 * (1 - 0.3**2)) * math.sqrt(R)
+
+    def force(self, centre, patches) -> tuple[np.ndarray, float]:
+        start = prelude(tuple(float(c) for c in centre), (0, 0, 0), gravity=False)
+        table = run(start, nurbs(), model_file(*patches), steps=0, every=1, more=" v_n").table
+        return np.array([table[c][0] for c in ("fx", "fy", "fz")]), table["n"][0]
+
+    def test_edge_corner_and_ridge(self):
+        overlap, q = 1e-5, 2e-3
+        flat = quad((0, 0, 0), (q, 0, 0), (0, q, 0), (3, 3))
+        slope = np.array([q, 0, -q]) / math.sqrt(2)
+        roof = (quad((-q, 0, -0.3 * q), (q, 0, 0.3 * q), (0, q, 0)), quad((0, 0, 0), slope, (0, q, 0)))
+        directions = {
+            "edge": ((0, 0.7 * q, 0), (-0.6, 0, 0.8), (flat,)),
+            "corner": ((q, q, 0), (0.48, 0.6, -0.64), (flat,)),
+            "ridge": ((0, 0.4 * q, 0), (0.1, 0, 1), roof),
+            "end of the ridge": ((0, 0, 0), (0.05, -0.5, 1), roof),
+        }
+        for name, (point, direction, patches) in directions.items():
+            n = np.array(direction) / np.linalg.norm(direction)
+            force, contacts = self.force(np.array(point) + (R - overlap) * n, patches)
+            with self.subTest(name):
+                self.assertEqual(contacts, 1.0)
+                np.testing.assert_allclose(force, self.HERTZ * overlap**1.5 * n, atol=1e-9 * self.HERTZ * overlap**1.5)
+
+
+class Closed(unittest.TestCase):
+    """Round walls that close on themselves: the same force everywhere, on seams and poles, too."""
+
+    def test_sphere_and_torus(self):
+        overlap, big, tube = 1e-5, 8e-3, 3e-3
+        hertz = Edges.HERTZ * overlap**1.5
+        seam = [0.0, 1e-9, -1e-9, 1e-4, -1e-4]
+        sphere = [(a, b) for a in (*seam, 1.0, 2.5) for b in (-1.5707, -1.0, 0.0, 1e-5, 0.9)]
+        poles = [(a, s * (math.pi / 2 - t)) for a in (0.0, 2.0) for s in (1, -1) for t in (0.0, 1e-7, 1e-3)]
+        torus = [(a, b) for a in (*seam, 2.0) for b in (*seam, math.pi, 1.3)]
+
+        def on_sphere(a, b):
+            n = np.array([math.cos(a) * math.cos(b), math.sin(a) * math.cos(b), math.sin(b)])
+            return big * n, n
+
+        def on_torus(a, b):
+            n = np.array([math.cos(a) * math.cos(b), math.sin(a) * math.cos(b), math.sin(b)])
+            return big * np.array([math.cos(a), math.sin(a), 0]) + tube * n, n
+
+        shapes = {
+            "sphere": (f"sphere: {{centre: [0, 0, 0], radius: {big}, elements: [4, 2]}}", on_sphere, sphere + poles),
+            "torus": (
+                f"torus: {{centre: [0, 0, 0], axis: [0, 0, 1], radius: {big}, tube_radius: {tube}, elements: [8, 4]}}",
+                on_torus, torus,
+            ),
+        }
+        box = "region box block -0.02 0.02 -0.02 0.02 -0.02 0.02 units box"
+        for name, (shape, place, angles) in shapes.items():
+            for side in (1, -1):
+                centres, normals = [], []
+                for a, b in angles:
+                    point, n = place(a, b)
+                    centres.append(point + side * (R - overlap) * n)
+                    normals.append(side * n)
+                sets = "".join(f"set atom 1 x {x!r} y {y!r} z {z!r}\nrun 0\n" for x, y, z in np.array(centres).tolist())
+                start = prelude(tuple(centres[0].tolist()), (0, 0, 0), gravity=False, box=box)
+                deck = start + nurbs() + OUTPUT + table(0, 1, " v_n").replace("run 0\n", "") + sets
+                files = {"wall.yaml": f"units: si\ngeometry:\n  {shape}\nsurfaces: {{wall: all}}\n"}
+                found = decks.good(deck, files=files).table
+                force = np.stack([found[c] for c in ("fx", "fy", "fz")], axis=1)
+                with self.subTest(name, side=side):
+                    self.assertEqual(set(found["n"]), {1.0})
+                    self.assertLessEqual(abs(force / hertz - np.array(normals)).max(), 1e-8)
+                    self.assertLessEqual(abs(np.linalg.norm(force, axis=1) / hertz - 1).max(), 1e-10)
+
+
 class Reports(unittest.TestCase):
     def test_a_ball_that_would_cross_in_one_step_is_named(self):
         wall = model_file(quad((-L / 2, -L / 2, 0), (L, 0, 0), (0, L, 0)))
@@ -241,6 +316,25 @@ class Reports(unittest.TestCase):
                     if found:
                         advised = float(re.search(r"timestep of at most ([\d.e+-]+)", found.group()).group(1))
                         self.assertAlmostEqual(advised, 0.1 * R / speed, delta=0.01 * advised)
+
+    def test_power_is_that_of_force_and_torque(self):
+        """The last column, of a wall that turns and of one that also shifts."""
+        period = 0.05
+        start = prelude((2e-3, -1e-3, 0.999 * R), (0.3, 0.2, 0))
+        omega = 2 * math.pi / period
+        turn = f"motion rotate origin 1e-3 0 0 axis 0 0 1 period {period} "
+        for name, motion, shift in (("turns", turn, 0.0), ("shifts, too", "motion linear -0.4 0 0 " + turn, -0.4)):
+            more = "".join(f"variable c{k} equal f_wall[{k}]\n" for k in (1, 2, 6, 18))
+            result = run(start, nurbs(motion) + more, model_file(quad((-L, -L, 0), (2 * L, 0, 0), (0, 2 * L, 0), (4, 4))),
+                         steps=1000, every=1, more=" v_c1 v_c2 v_c6 v_c18").table
+            time = 2e-6 * result["Step"]
+            # about the centre, which may shift; before the first step the wall is at rest
+            centre = 1e-3 + shift * time
+            torque = result["c6"] - centre * result["c2"]
+            expected = -(torque * omega + result["c1"] * shift)
+            with self.subTest(name):
+                self.assertGreater(abs(expected).max(), 1e-6)
+                self.assertLessEqual(abs(result["c18"] - expected)[2:].max(), 2e-4 * abs(expected).max())
 
     def test_dump_local_has_a_row_for_each_contact(self):
         z = 0.995 * R
