@@ -93,13 +93,16 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   void resolve_contacts(int candidate);
   nurbs::Vector3 wall_velocity(const nurbs::SurfaceFoot& foot, const nurbs::Vector3& point,
                                const nurbs::Vector3& normal) const;
-  void apply_contact(int particle, liggghts_pkg::TrackedFoot& tracked, const nurbs::Vector3& delta);
+  void apply_contact(int particle, liggghts_pkg::TrackedFoot& tracked, const nurbs::Vector3& delta,
+                     const nurbs::Vector3& v_wall);
   void call_contact_model(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta,
                           liggghts_pkg::ContactSlot slot, nurbs::Vector3 v_wall);
   void take_slot(int particle, liggghts_pkg::TrackedFoot& tracked, const liggghts_pkg::ContactMemory& memory);
   double effective_radius(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
   bool inside_body(const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
-  void check_crossing(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta);
+  bool may_cross(int particle, const nurbs::SurfaceFoot& foot) const;
+  void check_crossing(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta,
+                      const nurbs::Vector3& v_wall);
 
   // fix_wall_nurbs_output.cpp
   const Totals& totals_of_all_ranks();
@@ -137,8 +140,8 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   std::vector<bool> is_candidate_;
   std::vector<double> list_reach_;  // per particle, when the list was built
 
-  std::vector<coupling::ContactForce> contacts_;  // of this rank's particles, this step
-  std::vector<LocalRow> local_rows_;              // the same, for dump local
+  std::vector<coupling::ContactForce> contacts_;  // of this rank's particles, if needed
+  std::vector<LocalRow> local_rows_;              // for dump local
   std::vector<double*> local_pointers_;
   const coupling::NodalVectors* nodal_forces_ = nullptr;
   coupling::NodalVectors no_forces_;

@@ -27,11 +27,17 @@ void FixWallNurbs::resolve_contacts(int candidate) {
   const ContactMemory slots = memory(i);
   for (TrackedFoot& tracked :
        tracker_.feet(candidate, {centre, reach, list_reach_[i], surface_motion_}, slots)) {
-    const Vector3 delta = frame_.rotation * (centre - tracked.foot.foot);
-    check_crossing(i, tracked.foot, delta);
-    if (tracked.foot.distance <= atom->radius[i] || tracked.foot.distance < reach) {
+    const SurfaceFoot& foot = tracked.foot;
+    const Vector3 delta = frame_.rotation * (centre - foot.foot);
+    const bool touches = foot.distance <= atom->radius[i] || foot.distance < reach;
+    Vector3 v_wall;
+    if (touches || may_cross(i, foot)) {
+      v_wall = wall_velocity(foot, Vector3::Map(atom->x[i]) - delta, delta / foot.distance);
+      check_crossing(i, foot, delta, v_wall);
+    }
+    if (touches) {
       take_slot(i, tracked, slots);
-      apply_contact(i, tracked, delta);
+      apply_contact(i, tracked, delta, v_wall);
     } else if (tracked.slot >= 0) {
       slots.slot(tracked.slot).clear();
       tracked.slot = -1;
@@ -55,11 +61,10 @@ Vector3 FixWallNurbs::wall_velocity(const SurfaceFoot& foot, const Vector3& poin
   return frame_.velocity_at(point) + structure_.surface_velocity(point, normal);
 }
 
-void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& delta) {
+void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& delta, const Vector3& v_wall) {
   const SurfaceFoot& foot = tracked.foot;
   const Eigen::Map<const Vector3> x(atom->x[i]);
   const Vector3 point = x - delta;
-  const Vector3 v_wall = wall_velocity(foot, point, delta / foot.distance);
 
   // The models add to the particle's force; a force of zero before shows what they add.
   Eigen::Map<Vector3> f(atom->f[i]), torque(atom->torque[i]);
@@ -83,9 +88,11 @@ void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& del
   totals_.power += F.dot(v_wall) - wall_couple.dot(frame_.angular_velocity);
 
   const nurbs::SurfacePoint& at = foot.at;
-  const Vector3 on_body = -(frame_.rotation.transpose() * F);
-  contacts_.push_back(
-      {atom->tag[i], tracked.slot, at.patch, {at.xi[0], at.xi[1]}, {on_body[0], on_body[1], on_body[2]}});
+  if (structure_.needs_forces()) {
+    const Vector3 on_body = -(frame_.rotation.transpose() * F);
+    contacts_.push_back(
+        {atom->tag[i], tracked.slot, at.patch, {at.xi[0], at.xi[1]}, {on_body[0], on_body[1], on_body[2]}});
+  }
   local_rows_.push_back({static_cast<double>(atom->tag[i]),
                          static_cast<double>(at.patch),
                          {at.xi[0], at.xi[1]},
@@ -142,13 +149,16 @@ bool FixWallNurbs::inside_body(const SurfaceFoot& foot, const Vector3& delta) co
   return sign * normal.dot(frame_.rotation.transpose() * delta) < 0.0;
 }
 
+// Whether the centre may come to the surface within one step; a wall that deforms is asked for its velocity
+// only where it matters.
+bool FixWallNurbs::may_cross(int i, const SurfaceFoot& foot) const {
+  constexpr double kNear = 0.1;  // of the distance
+  return !structure_.deforms() || Vector3::Map(atom->v[i]).norm() * dt_ >= kNear * foot.distance;
+}
+
 // A centre that comes to the surface within one step would leave it on the other side.
-void FixWallNurbs::check_crossing(int i, const SurfaceFoot& foot, const Vector3& delta) {
-  constexpr double kNear = 0.1;  // a wall that deforms is asked for its velocity only where it may matter
-  const Eigen::Map<const Vector3> v(atom->v[i]);
-  if (structure_.deforms() && v.norm() * dt_ < kNear * foot.distance) return;
-  const Vector3 normal = delta / foot.distance;
-  const Vector3 v_wall = wall_velocity(foot, Vector3::Map(atom->x[i]) - delta, normal);
-  const double approach = (v_wall - v).dot(normal);
+void FixWallNurbs::check_crossing(int i, const SurfaceFoot& foot, const Vector3& delta,
+                                  const Vector3& v_wall) {
+  const double approach = (v_wall - Vector3::Map(atom->v[i])).dot(delta) / foot.distance;
   if (approach * dt_ >= foot.distance) crossing_.raise(atom->tag[i], atom->radius[i], approach);
 }

@@ -41,9 +41,13 @@ double FixWallNurbs::structure_column(int column) const {
 void FixWallNurbs::publish_local_rows() {
   static_assert(sizeof(LocalRow) == kLocalColumns * sizeof(double), "LocalRow is a row of columns");
   size_local_rows = static_cast<int>(local_rows_.size());
-  local_pointers_.resize(local_rows_.size());
-  for (size_t k = 0; k < local_rows_.size(); ++k)
-    local_pointers_[k] = reinterpret_cast<double*>(&local_rows_[k]);
+  const size_t known = local_pointers_.size();
+  const bool moved = known > 0 && local_pointers_[0] != reinterpret_cast<double*>(local_rows_.data());
+  if (moved || known < local_rows_.size()) {
+    local_pointers_.resize(local_rows_.size());
+    for (size_t k = 0; k < local_rows_.size(); ++k)
+      local_pointers_[k] = reinterpret_cast<double*>(&local_rows_[k]);
+  }
   array_local = local_pointers_.data();
 }
 
