@@ -6,6 +6,7 @@
 #pragma once
 
 #include "coupling/contact_surface.h"
+#include "nurbs/surface_values.h"
 
 namespace coupling {
 
@@ -13,22 +14,21 @@ namespace coupling {
 class FootBasis {
  public:
   FootBasis(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi) {
-    nurbs::evaluate(space, xi, 0, basis_);
+    nurbs::evaluate_values(space, xi, values_);
   }
-  FootBasis(const nurbs::MultiPatch& surface, const nurbs::SurfacePoint& foot) {
-    nurbs::evaluate(surface, foot, 0, basis_);
+  FootBasis(const nurbs::MultiPatch& surface, const nurbs::SurfacePoint& foot)
+      : FootBasis(surface.patch(foot.patch), foot.xi) {
+    values_.first += surface.first_control_point(foot.patch);
   }
 
   /// Value at the foot of a control-point field q (3 x n).
-  Vector3 interpolate(const NodalVectors& q) const { return nurbs::interpolate<2>(basis_, q); }
+  Vector3 interpolate(const NodalVectors& q) const { return nurbs::interpolate(values_, q); }
 
   /// Adds R_A F to the control-point forces f (3 x n) [force].
-  void distribute(const Vector3& F, NodalVectors& f) const {
-    for (int a = 0; a < basis_.count; ++a) f.col(basis_.control_point[a]) += basis_.R[a] * F;
-  }
+  void distribute(const Vector3& F, NodalVectors& f) const { nurbs::distribute(values_, F, f); }
 
  private:
-  nurbs::RationalBasis<2> basis_;
+  nurbs::SurfaceValues values_;
 };
 
 }  // namespace coupling

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "nurbs/basis.h"
 
+#include <algorithm>
+
 namespace nurbs {
 namespace {
 
@@ -55,6 +57,48 @@ void evaluate_blossom(const KnotVector& knots, int span, const double* t, double
     for (int j = 0; j < q; ++j) lower[j] = out[j];
     raise_degree(knots.knots().data(), span, q, t[q - 1], lower, out);
   }
+}
+
+double binomial(int n, int k) {
+  double value = 1.0;
+  for (int i = 1; i <= k; ++i) value = value * (n - k + i) / i;
+  return value;
+}
+
+namespace {
+
+// Monomial coefficients in s of the Bernstein polynomial C(p,k) ((1+s)/2)^k ((1-s)/2)^(p-k).
+void bernstein_monomials(int p, int k, double* out) {
+  std::fill_n(out, p + 1, 0.0);
+  out[0] = binomial(p, k);
+  for (int factor = 0; factor < p; ++factor) {
+    const double sign = factor < k ? 1.0 : -1.0;
+    for (int m = factor + 1; m > 0; --m) out[m] = 0.5 * (out[m] + sign * out[m - 1]);
+    out[0] *= 0.5;
+  }
+}
+
+void fill(const KnotVector& knots, int e, ElementFunctions& element) {
+  const int p = knots.degree();
+  const double begin = knots.breaks()[e], end = knots.breaks()[e + 1];
+  for (auto& row : element.power) std::fill_n(row, kMaxDegree + 1, 0.0);
+  for (int k = 0; k <= p; ++k) {
+    double t[kMaxDegree];
+    for (int j = 0; j < p; ++j) t[j] = j < p - k ? begin : end;
+    evaluate_blossom(knots, knots.span_of_element(e), t, element.bezier[k]);
+    double monomials[kMaxDegree + 1];
+    bernstein_monomials(p, k, monomials);
+    for (int m = 0; m <= p; ++m)
+      for (int j = 0; j <= p; ++j) element.power[m][j] += monomials[m] * element.bezier[k][j];
+  }
+}
+
+}  // namespace
+
+std::vector<ElementFunctions> element_functions(const KnotVector& knots) {
+  std::vector<ElementFunctions> functions(knots.element_count());
+  for (int e = 0; e < knots.element_count(); ++e) fill(knots, e, functions[e]);
+  return functions;
 }
 
 }  // namespace nurbs

@@ -25,4 +25,16 @@ void evaluate_basis(const KnotVector& knots, int span, double xi, int derivative
 /// & Riesenfeld (1980).
 void evaluate_blossom(const KnotVector& knots, int span, const double* t, double* out);
 
+/// The functions N_{first+j} of one element as polynomials in s, -1 <= s <= 1 on it.
+/// Source: Piegl & Tiller (1997), section 6.6.
+struct ElementFunctions {
+  double bezier[kMaxDegree + 1][kMaxDegree + 1];  ///< [k][j]: coefficient of N_{first+j} at Bernstein k
+  double power[kMaxDegree + 1][kMaxDegree + 1];   ///< [k][j]: that at s^k
+};
+/// Of all elements.
+std::vector<ElementFunctions> element_functions(const KnotVector& knots);
+
+/// C(n, k)
+double binomial(int n, int k);
+
 }  // namespace nurbs

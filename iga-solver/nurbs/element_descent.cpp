@@ -10,8 +10,6 @@ namespace nurbs {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kLeastCurvature = 1e-10;  // of phi, where a plane has 1; below it phi counts as not convex
-constexpr double kLastStep = 1e-8;         // Newton converges quadratically: after such a step it is there
 constexpr int kMaxIterations = 60;
 
 double square(double x) { return x * x; }
@@ -40,7 +38,7 @@ void minimise(const double (&g)[2], const double (&H)[3], const double (&low)[2]
 class Descent {
  public:
   Descent(const ElementStore& elements, const Vector3& d, const LocalPoint& start, const LocalBox* box)
-      : elements_(elements), d_(d[0], d[1], d[2], elements.rational() ? 1.0 : 0.0), box_(box) {
+      : elements_(elements), d_{d[0], d[1], d[2]}, box_(box) {
     now_->at = start;
     sample(*now_);
   }
@@ -58,7 +56,7 @@ class Descent {
       }
       if (!advance()) break;
     }
-    result.r = result.end == DescentEnd::unknown ? Vector3(now_->f.r.head<3>()) : finish();
+    result.r = result.end == DescentEnd::unknown ? Vector3(now_->f.r) : finish();
     for (int i = 0; i < 2; ++i) result.crease[i] = kink(i);
     result.at = now_->at;
     return result;
@@ -73,31 +71,13 @@ class Descent {
   void sample(State& state) const {
     const ElementStore::Element element = elements_.element(state.at.e);
     const ElementKernel& kernel = elements_.kernel();
-    state.size = element.size;
-    kernel.evaluate(kernel.p, kernel.q, element.a, state.at.s, d_ - element.origin, state.f);
+    state.size = element.size();
+    kernel.evaluate(kernel.p, kernel.q, element.row, state.at.s, d_, state.f);
   }
 
   // The border of the box or of the region between creases, in the coordinates of the current element.
   double low(int i) const { return box_ ? box_->low[i] : elements_.axis(i, now_->at.e[i]).low; }
   double high(int i) const { return box_ ? box_->high[i] : elements_.axis(i, now_->at.e[i]).high; }
-
-  // The common case: phi convex, the Newton step from inside the element to inside it.
-  bool newton_inside() {
-    const double(&s)[2] = now_->at.s, (&g)[2] = now_->f.gradient;
-    const double(&H)[3] = now_->f.hessian, (&A)[3] = now_->f.metric;
-    const double det = H[0] * H[2] - H[1] * H[1];
-    if (box_ != nullptr || !(H[0] > kLeastCurvature * A[0] && H[2] > kLeastCurvature * A[2] &&
-                             det > kLeastCurvature * H[0] * H[2]))
-      return false;
-    const double inverse = 1.0 / det;
-    step_[0] = (H[1] * g[1] - H[2] * g[0]) * inverse;
-    step_[1] = (H[1] * g[0] - H[0] * g[1]) * inverse;
-    held_[0] = held_[1] = false;
-    convex_ = true;
-    conditioning_ = std::min(1.0, det / (A[0] * A[2]));
-    return std::abs(s[0]) < 1.0 && std::abs(s[1]) < 1.0 && std::abs(s[0] + step_[0]) < 1.0 &&
-           std::abs(s[1] + step_[1]) < 1.0;
-  }
 
   bool convex_on(const bool (&free)[2]) const {
     const double(&H)[3] = now_->f.hessian, (&A)[3] = now_->f.metric;
@@ -107,7 +87,6 @@ class Descent {
 
   // The Newton step, and whether phi is convex in the directions that have room.
   void propose() {
-    if (newton_inside()) return;
     double room_low[2], room_high[2];
     for (int i = 0; i < 2; ++i) {
       const double below = low(i) - now_->at.s[i], above = high(i) - now_->at.s[i];
@@ -167,7 +146,7 @@ class Descent {
   }
 
   // Lengths below this are round-off of the evaluation.
-  double round_off2() const { return square(4.0 * kEpsilon) * (2.0 * now_->f.phi + square(now_->size)); }
+  double round_off2() const { return square(kRoundOff) * (2.0 * now_->f.phi + square(now_->size)); }
 
   bool last_step() const {
     for (int i = 0; i < 2; ++i) {
@@ -185,7 +164,7 @@ class Descent {
     for (double length = 1.0; length > 1e-12; length *= 0.5) {
       move(length, next_->at);
       sample(*next_);
-      const double excess = next_->f.phi - (now_->f.phi + 0.1 * length * slope);
+      const double excess = next_->f.phi - (now_->f.phi + kDecrease * length * slope);
       if (excess <= 0.0 || excess < phi_round_off()) {
         std::swap(now_, next_);
         return true;
@@ -197,7 +176,6 @@ class Descent {
 
   // The current point plus part of the step; exactly on a border where it ends there.
   void move(double length, LocalPoint& to) const {
-    constexpr double kWellInside = 1.0 - 16.0 * kEpsilon;
     for (int i = 0; i < 2; ++i) {
       to.e[i] = now_->at.e[i];
       to.s[i] = now_->at.s[i] + length * step_[i];
@@ -279,16 +257,16 @@ class Descent {
 
   // Takes the last step, too short for S to need more than its tangents.
   Vector3 finish() {
-    Vector4 r = now_->f.r;
-    for (int i = 0; i < 2; ++i) r += step_[i] * now_->f.S_i[i];
+    Vector3 r(now_->f.r);
+    for (int i = 0; i < 2; ++i) r += step_[i] * Vector3(now_->f.S_i[i]);
     next_->f = now_->f, next_->size = now_->size;
     move(1.0, next_->at);
     std::swap(now_, next_);
-    return r.head<3>();
+    return r;
   }
 
   const ElementStore& elements_;
-  const Vector4 d_;
+  const double d_[3];
   const LocalBox* box_;
   State states_[2];
   State *now_ = &states_[0], *next_ = &states_[1];
@@ -300,41 +278,26 @@ class Descent {
 
 }  // namespace
 
-ElementStore::ElementStore(const Space<2>& space)
+ElementStore::ElementStore(const Space<2>& space, SimdLevel level)
     : space_(space),
-      axes_{axis_elements(space.knots(0)), axis_elements(space.knots(1))},
-      kernel_(element_kernel(space)),
+      axes_{axis_elements(space, 0), axis_elements(space, 1)},
+      kernel_(element_kernel(space.degree(0), space.degree(1), space.rational(), level)),
       rational_(space.rational()),
       functions_(space.functions_per_element()),
+      lines_per_row_((1 + functions_ + 1) / 2),
       built_(space.element_count(), 0),
-      power_(static_cast<size_t>(space.element_count()) * functions_),
-      origin_(space.element_count()),
-      size_(space.element_count()) {}
+      lines_(static_cast<size_t>(space.element_count()) * lines_per_row_) {}
 
-Vector4 ElementStore::homogeneous_points(const int (&e)[2], Vector4* out) const {
-  const int n = space_.control_point_count(0);
-  const int first = axis(0, e[0]).first + n * axis(1, e[1]).first;
-  const Vector3 origin = control_points_.col(first + kernel_.p / 2 + n * (kernel_.q / 2));
-  for (int j = 0; j <= kernel_.q; ++j)
-    for (int i = 0; i <= kernel_.p; ++i) {
-      const int c = first + i + n * j;
-      const double w = rational_ ? space_.weights()[c] : 1.0;
-      *out++ << w * (control_points_(0, c) - origin[0]), w * (control_points_(1, c) - origin[1]),
-          w * (control_points_(2, c) - origin[2]), rational_ ? w : 0.0;
-    }
-  return {origin[0], origin[1], origin[2], 0.0};
+void ElementStore::homogeneous_points(const int (&e)[2], Vector4* out) const {
+  static const Eigen::Matrix<double, kMaxDegree + 1, kMaxDegree + 1, Eigen::RowMajor> identity =
+      Eigen::MatrixXd::Identity(kMaxDegree + 1, kMaxDegree + 1);
+  const auto* I = reinterpret_cast<const ElementKernel::Matrix*>(identity.data());
+  kernel_.transform(kernel_.p, kernel_.q, I, I, net(e), out->data());
 }
 
 void ElementStore::build(const int (&e)[2], int index) const {
   if (control_points_.cols() == 0) throw std::logic_error("no control points given before the first search");
-  Vector4 points[power(kMaxDegree + 1, 2)];
-  origin_[index] = homogeneous_points(e, points);
-  Vector4* a = &power_[static_cast<size_t>(index) * functions_];
-  kernel_.transform(kernel_.p, kernel_.q, axis(0, e[0]).power, axis(1, e[1]).power, points, a);
-  Vector4 extent = Vector4::Zero();
-  for (int k = 1; k < functions_; ++k) extent += a[k].abs();
-  const double W = rational_ ? a[0][3] : 1.0;
-  size_[index] = (extent.head<3>().sum() + a[0].head<3>().abs().sum()) / W;
+  kernel_.build(kernel_.p, kernel_.q, axis(0, e[0]).power, axis(1, e[1]).power, net(e), row(index));
   built_[index] = version_;
 }
 

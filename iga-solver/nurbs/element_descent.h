@@ -6,6 +6,7 @@
 #pragma once
 
 #include "nurbs/power_element.h"
+#include "nurbs/power_kernel.h"
 
 namespace nurbs {
 
@@ -13,7 +14,7 @@ namespace nurbs {
 /// moved.
 class ElementStore {
  public:
-  explicit ElementStore(const Space<2>& space);
+  explicit ElementStore(const Space<2>& space, SimdLevel level = simd_level());
   void set_control_points(const Eigen::Ref<const NodalVectors>& control_points) {
     control_points_ = control_points;
     ++version_;
@@ -25,32 +26,41 @@ class ElementStore {
   bool rational() const { return rational_; }
 
   struct Element {
-    const Vector4* a;  ///< power coefficients
-    Vector4 origin;    ///< fourth entry 0
-    double size;       ///< length of the half extents, roughly
+    const double* row;  ///< as in power_kernel.h
+    Vector4 origin() const { return {row[0], row[1], row[2], 0.0}; }
+    double size() const { return row[3]; }  ///< length of the half extents, roughly
   };
   Element element(const int (&e)[2]) const {
     const int index = e[0] + count(0) * e[1];
     if (built_[index] != version_) build(e, index);
-    return {&power_[static_cast<size_t>(index) * functions_], origin_[index], size_[index]};
+    return {row(index)};
   }
-  /// Homogeneous control points (w (P - origin), w), or (P - origin, 0) of a polynomial patch; returns the
-  /// origin.
-  Vector4 homogeneous_points(const int (&e)[2], Vector4* out) const;
+  /// Homogeneous control points (w (P - origin), w), or (P - origin, 0) of a polynomial patch.
+  void homogeneous_points(const int (&e)[2], Vector4* out) const;
+  ElementNet net(const int (&e)[2]) const {
+    const int n = space_.control_point_count(0), first = axis(0, e[0]).first + n * axis(1, e[1]).first;
+    const double* points = control_points_.data() + 3 * first;
+    return {points, points + 3 * (kernel_.p / 2 + n * (kernel_.q / 2)),
+            rational_ ? space_.weights().data() + first : nullptr, n};
+  }
 
  private:
+  struct alignas(64) Line {
+    double numbers[8];
+  };
+
+  double* row(int index) const { return lines_[static_cast<size_t>(index) * lines_per_row_].numbers; }
   void build(const int (&e)[2], int index) const;
 
   const Space<2>& space_;
   std::vector<AxisElement> axes_[2];
   ElementKernel kernel_;
   bool rational_;
-  int functions_;
+  int functions_, lines_per_row_;
   NodalVectors control_points_;
   unsigned version_ = 1;
   mutable std::vector<unsigned> built_;
-  mutable std::vector<Vector4> power_, origin_;
-  mutable std::vector<double> size_;
+  mutable std::vector<Line> lines_;
 };
 
 /// A point of the surface: element per direction, and where in it.

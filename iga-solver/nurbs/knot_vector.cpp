@@ -62,6 +62,7 @@ KnotVector::KnotVector(int degree, std::vector<double> knots) : degree_(degree),
   for (int e = 1; e < element_count(); ++e)
     if (span_of_element_[e] - span_of_element_[e - 1] == degree_) creases_.push_back(breaks_[e]);
   creases_.push_back(back());
+  elements_per_length_ = element_count() / (back() - front());
 }
 
 KnotVector KnotVector::from_breaks(int degree, const std::vector<double>& breaks) {
@@ -87,7 +88,7 @@ KnotVector KnotVector::uniform(int degree, int elements, double first, double la
   return from_breaks(degree, breaks);
 }
 
-int KnotVector::element_at(double xi) const {
+int KnotVector::search_element(double xi) const {
   // Searching the interior breakpoints alone clamps to the first and the last element.
   const auto first = breaks_.begin() + 1, last = breaks_.end() - 1;
   return static_cast<int>(std::upper_bound(first, last, xi) - first);

@@ -38,7 +38,13 @@ class KnotVector {
   int span_of_element(int element) const { return span_of_element_[element]; }
   /// Element that holds xi (clamped to the domain; a knot belongs to the element right of it, the last to the
   /// left).
-  int element_at(double xi) const;
+  int element_at(double xi) const {
+    // The element it would be in if all were equal, or a search.
+    const double place = (xi - breaks_.front()) * elements_per_length_;
+    const int last = element_count() - 1,
+              guess = place < last ? (place > 0.0 ? static_cast<int>(place) : 0) : last;
+    return breaks_[guess] <= xi && xi < breaks_[guess + 1] ? guess : search_element(xi);
+  }
   /// Knot index i with knots()[i] <= xi < knots()[i+1] (algorithm A2.1, clamped as element_at).
   int find_span(double xi) const { return span_of_element_[element_at(xi)]; }
 
@@ -50,11 +56,14 @@ class KnotVector {
   }
 
  private:
+  int search_element(double xi) const;
+
   int degree_;
   std::vector<double> knots_;
   std::vector<double> breaks_;
   std::vector<double> creases_;
   std::vector<int> span_of_element_;
+  double elements_per_length_;
 };
 
 }  // namespace nurbs

@@ -28,6 +28,7 @@ Space<Dim>::Space(std::array<KnotVector, Dim> knots, std::vector<double> weights
   for (size_t a = 0; a < weights_.size(); ++a)
     if (!(std::isfinite(weights_[a]) && weights_[a] > 0.0))
       throw std::invalid_argument(fmt::format("weight {} is {}, expected a number > 0", a + 1, weights_[a]));
+  for (int d = 0; d < Dim; ++d) functions_[d] = element_functions(knots_[d]);
 }
 
 template <int Dim>

@@ -46,10 +46,15 @@ class Space {
   /// Control points of an element, functions_per_element() of them, first direction fastest.
   void element_control_points(int element, int* out) const;
   Parameter<Dim> element_centre(int element) const;
+  /// One direction's functions as polynomials on its element `element`.
+  const ElementFunctions& functions(int direction, int element) const {
+    return functions_[direction][element];
+  }
 
  private:
   std::array<KnotVector, Dim> knots_;
   std::vector<double> weights_;
+  std::array<std::vector<ElementFunctions>, Dim> functions_;
   int count_ = 1, element_count_ = 1, functions_per_element_ = 1;
 };
 

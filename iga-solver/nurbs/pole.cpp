@@ -7,12 +7,11 @@
 namespace nurbs {
 namespace {
 
-constexpr double kBeside = 1e-5;           // of an element
-constexpr double kOnePoint = 1e-9;         // of an element's size: an edge shorter than that is a pole
-constexpr double kFlat = 3e-8;             // a slope, relative, that counts as none
-constexpr double kLeastCurvature = 1e-10;  // of phi, where a plane has 1
-constexpr int kPlaces = 16;                // per element, where curvatures are looked at
-constexpr double kShortest = 1e-4;         // of an element: below it a slope that may be negative is
+constexpr double kBeside = 1e-5;    // of an element
+constexpr double kOnePoint = 1e-9;  // of an element's size: an edge shorter than that is a pole
+constexpr double kFlat = 3e-8;      // a slope, relative, that counts as none
+constexpr int kPlaces = 16;         // per element, where curvatures are looked at
+constexpr double kShortest = 1e-4;  // of an element: below it a slope that may be negative is
 
 // Of the kinds of two parts of a pole that of the whole: a slope outweighs all.
 PoleKind worse(PoleKind a, PoleKind b) {
@@ -27,18 +26,17 @@ PoleKind worse(PoleKind a, PoleKind b) {
 class PoleElement {
  public:
   PoleElement(const ElementStore& elements, const Vector3& d, const int (&e)[2], int j, bool upper)
-      : elements_(elements), e_{e[0], e[1]}, j_(j), upper_(upper) {
+      : elements_(elements), e_{e[0], e[1]}, j_(j), upper_(upper), d_{d[0], d[1], d[2]} {
     const ElementKernel& kernel = elements.kernel();
     const int n[2] = {kernel.p, kernel.q}, stride[2] = {1, kernel.p + 1}, i = 1 - j;
     Vector4 points[power(kMaxDegree + 1, 2)];
-    const Vector4 origin = elements.homogeneous_points(e, points);
+    elements.homogeneous_points(e, points);
     const auto weight = [&](const Vector4& A) { return elements.rational() ? A[3] : 1.0; };
     const int edge = upper ? n[j] * stride[j] : 0, next = upper ? edge - stride[j] : stride[j];
     const Vector4 pole = points[edge] / weight(points[edge]);
-    d_ = Vector4(d[0], d[1], d[2], elements.rational() ? 1.0 : 0.0) - origin;
-    r_ = (pole - d_).head<3>().matrix();
+    r_ = pole.head<3>().matrix() - (d - elements.element(e).origin().head<3>().matrix());
 
-    const double size = elements.element(e).size;
+    const double size = elements.element(e).size();
     one_point_ = true;
     double slopes[kMaxDegree + 1], longest = 0.0;
     for (int k = 0; k <= n[i]; ++k) {
@@ -105,14 +103,14 @@ class PoleElement {
     at[1 - j_] = s;
     const ElementKernel& kernel = elements_.kernel();
     DistanceJet jet;
-    kernel.evaluate(kernel.p, kernel.q, elements_.element(e_).a, at, d_, jet);
+    kernel.evaluate(kernel.p, kernel.q, elements_.element(e_).row, at, d_, jet);
     return jet;
   }
 
   const ElementStore& elements_;
   int e_[2], j_;
   bool upper_, one_point_;
-  Vector4 d_;  // relative to the element's origin
+  double d_[3];
   Vector3 r_;
   int n_;
   double b_[kMaxDegree + 1], scale_, flat_;

@@ -47,9 +47,9 @@ DescentResult descend_past_poles(const ElementStore& elements, const Vector3& d,
 
 }  // namespace
 
-SurfaceProjector::SurfaceProjector(const Space<2>& space)
+SurfaceProjector::SurfaceProjector(const Space<2>& space, SimdLevel level)
     : space_(space),
-      elements_(space),
+      elements_(space, level),
       products_(product_terms(space.degree(0), space.degree(1))),
       tree_(space),
       reach_(space),
@@ -72,13 +72,15 @@ void SurfaceProjector::set_control_points(const Eigen::Ref<const NodalVectors>& 
   ++version_;
 }
 
-int SurfaceProjector::element_near(int axis, double xi) const {
-  const KnotVector& knots = space_.knots(axis);
-  const int count = knots.element_count();
-  const double position = (xi - knots.front()) / (knots.back() - knots.front()) * count;
-  const int guess = position > 0.0 ? static_cast<int>(std::min(position, count - 1.0)) : 0;
-  const AxisElement& element = elements_.axis(axis, guess);
-  return element.begin <= xi && xi < element.end ? guess : knots.element_at(xi);
+// Where Newton alone has found the foot, it is inside an element.
+inline Projection SurfaceProjector::inside(const LocalPoint& start, const NewtonPoint& point) const {
+  const Vector3 r(point.r), d(Vector3::Map(point.d));
+  const AxisElement &axis_0 = elements_.axis(0, start.e[0]), &axis_1 = elements_.axis(1, start.e[1]);
+  return {{axis_0.parameter(point.s[0]), axis_1.parameter(point.s[1])},
+          d + r,
+          std::sqrt(r.dot(r)),
+          ProjectionStatus::interior,
+          point.iterations};
 }
 
 Projection SurfaceProjector::projection(const Vector3& d, const DescentResult& found) const {
@@ -100,27 +102,56 @@ Projection SurfaceProjector::projection(const Vector3& d, const DescentResult& f
   return result;
 }
 
+// The general descent goes on from where Newton has left off.
+DescentResult SurfaceProjector::descend_after(const Vector3& d, const LocalPoint& start,
+                                              const NewtonPoint& point) const {
+  DescentResult found =
+      descend_past_poles(elements_, d, {{start.e[0], start.e[1]}, {point.s[0], point.s[1]}});
+  found.iterations += point.iterations;
+  return found;
+}
+
 SurfaceProjector::Foot SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& start) const {
-  return foot(d, descend_past_poles(elements_, d, start));
+  const ElementKernel& kernel = elements_.kernel();
+  NewtonPoint point = newton_point(d, start);
+  kernel.newton(kernel.p, kernel.q, point);
+  if (!point.done) return foot(d, descend_after(d, start, point));
+  return {inside(start, point), DescentEnd::minimum, {{start.e[0], start.e[1]}, {point.s[0], point.s[1]}}};
 }
 
 SurfaceProjector::Foot SurfaceProjector::foot(const Vector3& d, const DescentResult& found) const {
   return {projection(d, found), found.end, found.at};
 }
 
-LocalPoint SurfaceProjector::local(const Parameter<2>& xi) const {
-  LocalPoint point;
-  for (int i = 0; i < 2; ++i) {
-    point.e[i] = element_near(i, xi[i]);
-    point.s[i] = std::clamp(elements_.axis(i, point.e[i]).local(xi[i]), -1.0, 1.0);
-  }
-  return point;
+Projection SurfaceProjector::minimum_or_global(const Vector3& d, const DescentResult& found) const {
+  return found.end == DescentEnd::minimum ? projection(d, found) : global(d, foot(d, found));
 }
 
 Projection SurfaceProjector::warm(const Vector3& d, const Parameter<2>& guess) const {
-  const DescentResult found = descend_past_poles(elements_, d, local(guess));
-  if (found.end == DescentEnd::minimum) return projection(d, found);
-  return global(d, foot(d, found));
+  const LocalPoint start = local(guess);
+  const ElementKernel& kernel = elements_.kernel();
+  NewtonPoint point = newton_point(d, start);
+  kernel.newton(kernel.p, kernel.q, point);
+  return point.done ? inside(start, point) : minimum_or_global(d, descend_after(d, start, point));
+}
+
+void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses, int count,
+                                  Projection* out) const {
+  constexpr int kChunk = 64;  // a multiple of the length of every word
+  const ElementKernel& kernel = elements_.kernel();
+  LocalPoint starts[kChunk];
+  NewtonPoint points[kChunk];
+  for (; count > 0; d += kChunk, guesses += kChunk, out += kChunk, count -= kChunk) {
+    const int n = std::min(kChunk, count);
+    for (int k = 0; k < n; ++k) {
+      starts[k] = local(guesses[k]);
+      points[k] = newton_point(d[k], starts[k]);
+    }
+    kernel.newton_batch(kernel.p, kernel.q, points, n);
+    for (int k = 0; k < n; ++k)
+      out[k] = points[k].done ? inside(starts[k], points[k])
+                              : minimum_or_global(d[k], descend_after(d[k], starts[k], points[k]));
+  }
 }
 
 LocalPoint SurfaceProjector::centre(int element) const {

@@ -30,8 +30,9 @@ struct ProductTerm;
 /// all_minima and the first search over the tree after the surface moved.
 class SurfaceProjector {
  public:
-  /// Keeps a reference to `space`, which must outlive it.
-  explicit SurfaceProjector(const Space<2>& space);
+  /// Keeps a reference to `space`, which must outlive it.  Results of different instruction sets differ by
+  /// round-off.  Throws std::invalid_argument if `level` is not available.
+  explicit SurfaceProjector(const Space<2>& space, SimdLevel level = simd_level());
   SurfaceProjector(const SurfaceProjector&) = delete;
   SurfaceProjector& operator=(const SurfaceProjector&) = delete;
   ~SurfaceProjector();
@@ -42,6 +43,8 @@ class SurfaceProjector {
 
   /// Local minimum reached from `guess`, not above it; the global one where the descent gets stuck.
   Projection warm(const Vector3& d, const Parameter<2>& guess) const;
+  /// The same for `count` points, several at a time; equal to warm() but for round-off.
+  void warm_batch(const Vector3* d, const Parameter<2>* guesses, int count, Projection* out) const;
   /// Global minimum, by the tree.
   Projection cold(const Vector3& d) const;
   /// Global minimum, warm: the tree proves that nothing is nearer than the minimum reached from `guess`.
@@ -64,11 +67,19 @@ class SurfaceProjector {
   struct Foot;
   struct Search;
 
-  int element_near(int axis, double xi) const;
-  LocalPoint local(const Parameter<2>& xi) const;
+  LocalPoint local(const Parameter<2>& xi) const {
+    const int e[2] = {space_.knots(0).element_at(xi[0]), space_.knots(1).element_at(xi[1])};
+    return {{e[0], e[1]}, {elements_.axis(0, e[0]).local(xi[0]), elements_.axis(1, e[1]).local(xi[1])}};
+  }
+  NewtonPoint newton_point(const Vector3& d, const LocalPoint& start) const {
+    return {elements_.element(start.e).row, d.data(), {start.s[0], start.s[1]}, {}, 0, false};
+  }
+  Projection inside(const LocalPoint& start, const NewtonPoint& point) const;
   Projection projection(const Vector3& d, const DescentResult& found) const;
+  DescentResult descend_after(const Vector3& d, const LocalPoint& start, const NewtonPoint& point) const;
   Foot foot_from(const Vector3& d, const LocalPoint& start) const;
   Foot foot(const Vector3& d, const DescentResult& found) const;
+  Projection minimum_or_global(const Vector3& d, const DescentResult& found) const;
   Projection global(const Vector3& d, const Foot& start) const;
   LocalPoint centre(int element) const;
   template <class Examine>

@@ -134,7 +134,7 @@ void SurfaceProjector::examine_element(int element, Search& search) const {
   const int e[2] = {indices[0], indices[1]};
   const Vector4* net = bezier_net(element);
   const Vector4 d(search.d[0], search.d[1], search.d[2], 0.0);
-  examine(DistancePolynomial(elements_, e, products_, net, d - elements_.element(e).origin), search);
+  examine(DistancePolynomial(elements_, e, products_, net, d - elements_.element(e).origin()), search);
 }
 
 // A plane normal to the line from d to the element keeps all its control points out of the search's sphere
@@ -158,10 +158,8 @@ const Vector4* SurfaceProjector::bezier_net(int element) const {
   const Indices<2> indices = space_.element_indices(element);
   const int e[2] = {indices[0], indices[1]};
   const ElementKernel& kernel = elements_.kernel();
-  Vector4 points[power(kMaxDegree + 1, 2)];
-  elements_.homogeneous_points(e, points);
-  kernel.transform(kernel.p, kernel.q, elements_.axis(0, e[0]).bezier, elements_.axis(1, e[1]).bezier, points,
-                   net);
+  kernel.transform(kernel.p, kernel.q, elements_.axis(0, e[0]).bezier, elements_.axis(1, e[1]).bezier,
+                   elements_.net(e), net->data());
   for (int a = 0; a < count; ++a) {
     if (!space_.rational()) net[a][3] = 1.0;
     net[a] *= binomials_[a];

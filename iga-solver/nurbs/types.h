@@ -4,10 +4,9 @@
 
 #include <Eigen/Core>
 
-namespace nurbs {
+#include "nurbs/max_degree.h"
 
-/// Highest polynomial degree; fixes the size of every evaluation's stack buffers.
-constexpr int kMaxDegree = 6;
+namespace nurbs {
 
 using Vector3 = Eigen::Vector3d;
 

@@ -17,9 +17,10 @@
 namespace benchmarks {
 namespace {
 
+using nurbs::SimdLevel;
 using nurbs::Vector3;
 
-/// Instruction set that our code was compiled for.
+/// Instruction set that our code was compiled for, but for the kernels chosen at run time.
 #if defined(__AVX512F__)
 constexpr const char* kCompiledFor = "AVX-512";
 #elif defined(__AVX2__)
@@ -40,13 +41,17 @@ struct Case {
         ours(surface.space),
         opencascade(surface) {
     ours.set_control_points(surface.control_points);
+    for (const Query& query : queries) points.push_back(query.d), guesses.push_back(query.guess);
   }
 
   std::string label;
   int n;
   nurbs::Surface surface;
   std::vector<Query> queries;
+  std::vector<Vector3> points;
+  std::vector<nurbs::Parameter<2>> guesses;
   nurbs::SurfaceProjector ours;
+  std::vector<std::unique_ptr<nurbs::SurfaceProjector>> levels;
   OpenCascade opencascade;
 };
 
@@ -73,8 +78,41 @@ void add_search(Case& c, const std::string& name, Search search) {
   });
 }
 
+/// Feet of all points, kBatch at a time.
+void add_batch(Case& c, const std::string& name, const nurbs::SurfaceProjector& ours) {
+  auto right = std::make_shared<std::optional<double>>();
+  benchmark::RegisterBenchmark((name + c.label).c_str(), [&c, &ours, right](benchmark::State& state) {
+    std::vector<nurbs::Projection> feet(kPoints);
+    if (!*right) {
+      ours.warm_batch(c.points.data(), c.guesses.data(), kPoints, feet.data());
+      *right = fraction_right(c, [&](const Query& q) { return feet[&q - c.queries.data()].foot; });
+    }
+    int i = 0;
+    while (state.KeepRunningBatch(kBatch)) {
+      ours.warm_batch(&c.points[i], &c.guesses[i], kBatch, &feet[i]);
+      benchmark::DoNotOptimize(feet.data());
+      if ((i += kBatch) == kPoints) i = 0;
+    }
+    state.counters["right"] = **right;
+  });
+}
+
+/// The warm search with every instruction set that this machine has.
+void add_levels(Case& c) {
+  for (const SimdLevel level : {SimdLevel::portable, SimdLevel::avx2, SimdLevel::avx512}) {
+    if (!nurbs::available(level)) continue;
+    c.levels.push_back(std::make_unique<nurbs::SurfaceProjector>(c.surface.space, level));
+    const nurbs::SurfaceProjector& ours = *c.levels.back();
+    c.levels.back()->set_control_points(c.surface.control_points);
+    add_search(c, std::string("warm/") + nurbs::name(level),
+               [&ours](const Query& q) { return ours.warm(q.d, q.guess).foot; });
+    add_batch(c, std::string("batch/") + nurbs::name(level), ours);
+  }
+}
+
 void add_searches(Case& c) {
   add_search(c, "warm/ours", [&c](const Query& q) { return c.ours.warm(q.d, q.guess).foot; });
+  add_batch(c, "batch/ours", c.ours);
   add_search(c, "nearest/ours", [&c](const Query& q) { return c.ours.nearest(q.d, q.guess).foot; });
   add_search(c, "warm/opencascade", [&c](const Query& q) { return c.opencascade.warm(q.d, q.guess); });
   add_search(c, "warm/simplex_brent", [&c](const Query& q) {
@@ -92,7 +130,7 @@ void add_rebuild(Case& c) {
     while (state.KeepRunningBatch(c.surface.space.element_count())) {
       elements.set_control_points(c.surface.control_points);
       for (int j = 0; j < c.n; ++j)
-        for (int i = 0; i < c.n; ++i) benchmark::DoNotOptimize(elements.element({i, j}).size);
+        for (int i = 0; i < c.n; ++i) benchmark::DoNotOptimize(elements.element({i, j}).row);
     }
   });
 }
@@ -123,7 +161,7 @@ void add_distribution(Case& c) {
 
 /// All that a step of a run does for its contacts: the surface has moved, every contact's foot is found again
 /// from the last one, and its force goes to the control points.
-void add_step(Case& c) {
+void add_steps(Case& c) {
   benchmark::RegisterBenchmark(("step/ours" + c.label).c_str(), [&c](benchmark::State& state) {
     nurbs::NodalVectors f(3, c.surface.space.control_point_count());
     while (state.KeepRunningBatch(kPoints)) {
@@ -136,6 +174,20 @@ void add_step(Case& c) {
       benchmark::DoNotOptimize(f.data());
     }
   });
+  benchmark::RegisterBenchmark(("step_batch/ours" + c.label).c_str(), [&c](benchmark::State& state) {
+    nurbs::NodalVectors f(3, c.surface.space.control_point_count());
+    nurbs::Projection feet[kBatch];
+    while (state.KeepRunningBatch(kPoints)) {
+      c.ours.set_control_points(c.surface.control_points);
+      f.setZero();
+      for (int i = 0; i < kPoints; i += kBatch) {
+        c.ours.warm_batch(&c.points[i], &c.guesses[i], kBatch, feet);
+        for (int k = 0; k < kBatch; ++k)
+          coupling::FootBasis(c.surface.space, feet[k].xi).distribute(feet[k].foot - c.points[i + k], f);
+      }
+      benchmark::DoNotOptimize(f.data());
+    }
+  });
 }
 
 }  // namespace
@@ -144,6 +196,7 @@ void add_step(Case& c) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   benchmark::AddCustomContext("compiled_for", benchmarks::kCompiledFor);
+  benchmark::AddCustomContext("dispatched_to", nurbs::name(nurbs::simd_level()));
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   std::vector<std::unique_ptr<benchmarks::Case>> cases;
   for (int n : {31, 124})
@@ -153,7 +206,8 @@ int main(int argc, char** argv) {
       benchmarks::add_rebuild(c);
       benchmarks::add_refit(c);
       benchmarks::add_distribution(c);
-      benchmarks::add_step(c);
+      benchmarks::add_steps(c);
+      benchmarks::add_levels(c);
     }
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """usage: report.py BENCHMARK LIGGGHTS_NURBS OUT [Google Benchmark options]
 Runs the benchmarks, prints times and ratios, and writes OUT/summary.json in the shape of the studies' summaries.
-Options choose among the benchmarks; then fix wall/nurbs is not timed.  A row passes if its value is at least the
-reference; slow is reported, never an error."""
+Options choose among the benchmarks; then fix wall/nurbs is not timed.  A ratio passes from its reference upwards, a
+time up to it; slow is reported, never an error."""
 
 from __future__ import annotations
 
@@ -27,6 +27,13 @@ OPTIONS = [
 ]
 TITLES = {
     "warm/ours": "warm",
+    "batch/ours": "warm_batch",
+    "warm/portable": "warm_portable",
+    "warm/avx2": "warm_avx2",
+    "warm/avx512": "warm_avx512",
+    "batch/portable": "warm_batch_portable",
+    "batch/avx2": "warm_batch_avx2",
+    "batch/avx512": "warm_batch_avx512",
     "nearest/ours": "nearest",
     "warm/opencascade": "opencascade_warm",
     "warm/simplex_brent": "simplex_brent_warm",
@@ -36,8 +43,13 @@ TITLES = {
     "refit/ours": "tree_refit_per_element",
     "distribution/ours": "distribution_per_contact",
     "step/ours": "rebuild_projection_distribution_per_contact",
+    "step_batch/ours": "rebuild_batch_projection_distribution_per_contact",
 }
-SEARCHES = [what for what in TITLES if what.startswith(("warm/", "nearest/", "cold/"))]
+LEVELS = ("portable", "avx2", "avx512")  # instruction sets; timed where the machine has them
+SEARCHES = [
+    what for what in TITLES if what.startswith(("warm/", "batch/", "nearest/", "cold/")) and not what.endswith(LEVELS)
+]
+STEP_TARGET = 110.0  # ns, a prototype's
 
 
 @dataclass(frozen=True)
@@ -65,6 +77,9 @@ def everywhere(target: float, but: tuple[str, ...] = ()) -> dict[tuple[str, int]
 RATIOS = [
     Ratio("warm_speedup_over_opencascade", "warm/opencascade", "warm/ours", everywhere(20.0, but=("plate",))),
     Ratio("warm_speedup_over_simplex_brent", "warm/simplex_brent", "warm/ours", everywhere(10.0)),
+    Ratio("batch_speedup_over_single_avx512", "warm/avx512", "batch/avx512", everywhere(2.0)),
+    Ratio("batch_speedup_over_single_avx2", "warm/avx2", "batch/avx2", {}),
+    Ratio("batch_speedup_over_single_portable", "warm/portable", "batch/portable", {}),
     Ratio(
         "cold_speedup_over_opencascade",
         "cold/opencascade",
@@ -85,6 +100,17 @@ class AtLeast(Row):
         return None if self.reference is None else bool(self.value >= self.reference)
 
 
+@dataclass(frozen=True)
+class AtMost(Row):
+    """A row that passes up to its reference."""
+
+    tolerance: float = 0.0
+
+    @property
+    def passes(self) -> bool | None:
+        return None if self.reference is None else bool(self.value <= self.reference)
+
+
 def timings(output: dict) -> dict[str, Timing]:
     """Medians by name, WHAT/METHOD/SURFACE/N."""
     medians = (b for b in output["benchmarks"] if b.get("aggregate_name") == "median")
@@ -98,7 +124,7 @@ def rows(times: Mapping[str, Timing]) -> list[Row]:
         for n in ELEMENTS:
             result += case_rows(times, surface, n)
         result += growth(times, surface)
-    return result
+    return result + step(times)
 
 
 def case_rows(times: Mapping[str, Timing], surface: str, n: int) -> list[Row]:
@@ -115,6 +141,18 @@ def case_rows(times: Mapping[str, Timing], surface: str, n: int) -> list[Row]:
         for r in RATIOS
         if r.slow in here and r.fast in here
     ]
+    return result
+
+
+def step(times: Mapping[str, Timing]) -> list[Row]:
+    """What a contact costs in a step, one point at a time and in batches: means over the surfaces of few elements."""
+    n = ELEMENTS[0]
+    quantity = "rebuild_projection_distribution_per_contact_and_step"
+    result = []
+    for what, name in (("step/ours", quantity), ("step_batch/ours", f"{quantity}_in_batches")):
+        found = [times[key].nanoseconds for s in SURFACES if (key := f"{what}/{s}/{n}") in times]
+        if len(found) == len(SURFACES):
+            result.append(AtMost(f"all {n}x{n}", name, sum(found) / len(found), "ns", STEP_TARGET))
     return result
 
 
@@ -142,7 +180,9 @@ def main(executable: str, liggghts_nurbs: str, out: str, *options: str) -> None:
     result = rows(timings(output)) + ([] if options else wall.rows(liggghts_nurbs))
     write_json(folder / "summary.json", "benchmark", result)
     print(table(result))
-    print(f"\nMedians of thread CPU time; compiled for: {output['context']['compiled_for']}.")
+    context = output["context"]
+    compiled, kernels = context["compiled_for"], context["dispatched_to"]
+    print(f"\nMedians of thread CPU time; compiled for: {compiled}; kernels: {kernels}.")
 
 
 if __name__ == "__main__":

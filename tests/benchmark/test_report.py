@@ -53,6 +53,26 @@ class Rows(unittest.TestCase):
         rows = self.rows(entry("warm/ours/plate/31", 50.0, 1.0), entry("warm/opencascade/plate/31", 100.0, 1.0))
         self.assertIsNone(named(rows, "plate 31x31")["warm_speedup_over_opencascade"].passes)
 
+    def test_batches_are_compared_within_one_instruction_set(self):
+        rows = self.rows(
+            entry("warm/avx512/wavy/31", 60.0, 1.0),
+            entry("batch/avx512/wavy/31", 30.0, 1.0),
+            entry("batch/avx2/wavy/31", 10.0, 1.0),
+        )
+        ratio = named(rows, "wavy 31x31")["batch_speedup_over_single_avx512"]
+        self.assertEqual((ratio.value, ratio.passes), (2.0, True))
+
+    def test_the_cost_of_a_step_is_the_mean_over_the_surfaces(self):
+        for slowest, verdict in ((140.0, True), (141.0, False)):
+            with self.subTest(slowest=slowest):
+                rows = self.rows(
+                    *(entry(f"step/ours/{s}/31", 100.0) for s in report.SURFACES[:3]),
+                    entry(f"step/ours/{report.SURFACES[3]}/31", slowest),
+                )
+                figure = named(rows, "all 31x31")["rebuild_projection_distribution_per_contact_and_step"]
+                self.assertEqual(figure.value, (300.0 + slowest) / 4)
+                self.assertIs(figure.passes, verdict)
+
     def test_only_medians_count(self):
         rows = self.rows(entry("rebuild/ours/wavy/31", 7.0), entry("rebuild/ours/wavy/31", 9.0, aggregate="mean"))
         self.assertEqual([row.value for row in rows], [7.0])
@@ -62,7 +82,7 @@ class Files(unittest.TestCase):
     def test_summary_of_a_run_with_a_slow_result(self):
         """A stand-in for the executable; the report succeeds though the ratio is missed."""
         output = {
-            "context": {"compiled_for": "x86-64"},
+            "context": {"compiled_for": "x86-64", "dispatched_to": "avx2"},
             "benchmarks": [entry("warm/ours/wavy/31", 50.0, 1.0), entry("warm/opencascade/wavy/31", 60.0, 1.0)],
         }
         with tempfile.TemporaryDirectory() as folder:

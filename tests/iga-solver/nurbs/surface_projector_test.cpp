@@ -45,8 +45,7 @@ TEST(SurfaceProjector, PowerFormIsTheSurface) {
     const Vector3 d = random_point(random);
     const ElementStore::Element element = elements.element(local);
     DistanceJet jet;
-    const Vector4 d4(d[0], d[1], d[2], surface.space.rational() ? 1.0 : 0.0);
-    elements.kernel().evaluate(elements.kernel().p, elements.kernel().q, element.a, s, d4 - element.origin,
+    elements.kernel().evaluate(elements.kernel().p, elements.kernel().q, element.row, s, {d[0], d[1], d[2]},
                                jet);
 
     Parameter<2> xi;

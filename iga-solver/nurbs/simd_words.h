@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Words of several numbers, as long as the processor that a file is compiled for has them: points (x, y, z,
+// W) and, for kLanes points at a time, one number of each.  Internal linkage: see power_kernel.cpp, which
+// alone includes this.
+#pragma once
+
+namespace nurbs {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int kLanes = 8;
+#elif defined(__AVX2__)
+constexpr int kLanes = 4;
+#else
+constexpr int kLanes = 2;
+#endif
+
+template <int N>
+struct Word {
+  typedef double Numbers __attribute__((vector_size(8 * N)));
+};
+/// One number of kLanes points.
+typedef Word<kLanes>::Numbers Lanes;
+typedef decltype(Lanes{} < Lanes{}) LaneMask;
+/// Coordinates of kLanes points.
+struct LaneVector {
+  Lanes x, y, z;
+};
+/// (x, y, z, W) of one point, in words that the processor has.
+#if defined(__AVX2__)
+typedef Word<4>::Numbers Vector4;
+[[gnu::always_inline]] inline Vector4 load3(const double* numbers) {
+  return Vector4{numbers[0], numbers[1], numbers[2], 0.0};
+}
+#else
+struct Vector4 {
+  Word<2>::Numbers xy, zw;
+  double operator[](int i) const { return i < 2 ? xy[i] : zw[i - 2]; }
+};
+[[gnu::always_inline]] inline Vector4 operator+(const Vector4& a, const Vector4& b) {
+  return {a.xy + b.xy, a.zw + b.zw};
+}
+[[gnu::always_inline]] inline Vector4 operator-(const Vector4& a, const Vector4& b) {
+  return {a.xy - b.xy, a.zw - b.zw};
+}
+[[gnu::always_inline]] inline Vector4 operator*(const Vector4& a, const Vector4& b) {
+  return {a.xy * b.xy, a.zw * b.zw};
+}
+[[gnu::always_inline]] inline Vector4 operator*(double f, const Vector4& a) { return {f * a.xy, f * a.zw}; }
+[[gnu::always_inline]] inline Vector4 load3(const double* numbers) {
+  return {Word<2>::Numbers{numbers[0], numbers[1]}, Word<2>::Numbers{numbers[2], 0.0}};
+}
+#endif
+
+[[gnu::always_inline]] inline Vector4 load(const double* numbers) {  // of any alignment
+  Vector4 v;
+  __builtin_memcpy(&v, numbers, sizeof v);
+  return v;
+}
+[[gnu::always_inline]] inline void store(const Vector4& v, double* numbers) {
+  __builtin_memcpy(numbers, &v, sizeof v);
+}
+
+[[gnu::always_inline]] inline LaneVector operator+(const LaneVector& a, const LaneVector& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+[[gnu::always_inline]] inline LaneVector operator-(const LaneVector& a, const LaneVector& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+[[gnu::always_inline]] inline LaneVector operator*(const Lanes& f, const LaneVector& a) {
+  return {f * a.x, f * a.y, f * a.z};
+}
+[[gnu::always_inline]] inline Lanes dot(const LaneVector& a, const LaneVector& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+[[gnu::always_inline]] inline double dot(const Vector4& a, const Vector4& b) {
+  const Vector4 ab = a * b;
+  return ab[0] + ab[1] + ab[2];
+}
+
+template <class Numbers>
+[[gnu::always_inline]] inline Numbers absolute(const Numbers& x) {
+  return x < 0.0 ? -x : x;
+}
+[[gnu::always_inline]] inline double absolute(double x) { return __builtin_fabs(x); }
+#if !defined(__AVX2__)
+[[gnu::always_inline]] inline Vector4 absolute(const Vector4& a) { return {absolute(a.xy), absolute(a.zw)}; }
+#endif
+int count(bool mask) { return mask; }
+LaneMask count(const LaneMask& mask) { return -mask; }
+bool any(bool mask) { return mask; }
+bool any(const LaneMask& mask) {
+  long long bits = 0;
+  for (int lane = 0; lane < kLanes; ++lane) bits |= mask[lane];
+  return bits != 0;
+}
+template <class Number>
+[[gnu::always_inline]] inline Number larger(const Number& a, const Number& b) {
+  return a > b ? a : b;
+}
+template <class Number>
+[[gnu::always_inline]] inline Number square(const Number& x) {
+  return x * x;
+}
+
+/// out[c][lane] = rows[lane][c]
+template <int N>
+void transpose(const Vector4 (&rows)[N], typename Word<N>::Numbers (&out)[4]) {
+  using Numbers = typename Word<N>::Numbers;
+  if constexpr (N == 8) {
+    Numbers xz[2], yw[2];  // of four lanes: x x z z x x z z, y y w w y y w w
+    for (int i = 0; i < 2; ++i) {
+      const auto pair = [&](int k) {
+        return __builtin_shufflevector(rows[k], rows[k + 2], 0, 1, 2, 3, 4, 5, 6, 7);
+      };
+      const Numbers even = pair(4 * i), odd = pair(4 * i + 1);
+      xz[i] = __builtin_shufflevector(even, odd, 0, 8, 2, 10, 4, 12, 6, 14);
+      yw[i] = __builtin_shufflevector(even, odd, 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    out[0] = __builtin_shufflevector(xz[0], xz[1], 0, 1, 4, 5, 8, 9, 12, 13);
+    out[1] = __builtin_shufflevector(yw[0], yw[1], 0, 1, 4, 5, 8, 9, 12, 13);
+    out[2] = __builtin_shufflevector(xz[0], xz[1], 2, 3, 6, 7, 10, 11, 14, 15);
+    out[3] = __builtin_shufflevector(yw[0], yw[1], 2, 3, 6, 7, 10, 11, 14, 15);
+  } else if constexpr (N == 4) {
+    Numbers xz[2], yw[2];  // of two lanes: x x z z, y y w w
+    for (int i = 0; i < 2; ++i) {
+      xz[i] = __builtin_shufflevector(rows[2 * i], rows[2 * i + 1], 0, 4, 2, 6);
+      yw[i] = __builtin_shufflevector(rows[2 * i], rows[2 * i + 1], 1, 5, 3, 7);
+    }
+    out[0] = __builtin_shufflevector(xz[0], xz[1], 0, 1, 4, 5);
+    out[1] = __builtin_shufflevector(yw[0], yw[1], 0, 1, 4, 5);
+    out[2] = __builtin_shufflevector(xz[0], xz[1], 2, 3, 6, 7);
+    out[3] = __builtin_shufflevector(yw[0], yw[1], 2, 3, 6, 7);
+  } else {
+    for (int c = 0; c < 4; ++c) out[c] = Numbers{rows[0][c], rows[1][c]};
+  }
+}
+
+}  // namespace
+}  // namespace nurbs

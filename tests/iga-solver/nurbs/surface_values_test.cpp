@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The quick values of the functions are those of the Cox-de Boor recursion.
+#include "nurbs/surface_values.h"
+
+#include <gtest/gtest.h>
+
+#include "shapes.h"
+
+namespace nurbs {
+namespace {
+
+TEST(SurfaceValues, AreThoseOfTheRecursion) {
+  shapes::Random random(31);
+  for (int k = 0; k < 100; ++k) {
+    const Surface surface = shapes::random_patch<2>(random, 6, 4, k % 2 == 1);
+    const KnotVector &u = surface.space.knots(0), &v = surface.space.knots(1);
+    const auto anywhere = [&](const KnotVector& knots) {
+      return shapes::uniform(random, knots.front(), knots.back());
+    };
+    for (const Parameter<2>& xi : {Parameter<2>{anywhere(u), anywhere(v)},
+                                   {anywhere(u), anywhere(v)},
+                                   {u.front(), v.back()},
+                                   {u.back(), v.front()},
+                                   {u.breaks()[1], anywhere(v)},
+                                   {u.front() - 1.0, v.back() + 1.0}}) {
+      RationalBasis<2> basis;
+      evaluate(surface.space, xi, 0, basis);
+      SurfaceValues values;
+      evaluate_values(surface.space, xi, values);
+
+      ASSERT_EQ((values.p + 1) * (values.q + 1), basis.count);
+      for (int j = 0, a = 0; j <= values.q; ++j)
+        for (int i = 0; i <= values.p; ++i, ++a) {
+          EXPECT_EQ(values.first + i + values.stride * j, basis.control_point[a]);
+          EXPECT_NEAR(values.R[a], basis.R[a], 1e-13);
+        }
+      const Vector3 S = interpolate<2>(basis, surface.control_points);
+      EXPECT_NEAR((interpolate(values, surface.control_points) - S).norm(), 0.0, 1e-12);
+
+      const Vector3 F(1.3, -0.2, 7.1);
+      NodalVectors f = NodalVectors::Constant(3, surface.space.control_point_count(), 0.5), expected = f;
+      distribute(values, F, f);
+      for (int a = 0; a < basis.count; ++a) expected.col(basis.control_point[a]) += basis.R[a] * F;
+      EXPECT_LE((f - expected).norm(), 1e-12);
+    }
+  }
+}
+
+// The degrees that are compiled apart, on which most contacts are.
+TEST(SurfaceValues, OfDegreesTwoAndThree) {
+  shapes::Random random(32);
+  for (const int p : {2, 3})
+    for (const bool rational : {false, true}) {
+      const KnotVector knots = KnotVector::from_breaks(p, {0.0, 0.3, 1.0});
+      std::vector<double> weights;
+      for (int a = 0; rational && a < (p + 2) * (p + 2); ++a)
+        weights.push_back(shapes::uniform(random, 0.5, 2.0));
+      const Space<2> space({knots, knots}, weights);
+      for (int k = 0; k < 50; ++k) {
+        const Parameter<2> xi = {shapes::uniform(random, 0.0, 1.0), shapes::uniform(random, 0.0, 1.0)};
+        RationalBasis<2> basis;
+        evaluate(space, xi, 0, basis);
+        SurfaceValues values;
+        evaluate_values(space, xi, values);
+        for (int a = 0; a < basis.count; ++a) EXPECT_NEAR(values.R[a], basis.R[a], 1e-14);
+      }
+    }
+}
+
+}  // namespace
+}  // namespace nurbs
