@@ -82,7 +82,7 @@ class PoleElement {
     if (high - low <= 2.0 / kPlaces && least >= -flat_)
       return bends_down(low) || bends_down(high) ? PoleKind::saddle : PoleKind::minimum;
     if (high - low < kShortest) return PoleKind::slope;
-    double lower[kMaxDegree + 1], upper[kMaxDegree + 1];
+    double lower[kMaxDegree + 1], upper[kMaxDegree + 1] = {};
     std::copy_n(b, n_ + 1, upper);
     for (int k = 0; k <= n_; ++k) {  // de Casteljau
       lower[k] = upper[0];
