@@ -10,6 +10,7 @@ hertz    closed forms of an impact on a rigid wall
 zener    an impact on a thin plate
 sliding  a ball that slides on a surface without friction
 waves    a surface of waves: spline, model file, triangles
+rotating_drum  a closed drum: model file, triangles; a bed in it and its slope
 summary  rows, table, JSON
 figures  contact force against time
 """

@@ -50,9 +50,12 @@ class Batch:
         for case in self.cases:
             variables = run_variables(case, self.defaults(case), self.user)
             files = partial(case.files, numbers(variables)) if case.files else dict
-            run = Run(case.name, self.folder, case.deck, variables, scratch / case.name, files)
-            same = (case.deck, tuple(numbers(variables).items()))
+            run = Run(case.name, self.folder, case.deck, variables, scratch / case.name, files, case.ranks)
+            same = (case.deck, tuple(numbers(variables).items()), case.after, case.ranks)
             shared.setdefault(same, (run, []))[1].append(case)
+        run_of = {case.name: run for run, cases in shared.values() for case in cases}
+        for run, (case, *_) in shared.values():
+            run.after = run_of.get(case.after)
         return list(shared.values())
 
     def run(self, solver: Solver, jobs: int, keep_going: bool, out: Path) -> bool:
@@ -67,7 +70,10 @@ class Batch:
             for figure in self.study.figures:
                 if set(figure.cases) <= self.results.keys():
                     figure.draw(out / figure.file, self.results)
-        rows = [row for case in self.cases for row in self.rows[case.name]]
+            rows = [row for case in self.cases for row in self.rows[case.name]]
+            for comparison in self.study.comparisons:
+                if set(comparison.cases) <= self.results.keys():
+                    rows += comparison.rows(self.results)
         write_json(out / "summary.json", self.folder.name, rows)
         print(table(rows))
         return self.complete and all(row.passes is not False for row in rows)

@@ -29,6 +29,8 @@ class Case:
     variables: Mapping[str, float | str] = field(default_factory=dict)  # -var of the deck, SI
     steps: Callable[[Values], int] | None = None  # how long to run; None: as the deck says
     files: Callable[[Values], Mapping[str, str]] | None = None  # name -> text, beside the deck
+    after: str = ""  # a case that must have run; its *.restart files are put beside the deck
+    ranks: int | None = None  # of MPI; None: as the user says
 
 
 @dataclass(frozen=True)
@@ -41,9 +43,18 @@ class Figure:
 
 
 @dataclass(frozen=True)
+class Comparison:
+    """Rows that need the results of several cases: rows({case name: Result})."""
+
+    cases: Sequence[str]
+    rows: Callable[[Mapping[str, "Result"]], "list[Row]"]
+
+
+@dataclass(frozen=True)
 class Study:
     cases: Sequence[Case]
     figures: Sequence[Figure]
+    comparisons: Sequence[Comparison] = ()
 
 
 @dataclass(frozen=True)

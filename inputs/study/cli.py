@@ -65,11 +65,12 @@ def list_decks() -> None:
 
 
 def chosen(cases: Sequence, wanted: Sequence[str]) -> list:
-    """The cases that --case names, in the order of the study; all without --case."""
+    """The cases that --case names and those that they start from, in the order of the study; all without --case."""
     for pattern in wanted:
         if not any(fnmatchcase(case.name, pattern) for case in cases):
             one_of("case", pattern, [case.name for case in cases])
-    return [case for case in cases if not wanted or any(fnmatchcase(case.name, p) for p in wanted)]
+    named = [case for case in cases if not wanted or any(fnmatchcase(case.name, p) for p in wanted)]
+    return [case for case in cases if case in named or case.name in {other.after for other in named}]
 
 
 def set_up(*arguments: str) -> None:

@@ -7,8 +7,7 @@ import os
 import shutil
 import subprocess
 import time
-from collections import deque
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Callable, Iterator, Mapping, Sequence
 
@@ -34,6 +33,7 @@ class Solver:
             environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
         if self.ranks > cores():
             environment["OMPI_MCA_rmaps_base_oversubscribe"] = "1"
+        environment["OMPI_MCA_mpi_yield_when_idle"] = "1"  # other runs may want the cores of a rank that waits
         return environment
 
 
@@ -52,6 +52,8 @@ class Run:
     variables: Mapping[str, str]
     folder: Path
     files: Callable[[], Mapping[str, str]] = dict  # name -> text, written beside the deck
+    ranks: int | None = None  # in place of the solver's
+    after: Run | None = None  # starts when that has ended, with its *.restart files
     written: Sequence[str] = ()  # their names, once it has started
     seconds: float = 0.0
     process: subprocess.Popen | None = field(default=None, repr=False)
@@ -63,6 +65,9 @@ class Run:
         for name, text in files.items():
             (self.folder / name).write_text(text, encoding="utf-8")
         self.written = list(files)
+        for restart in self.after.folder.glob("*.restart") if self.after else ():
+            shutil.copyfile(restart, self.folder / restart.name)
+        solver = replace(solver, ranks=self.ranks or solver.ranks)
         self.seconds = -time.monotonic()
         with open(self.folder / LOG, "w", encoding="utf-8") as log:
             self.process = subprocess.Popen(
@@ -99,12 +104,15 @@ def run_all(
 
     `watch(done, running)` is called a few times a second.
     """
-    waiting, running, done = deque(runs), [], 0
+    waiting, running, done = list(runs), [], 0
     try:
         while waiting or running:
-            while waiting and len(running) < jobs:
-                running.append(waiting.popleft())
-                running[-1].start(solver)
+            busy = [id(run) for run in waiting + running]
+            ready = [run for run in waiting if id(run.after) not in busy]
+            for run in ready[: jobs - len(running)]:
+                waiting.remove(run)
+                running.append(run)
+                run.start(solver)
             watch(done, running)
             time.sleep(0.1)
             for run in [run for run in running if run.finished()]:
