@@ -10,6 +10,10 @@ FixStyle(wall/nurbs,FixWallNurbs)
 #ifndef LMP_FIX_WALL_NURBS_H
 #define LMP_FIX_WALL_NURBS_H
 
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#error "infinities and NaN mean something here: compile with -fno-finite-math-only after -ffast-math"
+#endif
+
 #include <mpi.h>
 
 #include <memory>

@@ -32,32 +32,40 @@ std::vector<ModelWord> normal_models() {
   return models;
 }
 
-const std::vector<ModelWord> kTangentialModels = {
-    {"off", TANGENTIAL_OFF},
+std::vector<ModelWord> tangential_models() {
+  return {
+      {"off", TANGENTIAL_OFF},
 #define TANGENTIAL_MODEL LIST_ENTRY
 #include "style_tangential_model.h"
 #undef TANGENTIAL_MODEL
-};
+  };
+}
 
-const std::vector<ModelWord> kCohesionModels = {
-    {"off", COHESION_OFF},
+std::vector<ModelWord> cohesion_models() {
+  return {
+      {"off", COHESION_OFF},
 #define COHESION_MODEL LIST_ENTRY
 #include "style_cohesion_model.h"
 #undef COHESION_MODEL
-};
+  };
+}
 
-const std::vector<ModelWord> kRollingModels = {
-    {"off", ROLLING_OFF},
+std::vector<ModelWord> rolling_models() {
+  return {
+      {"off", ROLLING_OFF},
 #define ROLLING_MODEL LIST_ENTRY
 #include "style_rolling_model.h"
 #undef ROLLING_MODEL
-};
+  };
+}
 
-const std::vector<ModelWord> kSurfaceModels = {
+std::vector<ModelWord> surface_models() {
+  return {
 #define SURFACE_MODEL LIST_ENTRY
 #include "style_surface_model.h"
 #undef SURFACE_MODEL
-};
+  };
+}
 
 #undef LIST_ENTRY
 
@@ -100,18 +108,21 @@ bool is_penalty_law(const std::string& word) {
 }  // namespace
 
 const std::vector<ModelWord>& known_models(ModelKind kind) {
-  static const std::vector<ModelWord> normal = normal_models();
+  // Local, since penalty_register.cpp asks while the program's static objects are still being made.
+  static const std::vector<ModelWord> normal = normal_models(), tangential = tangential_models(),
+                                      cohesion = cohesion_models(), rolling = rolling_models(),
+                                      surface = surface_models();
   switch (kind) {
     case ModelKind::normal:
       return normal;
     case ModelKind::tangential:
-      return kTangentialModels;
+      return tangential;
     case ModelKind::cohesion:
-      return kCohesionModels;
+      return cohesion;
     case ModelKind::rolling:
-      return kRollingModels;
+      return rolling;
     default:
-      return kSurfaceModels;
+      return surface;
   }
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "penalty_register.h"
-
+// Makes the penalty laws known to LIGGGHTS when the program starts, as `model` of `fix wall/gran`, of our
+// walls and of `pair_style gran`, with every combination of the other parts.
 #include <vector>
 
 #include "fix_insert_stream.h"  // pair_gran_base.h needs these two before it
@@ -28,11 +28,9 @@ PairStyles::IGranularPairStyle* make_pair(LAMMPS_NS::LAMMPS* lmp, LAMMPS_NS::Pai
   return new PairStyles::Granular<PenaltyContactModel>(lmp, parent, hash);
 }
 
-}  // namespace
-
 // Also the combinations that PenaltyContactModel refuses: LIGGGHTS itself would only say "Unknown normal
 // model".
-void register_penalty_models() {
+bool register_penalty_models() {
   for_each_law([](auto law) {
     LIGGGHTS::ContactModels::Factory::instance().addNormalModel(law.word, law.id);
     for (const ModelWord& tangential : known_models(ModelKind::tangential))
@@ -45,6 +43,10 @@ void register_penalty_models() {
             PairStyles::Factory::instance().addStyle("gran", hash, &make_pair);
           }
   });
+  return true;
 }
 
+const bool registered = register_penalty_models();
+
+}  // namespace
 }  // namespace liggghts_pkg

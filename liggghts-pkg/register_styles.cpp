@@ -5,14 +5,12 @@
 #include <fmt/format.h>
 
 #include <map>
-#include <mutex>
 #include <string>
 #include <utility>
 
 #include "error.h"
 #include "fix_wall_nurbs.h"
 #include "modify.h"
-#include "penalty_register.h"
 
 #if defined(SUPERQUADRIC_ACTIVE_FLAG) || defined(NONSPHERICAL_ACTIVE_FLAG) || defined(CONVEX_ACTIVE_FLAG)
 #error "LIGGGHTS changes the size of its structs with these macros; libliggghts is built without them"
@@ -64,9 +62,6 @@ const std::pair<const char*, FixCreator> kFixStyles[] = {
 
 void register_styles(LAMMPS* lmp) {
   for (const auto& [word, make] : kFixStyles) (*(lmp->modify->*fix_map_member()))[word] = make;
-
-  static std::once_flag once;
-  std::call_once(once, register_penalty_models);
 }
 
 }  // namespace liggghts_pkg

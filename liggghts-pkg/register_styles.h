@@ -9,8 +9,7 @@
 
 namespace liggghts_pkg {
 
-/// Adds our fix styles to this instance and, the first time in a process, our contact models to LIGGGHTS'
-/// factories.
+/// Adds our fix styles to this instance.
 void register_styles(LAMMPS_NS::LAMMPS* lmp);
 
 }  // namespace liggghts_pkg

@@ -18,3 +18,13 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/liggghts-nurbs-config-ver
   COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/liggghts-nurbs-config.cmake
               ${PROJECT_BINARY_DIR}/liggghts-nurbs-config-version.cmake DESTINATION ${package_dir})
+
+# The same for LIGGGHTS' own Makefiles (liggghts-pkg/Install.sh).
+set(HDF5_PREFER_PARALLEL ON)
+find_package(HDF5 REQUIRED COMPONENTS C)
+get_target_property(eigen_folders Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+list(TRANSFORM eigen_folders PREPEND -I)
+list(JOIN eigen_folders " " eigen_flags)
+list(JOIN HDF5_C_LIBRARIES " " hdf5_files)
+configure_file(${PROJECT_SOURCE_DIR}/liggghts-pkg/Makefile.nurbs.in ${PROJECT_BINARY_DIR}/Makefile.nurbs @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/Makefile.nurbs DESTINATION ${CMAKE_INSTALL_DATADIR}/liggghts-nurbs)
