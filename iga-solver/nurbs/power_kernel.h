@@ -50,6 +50,7 @@ struct NewtonPoint {
   double r[4];      ///< S - d at the foot; the fourth number means nothing
   int iterations;   ///< 0 if the first step already needs more than this iteration
   bool done;        ///< the foot is found
+  int e[2];         ///< which element it is: for the caller
 };
 
 /// The functions for one pair of degrees and one instruction set.

@@ -91,8 +91,10 @@ int count(bool mask) { return mask; }
 LaneMask count(const LaneMask& mask) { return -mask; }
 bool any(bool mask) { return mask; }
 bool any(const LaneMask& mask) {
+  typedef signed char Bytes __attribute__((vector_size(kLanes)));
+  const Bytes bytes = __builtin_convertvector(mask, Bytes);
   long long bits = 0;
-  for (int lane = 0; lane < kLanes; ++lane) bits |= mask[lane];
+  __builtin_memcpy(&bits, &bytes, sizeof bytes);
   return bits != 0;
 }
 template <class Number>

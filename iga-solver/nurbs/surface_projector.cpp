@@ -73,14 +73,16 @@ void SurfaceProjector::set_control_points(const Eigen::Ref<const NodalVectors>& 
 }
 
 // Where Newton alone has found the foot, it is inside an element.
-inline Projection SurfaceProjector::inside(const LocalPoint& start, const NewtonPoint& point) const {
-  const Vector3 r(point.r), d(Vector3::Map(point.d));
-  const AxisElement &axis_0 = elements_.axis(0, start.e[0]), &axis_1 = elements_.axis(1, start.e[1]);
-  return {{axis_0.parameter(point.s[0]), axis_1.parameter(point.s[1])},
-          d + r,
-          std::sqrt(r.dot(r)),
-          ProjectionStatus::interior,
-          point.iterations};
+inline void SurfaceProjector::take_foot(const NewtonPoint& point, Projection& out) const {
+  double r2 = 0.0;
+  for (int i = 0; i < 2; ++i) out.xi[i] = elements_.axis(i, point.e[i]).parameter(point.s[i]);
+  for (int c = 0; c < 3; ++c) {
+    out.foot[c] = point.d[c] + point.r[c];
+    r2 += point.r[c] * point.r[c];
+  }
+  out.distance = std::sqrt(r2);
+  out.status = ProjectionStatus::interior;
+  out.iterations = point.iterations;
 }
 
 Projection SurfaceProjector::projection(const Vector3& d, const DescentResult& found) const {
@@ -103,20 +105,22 @@ Projection SurfaceProjector::projection(const Vector3& d, const DescentResult& f
 }
 
 // The general descent goes on from where Newton has left off.
-DescentResult SurfaceProjector::descend_after(const Vector3& d, const LocalPoint& start,
-                                              const NewtonPoint& point) const {
+DescentResult SurfaceProjector::descend_after(const Vector3& d, const NewtonPoint& point) const {
   DescentResult found =
-      descend_past_poles(elements_, d, {{start.e[0], start.e[1]}, {point.s[0], point.s[1]}});
+      descend_past_poles(elements_, d, {{point.e[0], point.e[1]}, {point.s[0], point.s[1]}});
   found.iterations += point.iterations;
   return found;
 }
 
 SurfaceProjector::Foot SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& start) const {
   const ElementKernel& kernel = elements_.kernel();
-  NewtonPoint point = newton_point(d, start);
+  NewtonPoint point;
+  start_newton(d, start, point);
   kernel.newton(kernel.p, kernel.q, point);
-  if (!point.done) return foot(d, descend_after(d, start, point));
-  return {inside(start, point), DescentEnd::minimum, {{start.e[0], start.e[1]}, {point.s[0], point.s[1]}}};
+  if (!point.done) return foot(d, descend_after(d, point));
+  Foot foot{{}, DescentEnd::minimum, {{start.e[0], start.e[1]}, {point.s[0], point.s[1]}}};
+  take_foot(point, foot.point);
+  return foot;
 }
 
 SurfaceProjector::Foot SurfaceProjector::foot(const Vector3& d, const DescentResult& found) const {
@@ -128,29 +132,32 @@ Projection SurfaceProjector::minimum_or_global(const Vector3& d, const DescentRe
 }
 
 Projection SurfaceProjector::warm(const Vector3& d, const Parameter<2>& guess) const {
-  const LocalPoint start = local(guess);
   const ElementKernel& kernel = elements_.kernel();
-  NewtonPoint point = newton_point(d, start);
+  NewtonPoint point;
+  Projection result;
+  start_newton(d, local(guess), point);
   kernel.newton(kernel.p, kernel.q, point);
-  return point.done ? inside(start, point) : minimum_or_global(d, descend_after(d, start, point));
+  if (point.done)
+    take_foot(point, result);
+  else
+    result = minimum_or_global(d, descend_after(d, point));
+  return result;
 }
 
 void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses, int count,
                                   Projection* out) const {
   constexpr int kChunk = 64;  // a multiple of the length of every word
   const ElementKernel& kernel = elements_.kernel();
-  LocalPoint starts[kChunk];
   NewtonPoint points[kChunk];
   for (; count > 0; d += kChunk, guesses += kChunk, out += kChunk, count -= kChunk) {
     const int n = std::min(kChunk, count);
-    for (int k = 0; k < n; ++k) {
-      starts[k] = local(guesses[k]);
-      points[k] = newton_point(d[k], starts[k]);
-    }
+    for (int k = 0; k < n; ++k) start_newton(d[k], local(guesses[k]), points[k]);
     kernel.newton_batch(kernel.p, kernel.q, points, n);
     for (int k = 0; k < n; ++k)
-      out[k] = points[k].done ? inside(starts[k], points[k])
-                              : minimum_or_global(d[k], descend_after(d[k], starts[k], points[k]));
+      if (points[k].done)
+        take_foot(points[k], out[k]);
+      else
+        out[k] = minimum_or_global(d[k], descend_after(d[k], points[k]));
   }
 }
 

@@ -71,12 +71,16 @@ class SurfaceProjector {
     const int e[2] = {space_.knots(0).element_at(xi[0]), space_.knots(1).element_at(xi[1])};
     return {{e[0], e[1]}, {elements_.axis(0, e[0]).local(xi[0]), elements_.axis(1, e[1]).local(xi[1])}};
   }
-  NewtonPoint newton_point(const Vector3& d, const LocalPoint& start) const {
-    return {elements_.element(start.e).row, d.data(), {start.s[0], start.s[1]}, {}, 0, false};
+  // Fills numbers in place: to copy a struct just written in parts waits for all stores.
+  void start_newton(const Vector3& d, const LocalPoint& start, NewtonPoint& point) const {
+    point.element = elements_.element(start.e).row;
+    point.d = d.data();
+    point.e[0] = start.e[0], point.e[1] = start.e[1];
+    point.s[0] = start.s[0], point.s[1] = start.s[1];
   }
-  Projection inside(const LocalPoint& start, const NewtonPoint& point) const;
+  void take_foot(const NewtonPoint& point, Projection& out) const;
   Projection projection(const Vector3& d, const DescentResult& found) const;
-  DescentResult descend_after(const Vector3& d, const LocalPoint& start, const NewtonPoint& point) const;
+  DescentResult descend_after(const Vector3& d, const NewtonPoint& point) const;
   Foot foot_from(const Vector3& d, const LocalPoint& start) const;
   Foot foot(const Vector3& d, const DescentResult& found) const;
   Projection minimum_or_global(const Vector3& d, const DescentResult& found) const;
