@@ -67,6 +67,15 @@ ALSO = {
 SMOOTH_WALL = {"rms_error_same_surface": 1e-3, "rms_error_sine": 2e-3, "steps_without_contact": 0.0}
 # Force over the weight in troughs and on crests, 1 +- v^2 kappa / (g (1 -+ kappa r)), v = 0.2995 m/s in the troughs.
 TROUGH, CREST = 1.432, 0.678
+# The drum: 5,000 particles of 2.1 to 2.9 mm and 2500 kg/m3 weigh 8.21 N; (case, quantity): value, largest error of it.
+DRUM = {
+    ("settle", "force_at_rest"): (8.212, 0.01),
+    ("nurbs/triangles", "angle_of_repose"): (40.5, 1.5),
+    ("nurbs/triangles", "power"): (0.422, 0.01),
+    ("ranks_2", "position_difference"): (0.0, 1e-9),
+    ("ranks_4", "position_difference"): (0.0, 1e-9),
+}
+OMEGA, STEADY = 2.0 * math.pi / 4.0, 1.2  # of the drum [1/s], [s]
 BALANCE = {
     "ball_plate": ["free_block_centre", "free_block_offset"],
     "thin_plate": ["Z1"],
@@ -75,8 +84,9 @@ FIGURES = {
     "ball_plate": [f"fig{n:02d}.png" for n in range(6, 12)],
     "thin_plate": ["force.png"],
     "smooth_wall": ["force.png"],
+    "drum": ["drum.png"],
 }
-WITH_REFERENCE = {"ball_plate": 23 * 4 + 5 + 5 + 4, "thin_plate": 3 + 4, "smooth_wall": 3 + 1}
+WITH_REFERENCE = {"ball_plate": 23 * 4 + 5 + 5 + 4, "thin_plate": 3 + 4, "smooth_wall": 3 + 1, "drum": 3 + 2 + 2}
 
 
 def check(condition: bool, complaint: str) -> None:
@@ -147,6 +157,19 @@ def check_smooth_wall(rows: dict, out: Path) -> None:
         check(abs(value / expected - 1.0) < 5e-3, f"cubic: force over weight {value}, expected {expected}")
 
 
+def check_drum(rows: dict, out: Path) -> None:
+    """The drum by its weight, and by torque times angular velocity, which is another column than the power."""
+    for key, (expected, tolerance) in DRUM.items():
+        value = rows[key]["value"]
+        check(abs(value - expected) <= tolerance, f"{key}: {value}, expected {expected} +- {tolerance}")
+    for case in ("nurbs", "triangles"):
+        with open(out / f"contact_force_{case}.csv", newline="", encoding="utf-8") as file:
+            torque = [float(row["torque"]) for row in csv.DictReader(file) if float(row["t"]) > STEADY]
+        power = OMEGA * sum(torque) / len(torque)
+        value = rows[case, "power"]["value"]
+        check(abs(value / power - 1.0) < 1e-6, f"{case}: power {value}, torque times angular velocity {power}")
+
+
 def main(deck: str, run: str, out: Path) -> None:
     shutil.rmtree(out, ignore_errors=True)
     done = subprocess.run([run, deck, "--out", out], check=False)
@@ -161,6 +184,8 @@ def main(deck: str, run: str, out: Path) -> None:
     check(compared == WITH_REFERENCE[deck], f"{compared} rows have a reference")
     if deck == "smooth_wall":
         check_smooth_wall(rows, out)
+    elif deck == "drum":
+        check_drum(rows, out)
     else:
         check_values(deck, rows)
         for case in {row["case"] for row in summary["rows"]}:

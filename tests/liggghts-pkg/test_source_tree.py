@@ -22,7 +22,7 @@ FLAGS = ["-O2", "-ffast-math", "-funroll-loops", "-std=c++17"]  # of LIGGGHTS' o
 MAKEFILE_PACKAGE = """# edited by the packages
 PKG_INC =   -I../../lib/poems $(FFT_INC)
 PKG_PATH =  -L../../lib/poems
-PKG_LIB =   -lpoems
+PKG_LIB =   -lm
 
 PKG_SYSINC =
 """
@@ -96,7 +96,7 @@ class SourceTree(unittest.TestCase):
         self.assertEqual(words["PKG_INC"][:2], ["-fno-finite-math-only", f"-I{self.prefix}/include/liggghts-nurbs"])
         self.assertEqual(words["PKG_PATH"][0], f"-L{self.prefix}/lib")
         self.assertEqual(words["PKG_LIB"][0], "-lcoupling_iga")
-        self.assertEqual([words[kind][-1] for kind in words], ["-I../../lib/poems", "-L../../lib/poems", "-lpoems"])
+        self.assertEqual([words[kind][-1] for kind in words], ["-I../../lib/poems", "-L../../lib/poems", "-lm"])
 
         self.install_sh(1)
         self.assertEqual(self.package_words(), words, "a second time changes nothing")
