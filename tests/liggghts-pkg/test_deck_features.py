@@ -107,6 +107,7 @@ run 1
         ours, stock = results
         self.assertLess(stock["other"][-1], 0.0, "ball 2 is below the wall")
         self.same(ours, stock)
+        self.assertLessEqual(decks.largest_difference(ours["other"], stock["other"]), SAME)
 
     def test_stored_force_of_two_contacts(self):
         """store_force in the corner of one wall: the sum of both contacts, as two of LIGGGHTS' walls store them."""
