@@ -19,15 +19,13 @@ from study.case import Case, Figure, Result, Study, Values
 from study.figures import COLOURS, save
 from study.sliding import SlidingBall
 from study.summary import Row
-from study.waves import SplineWave, Surface, model_file, sine_surface, spline_surface, triangles
+from study.waves import SIDE, WAVES, SplineWave, Surface, model_file, sine_surface, spline_surface, triangles
 
 GRAVITY = 9.81  # [m/s2]
 SETTLED = 0.010  # [s]
 TOUCHES = 1e-6  # of the weight
 
-# rms force errors of the cubic wall, in weights
-SAME_SURFACE_TOLERANCE = 1e-3
-SINE_TOLERANCE = 2e-3
+BOUNDS = (1e-3, 2e-3)  # rms force errors of the cubic wall [weight]: same surface, sine
 
 
 def nurbs_file(values: Values) -> Mapping[str, str]:
@@ -97,9 +95,11 @@ def triangle_rows(result: Result) -> list[Row]:
     ]
 
 
-def nurbs(name: str, degree: int, tolerances: tuple[float, float] | None, note: str = "") -> Case:
+def nurbs(
+    name: str, degree: int, tolerances: tuple[float, float] | None, note: str = "", **variables: float
+) -> Case:
     rows = partial(nurbs_rows, tolerances, note)
-    return Case(name, "in.smooth_wall", rows, {"degree": degree, "elements": 62}, files=nurbs_file)
+    return Case(name, "in.smooth_wall", rows, {"degree": degree, "elements": 62} | variables, files=nurbs_file)
 
 
 def stock(name: str, squares: int) -> Case:
@@ -137,7 +137,8 @@ CURVATURE_JUMPS = "its curvature jumps at knots: use cubic walls for sliding"
 
 STUDY = Study(
     cases=[
-        nurbs("cubic", 3, (SAME_SURFACE_TOLERANCE, SINE_TOLERANCE)),
+        nurbs("cubic", 3, BOUNDS),
+        nurbs("cubic_across_the_face", 3, BOUNDS, x=15.5e-3 + 2 * SIDE / WAVES),
         nurbs("quadratic", 2, None, CURVATURE_JUMPS),
         stock("triangles_2k", 31),
         stock("triangles_30k", 124),

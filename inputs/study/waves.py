@@ -65,10 +65,11 @@ class SplineWave:
 
 
 def spline_surface(wave: SplineWave, amplitude: float) -> Surface:
-    """The NURBS wall; x and y in [0, SIDE]."""
+    """The NURBS wall, again and again in each direction."""
     s, ds, dds = (wave.spline.derivative(d) if d else wave.spline for d in range(3))
 
     def at(x: float, y: float) -> Slope:
+        x, y = x % SIDE, y % SIDE
         a, da, dda, b, db, ddb = s(x), ds(x), dds(x), s(y), ds(y), dds(y)
         return Slope(*(amplitude * np.array([a * b, da * b, a * db, dda * b, da * db, a * ddb])))
 

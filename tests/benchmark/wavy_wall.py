@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""usage: wavy_wall.py LIGGGHTS_NURBS CPU_CLOCK OUT [--particles N]...
-What the wavy wall costs as a NURBS surface and as LIGGGHTS' triangles, at rest and moving.  Prints the table and writes
-OUT/summary.json in the shape of the studies' summaries; slow is reported, never an error."""
+"""What the wavy wall costs as a NURBS surface and as LIGGGHTS' triangles, at rest and moving: prints the table and
+writes OUT/summary.json in the shape of the studies' summaries.  Slow is reported, never an error."""
 
 from __future__ import annotations
 
@@ -212,17 +211,21 @@ def memory(bench: Bench) -> list[Row]:
         (bench.folder / f"wall_{n}.yaml").write_text(model_file(SplineWave(DEGREE, n), AMPLITUDE))
         variables = dict(spheres="spheres_3500.data", steps=1, state="state_memory", geometry=f"wall_{n}.yaml")
         largest.append(bench.run("in.settle", "memory.txt", wall="nurbs", **variables))
-    rows = [Row(f"memory, {layers.count} particles", f"{n}x{n}", m / 2**20, "MiB") for n, m in zip(MEMORY_ELEMENTS, largest)]
-    for (n, m), (n2, m2) in zip(zip(MEMORY_ELEMENTS, largest), zip(MEMORY_ELEMENTS[1:], largest[1:])):
-        each = (m2 - m) / (n2**2 - n**2)
-        rows.append(Row(rows[0].case, f"per_element_{n}_to_{n2}", each, "bytes"))
+    case = f"memory, {layers.count} particles"
+    taken = list(zip(MEMORY_ELEMENTS, largest))
+    rows = [Row(case, f"{n}x{n}", m / 2**20, "MiB") for n, m in taken]
+    for (n, m), (finer, more) in zip(taken, taken[1:]):
+        rows.append(Row(case, f"per_element_{n}_to_{finer}", (more - m) / (finer**2 - n**2), "bytes"))
     return rows
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("program"), parser.add_argument("clock"), parser.add_argument("out", type=Path)
-    parser.add_argument("--particles", type=int, action="append", choices=list(LAYERS))
+    add = parser.add_argument
+    add("program")
+    add("clock", help="libcpu_clock.so")
+    add("out", type=Path)
+    add("--particles", type=int, action="append", choices=list(LAYERS))
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     rows: list[Row] = []

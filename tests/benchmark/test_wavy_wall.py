@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The benchmark of the wavy wall: its spheres, and what it reads from LIGGGHTS' timers."""
+
+import re
+import unittest
+
+import numpy as np
+from scipy.spatial.distance import pdist
+
+import wavy_wall
+from study.waves import K, SIDE
+
+LOG = """
+Loop time of 9.0 on 1 procs for 100 steps with 3481 atoms
+Fix wall wall/gran time (%) = 7 (70)
+Loop time of 2.5 on 1 procs for 400 steps with 3481 atoms
+Pair  time (%) = 0.3 (10)
+Fix m1 property/global time (%) = 1e-06 (2e-05)
+Fix mesh mesh/surface time (%) = 0.25 (10)
+Fix wall wall/gran time (%) = 1.5 (60)
+Fix wall_neighlist_mesh neighlist/mesh time (%) = 0.125 (5)
+Fix contacthistory contacthistory time (%) = 0.0011 (0.03)
+"""
+
+
+class Spheres(unittest.TestCase):
+    def test_above_the_wall_and_apart(self):
+        layers = wavy_wall.LAYERS[3500]
+        rows = wavy_wall.spheres(layers).split("Atoms\n\n")[1].splitlines()
+        self.assertEqual(len(rows), layers.count)
+        _, _, diameter, _, x, y, z = np.array([row.split() for row in rows], dtype=float).T
+        gap = z - 2e-3 * np.sin(K * x) * np.sin(K * y)
+        self.assertGreaterEqual(gap.min(), 0.9e-3 - 1e-15)
+        self.assertTrue(np.all((diameter >= 0.8e-3) & (diameter <= 1.2e-3)))
+        middle = np.argsort(np.hypot(x - SIDE / 2, y - SIDE / 2))[:1000]  # far from the periodic faces
+        centres, radii = np.stack([x, y, z], axis=1)[middle], diameter[middle] / 2
+        first, second = np.triu_indices(len(middle), 1)
+        self.assertGreaterEqual((pdist(centres) - radii[first] - radii[second]).min(), 0.0)
+
+
+class Timers(unittest.TestCase):
+    def test_fixes_of_the_wall_in_the_last_run(self):
+        wall, loop = wavy_wall.fix_times(LOG)
+        self.assertEqual(wall, {"mesh": 0.25, "wall": 1.5, "wall_neighlist_mesh": 0.125})
+        self.assertEqual(loop, 2.5)
+
+    def test_ratios_pass_up_to_their_reference(self):
+        verdicts = [wavy_wall.AtMost("c", "q", value, "1", 0.1).passes for value in (0.02, 0.1, 0.11)]
+        self.assertEqual(verdicts, [True, True, False])
+
+    def test_decks_exist(self):
+        for wall in wavy_wall.WALLS.values():
+            text = (wavy_wall.DECKS / f"in.{wall.deck}").read_text(encoding="utf-8")
+            self.assertTrue(re.search(r"^fix wall all wall/", text, re.MULTILINE))
+            self.assertIn(wall.settled_on, wavy_wall.WALLS)
+
+
+if __name__ == "__main__":
+    unittest.main()
