@@ -255,8 +255,15 @@ class Descent {
     return least < kSaddle ? DescentEnd::unknown : DescentEnd::degenerate;
   }
 
-  // Takes the last step, too short for S to need more than its tangents.
+  // Takes the last step, too short for S to need more than its tangents, but beside a pole.
   Vector3 finish() {
+    constexpr double kShort = 1e-7;
+    if (std::max(std::abs(step_[0]), std::abs(step_[1])) > kShort) {
+      move(1.0, next_->at);
+      sample(*next_);
+      std::swap(now_, next_);
+      return Vector3(now_->f.r);
+    }
     Vector3 r(now_->f.r);
     for (int i = 0; i < 2; ++i) r += step_[i] * Vector3(now_->f.S_i[i]);
     next_->f = now_->f, next_->size = now_->size;

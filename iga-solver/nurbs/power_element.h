@@ -28,6 +28,8 @@ struct AxisElement {
     return s <= -1.0 ? begin : s >= 1.0 ? end : begin + half_width * (1.0 + s);
   }
   /// The coordinate s nearest to xi.
+  /// Whether a parameter of the element is that of the patch's end (it may be, by rounding, where |s| < 1).
+  bool at_patch_end(double xi) const { return (at_end[0] && xi == begin) || (at_end[1] && xi == end); }
   double local(double xi) const {
     return xi <= begin ? -1.0 : xi >= end ? 1.0 : (xi - begin) * per_half_width - 1.0;
   }

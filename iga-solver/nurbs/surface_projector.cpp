@@ -14,6 +14,9 @@
 namespace nurbs {
 namespace {
 
+constexpr ProjectionStatus kByBorders[] = {ProjectionStatus::interior, ProjectionStatus::edge,
+                                           ProjectionStatus::corner};
+
 bool close_to_pole(const ElementStore& elements, const LocalPoint& at) {
   constexpr double kClose = 1e-6;  // of an element
   for (int j = 0; j < 2; ++j) {
@@ -75,27 +78,28 @@ void SurfaceProjector::set_control_points(const Eigen::Ref<const NodalVectors>& 
 // Where Newton alone has found the foot, it is inside an element.
 inline void SurfaceProjector::take_foot(const NewtonPoint& point, Projection& out) const {
   double r2 = 0.0;
-  for (int i = 0; i < 2; ++i) out.xi[i] = elements_.axis(i, point.e[i]).parameter(point.s[i]);
+  int borders = 0;
+  for (int i = 0; i < 2; ++i) {
+    const AxisElement& element = elements_.axis(i, point.e[i]);
+    out.xi[i] = element.parameter(point.s[i]);
+    borders += element.at_patch_end(out.xi[i]);
+  }
   for (int c = 0; c < 3; ++c) {
     out.foot[c] = point.d[c] + point.r[c];
     r2 += point.r[c] * point.r[c];
   }
   out.distance = std::sqrt(r2);
-  out.status = ProjectionStatus::interior;
+  out.status = kByBorders[borders];
   out.iterations = point.iterations;
 }
 
 Projection SurfaceProjector::projection(const Vector3& d, const DescentResult& found) const {
-  constexpr ProjectionStatus kByBorders[] = {ProjectionStatus::interior, ProjectionStatus::edge,
-                                             ProjectionStatus::corner};
   Projection result;
   int borders = 0;
   for (int i = 0; i < 2; ++i) {
     const AxisElement& element = elements_.axis(i, found.at.e[i]);
-    const double s = found.at.s[i];
-    result.xi[i] = element.parameter(s);
-    const bool end = std::abs(s) == 1.0 && element.at_end[s > 0.0];
-    if (end || found.crease[i]) ++borders;
+    result.xi[i] = element.parameter(found.at.s[i]);
+    if (element.at_patch_end(result.xi[i]) || found.crease[i]) ++borders;
   }
   result.foot = d + found.r;
   result.distance = found.r.norm();
