@@ -20,6 +20,7 @@ from study.case import Case, Comparison, Figure, Result, Study, Values
 from study.rotating_drum import Drum, Frame, atom_data, read_frames, slope
 from study.figures import COLOURS, save
 from study.hertz import sphere_mass
+from study.pulse import NoPulse
 from study.summary import Row
 
 GRAVITY = 9.81  # [m/s2]
@@ -66,6 +67,8 @@ def slopes(result: Result) -> tuple[np.ndarray, np.ndarray]:
 
 
 def steady(t: np.ndarray, x: np.ndarray) -> np.ndarray:
+    if t[-1] <= STEADY:
+        raise NoPulse(f"the run ends before the slope is steady, at {STEADY} s; -var steps N makes it longer")
     return x[t > STEADY]
 
 

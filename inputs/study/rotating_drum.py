@@ -10,6 +10,9 @@ from typing import Sequence
 import numpy as np
 from scipy.spatial import Delaunay
 
+from study.pulse import NoPulse
+
+LEAST_COLUMNS = 5  # of particles, for a straight line through their tops
 WINDOW = 0.6  # of the drum's radius to either side of its middle: where the slope of a bed is measured
 
 
@@ -122,11 +125,14 @@ def slope(x: np.ndarray, y: np.ndarray, z: np.ndarray, radius: float, cell: floa
         out = x * math.sin(angle) + z * math.cos(angle)
         middle = np.abs(up) < WINDOW * radius
         columns, rows = (np.floor(v[middle] / cell).astype(int) for v in (up, y))
+        if len(set(columns)) < LEAST_COLUMNS:
+            raise NoPulse("the bed is too small to have a slope; -var count N makes it larger")
         columns, rows = columns - columns.min(), rows - rows.min()
         top = np.full((columns.max() + 1, rows.max() + 1), -np.inf)
         np.maximum.at(top, (columns, rows), out[middle])
         heights = np.median(top, axis=1)
-        change = math.atan(np.polyfit(cell * np.arange(len(heights)), heights, 1)[0])
+        (filled,) = np.nonzero(np.isfinite(heights))
+        change = math.atan(np.polyfit(cell * filled, heights[filled], 1)[0])
         angle += change
         if abs(change) < 1e-6:
             break

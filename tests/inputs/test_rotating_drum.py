@@ -10,6 +10,7 @@ import yaml
 from scipy.interpolate import BSpline
 from scipy.spatial import cKDTree
 
+from study.pulse import NoPulse
 from study.rotating_drum import Drum, atom_data, read_frames, slope
 
 DRUM = Drum(0.1, 0.05)
@@ -82,6 +83,10 @@ class Slope(unittest.TestCase):
             with self.subTest(degrees=degrees):
                 found = slope(x[inside], y[inside], z[inside], 0.1, 5.8e-3)
                 self.assertAlmostEqual(math.degrees(found), degrees, delta=0.5)
+
+    def test_of_too_few_particles(self):
+        with self.assertRaisesRegex(NoPulse, "the bed is too small to have a slope"):
+            slope(np.array([0.0, 1e-3]), np.zeros(2), np.array([-0.09, -0.09]), 0.1, 5.8e-3)
 
     def test_frames_come_in_the_order_of_ids(self):
         head = "ITEM: TIMESTEP\n{}\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\nITEM: ATOMS id x \n"
