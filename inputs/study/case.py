@@ -31,6 +31,7 @@ class Case:
     files: Callable[[Values], Mapping[str, str]] | None = None  # name -> text, beside the deck
     after: str = ""  # a case that must have run; its *.restart files are put beside the deck
     ranks: int | None = None  # of MPI; None: as the user says
+    environment: Mapping[str, str] = field(default_factory=dict)  # of the solver
 
 
 @dataclass(frozen=True)

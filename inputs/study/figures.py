@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Contact force against time: computed samples over closed forms.  Colours and the writing of all figures."""
+"""Contact force against time, restitution against inelasticity: computed values over closed forms.  Colours and the
+writing of all figures."""
 
 from __future__ import annotations
 
@@ -72,6 +73,32 @@ def force_figure(
     legend.set_alignment("left")
     axes.set(title=title, xlabel="time [µs]", ylabel="contact force [N]", xlim=(0.0, 1e6 * t[-1]))
     axes.set_ylim(bottom=0.0)
+    axes.grid(color="0.92", linewidth=0.6)
+    axes.set_axisbelow(True)
+    save(figure, path)
+
+
+@dataclass(frozen=True)
+class Mark:
+    """One computed impact: Zener's inelasticity [-] and the restitution [-]."""
+
+    label: str
+    inelasticity: float
+    restitution: float
+
+
+def restitution_figure(path: Path, marks: Sequence[Mark], inelasticity: np.ndarray, restitution: np.ndarray) -> None:
+    """Computed restitutions over the theory's curve restitution(inelasticity)."""
+    figure = Figure(figsize=(9.0, 4.6), layout="constrained")
+    axes = figure.subplots()
+    axes.plot(inelasticity, restitution, "k-", linewidth=1.2, label="Zener (1941)")
+    looks = [(marker, colour) for marker in MARKERS for colour in COLOURS]
+    for mark, (marker, colour) in zip(marks, looks):
+        style = dict(linestyle="none", marker=marker, markersize=7.0, markerfacecolor="none", color=colour)
+        axes.plot(mark.inelasticity, mark.restitution, label=mark.label, **style)
+    axes.legend(frameon=False, loc="upper right")
+    axes.set(title="Thin plates: how much of its speed a ball keeps", ylabel="restitution")
+    axes.set(xlabel=r"inelasticity $\lambda = \alpha m/T$", xlim=(0.0, inelasticity[-1]), ylim=(0.0, 1.0))
     axes.grid(color="0.92", linewidth=0.6)
     axes.set_axisbelow(True)
     save(figure, path)

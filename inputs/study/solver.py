@@ -54,6 +54,7 @@ class Run:
     files: Callable[[], Mapping[str, str]] = dict  # name -> text, written beside the deck
     ranks: int | None = None  # in place of the solver's
     after: Run | None = None  # starts when that has ended, with its *.restart files
+    environment: Mapping[str, str] = field(default_factory=dict)  # beyond the solver's own
     written: Sequence[str] = ()  # their names, once it has started
     seconds: float = 0.0
     process: subprocess.Popen | None = field(default=None, repr=False)
@@ -73,7 +74,7 @@ class Run:
             self.process = subprocess.Popen(
                 solver.command(self.deck, self.variables),
                 cwd=self.folder,
-                env=solver.environment(),
+                env={**solver.environment(), **self.environment},
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,
