@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Mapping
 
 import wall
+from bounds import AtLeast, AtMost
 from study.summary import Row, table, write_json
 
 SURFACES = ["plate", "wavy", "cylinder", "saddle"]
@@ -87,28 +88,6 @@ RATIOS = [
         {(surface, n): {31: 5.0, 124: 100.0}[n] for surface in SURFACES for n in ELEMENTS},
     ),
 ]
-
-
-@dataclass(frozen=True)
-class AtLeast(Row):
-    """A row that passes from its reference upwards."""
-
-    tolerance: float = 0.0
-
-    @property
-    def passes(self) -> bool | None:
-        return None if self.reference is None else bool(self.value >= self.reference)
-
-
-@dataclass(frozen=True)
-class AtMost(Row):
-    """A row that passes up to its reference."""
-
-    tolerance: float = 0.0
-
-    @property
-    def passes(self) -> bool | None:
-        return None if self.reference is None else bool(self.value <= self.reference)
 
 
 def timings(output: dict) -> dict[str, Timing]:

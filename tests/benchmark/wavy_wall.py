@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
+from bounds import AtMost
 from study.summary import Row, table, write_json
 from study.waves import K, SIDE, SplineWave, model_file, triangles
 
@@ -70,17 +71,6 @@ TARGETS = {
     ("nurbs", "triangles", 50000): 0.15,
 }
 MEMORY_ELEMENTS = (186, 248, 372)  # enough to show beside the program itself
-
-
-@dataclass(frozen=True)
-class AtMost(Row):
-    """A row that passes up to its reference."""
-
-    tolerance: float = 0.0
-
-    @property
-    def passes(self) -> bool | None:
-        return None if self.reference is None else bool(self.value <= self.reference)
 
 
 @dataclass(frozen=True)
