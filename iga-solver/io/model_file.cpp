@@ -5,6 +5,7 @@
 
 #include "structure/linear_elastic.h"
 #include "structure/loads.h"
+#include "structure/saint_venant_kirchhoff.h"
 
 namespace io {
 
@@ -12,11 +13,12 @@ using nurbs::YamlMap;
 
 namespace {
 
-std::shared_ptr<const structure::Material> read_linear_elastic(const YamlMap& map) {
+template <class IsotropicLaw>
+std::shared_ptr<const structure::Material> read_isotropic(const YamlMap& map) {
   map.allow_only({"law", "youngs_modulus", "poissons_ratio", "density"});
-  return std::make_shared<structure::LinearElastic>(map.number("youngs_modulus", nurbs::positive()),
-                                                    map.number("poissons_ratio", {-1.0, 0.5}),
-                                                    map.number("density", nurbs::positive()));
+  return std::make_shared<IsotropicLaw>(map.number("youngs_modulus", nurbs::positive()),
+                                        map.number("poissons_ratio", {-1.0, 0.5}),
+                                        map.number("density", nurbs::positive()));
 }
 
 /// The word in a model file -> the class.
@@ -25,7 +27,8 @@ struct Law {
   std::shared_ptr<const structure::Material> (*read)(const YamlMap&);
 };
 constexpr Law kLaws[] = {
-    {"linear_elastic", read_linear_elastic},
+    {"linear_elastic", read_isotropic<structure::LinearElastic>},
+    {"saint_venant_kirchhoff", read_isotropic<structure::SaintVenantKirchhoff>},
 };
 
 std::shared_ptr<const structure::Material> read_material(const YamlMap& map) {

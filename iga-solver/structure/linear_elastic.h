@@ -3,26 +3,18 @@
 // Source: Gao & Feng (2019), eq. 17 (there in Voigt notation).
 #pragma once
 
-#include "structure/material.h"
+#include "structure/isotropic_elastic.h"
 
 namespace structure {
 
-class LinearElastic final : public Material {
+class LinearElastic final : public IsotropicElastic {
  public:
-  /// E [Pa], nu [-], density [kg/m^3].  Throws std::invalid_argument unless E > 0, -1 < nu < 0.5 and density
-  /// > 0.
-  LinearElastic(double youngs_modulus, double poissons_ratio, double density);
+  /// Arguments and errors as IsotropicElastic.
+  LinearElastic(double youngs_modulus, double poissons_ratio, double density)
+      : IsotropicElastic("LinearElastic", youngs_modulus, poissons_ratio, density) {}
 
-  Matrix3 stress(const Matrix3& H) const override;
-  double energy_density(const Matrix3& H) const override;
-
-  double density() const override { return density_; }
-  double youngs_modulus() const override { return E_; }
-  double poissons_ratio() const override { return nu_; }
-
- private:
-  double E_, nu_, density_;
-  double lambda_, mu_;  // Lame constants [Pa]
+  Matrix3 stress(const Matrix3& H) const override { return hooke(0.5 * (H + H.transpose())); }
+  double energy_density(const Matrix3& H) const override { return 0.5 * stress(H).cwiseProduct(H).sum(); }
 };
 
 }  // namespace structure

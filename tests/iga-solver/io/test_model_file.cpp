@@ -125,7 +125,7 @@ TEST(ModelFile, RefusesBadInputInOneLineThatNamesFileLineGivenAndExpected) {
       {"0.286", "-1", 4, {"poissons_ratio", "-1", "0.5"}},
       {"210.6e9", "0", 4, {"youngs_modulus", "0", "> 0"}},
       {"210.6e9", ".nan", 4, {"youngs_modulus"}},
-      {"linear_elastic", "jelly", 4, {"jelly", "linear_elastic"}},
+      {"linear_elastic", "jelly", 4, {"jelly", "linear_elastic", "saint_venant_kirchhoff"}},
       {"units: si", "units: imperial", 1, {"imperial", "si", "cgs", "mm-g-ms"}},
       {"fix: [z]", "fix: [w]", 7, {"'w'", "x, y, z"}},
       {"faces: [zeta-]", "faces: [bottom]", 7, {"bottom", "zeta-"}},

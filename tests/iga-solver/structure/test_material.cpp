@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Every law passes the same properties: a new one is tested by being listed in kLaws.
+// Every law passes the same properties: a new one is tested by being listed in kLaws, and in kLargeStrainLaws
+// if it is objective.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <stdexcept>
 
 #include "models.h"
+#include "structure/saint_venant_kirchhoff.h"
 
 namespace {
 
 using structure::LinearElastic;
 using structure::Material;
 using structure::Matrix3;
+using structure::SaintVenantKirchhoff;
 
 constexpr double kE = 210.0, kNu = 0.29, kDensity = 7.8;
 
@@ -51,17 +56,46 @@ TEST_P(EveryLaw, HasItsElasticConstantsAtSmallStrain) {
 }
 
 INSTANTIATE_TEST_SUITE_P(kLaws, EveryLaw,
-                         testing::Values(std::make_shared<LinearElastic>(kE, kNu, kDensity)));
+                         testing::Values(std::make_shared<LinearElastic>(kE, kNu, kDensity),
+                                         std::make_shared<SaintVenantKirchhoff>(kE, kNu, kDensity)));
 
-TEST(LinearElastic, RefusesImpossibleConstants) {
+class EveryLargeStrainLaw : public EveryLaw {};
+
+// P(Q F) = Q P(F), and Q = I is the case of no rotation.
+TEST_P(EveryLargeStrainLaw, TurnsItsStressWithTheBody) {
+  const Material& material = *GetParam();
+  const Matrix3 I = Matrix3::Identity(), F = I + 0.2 * models::some_gradient();
+  const Matrix3 Q = Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, -2, 3).normalized()).toRotationMatrix();
+  const Matrix3 P = material.stress(F - I);
+  EXPECT_LT((material.stress(Q * F - I) - Q * P).norm(), 1e-14 * P.norm());
+  EXPECT_NEAR(material.energy_density(Q * F - I), material.energy_density(F - I), 1e-14 * kE);
+  EXPECT_LT(material.stress(Q - I).norm(), 1e-14 * kE);
+}
+
+// The moments of the Cauchy stress balance: P F^T is symmetric.
+TEST_P(EveryLargeStrainLaw, ExertsNoCouple) {
+  const Matrix3 F = Matrix3::Identity() + 0.2 * models::some_gradient();
+  const Matrix3 tau = GetParam()->stress(F - Matrix3::Identity()) * F.transpose();
+  EXPECT_LT((tau - tau.transpose()).norm(), 1e-14 * tau.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(kLargeStrainLaws, EveryLargeStrainLaw,
+                         testing::Values(std::make_shared<SaintVenantKirchhoff>(kE, kNu, kDensity)));
+
+template <class Law>
+class IsotropicLaw : public testing::Test {};
+using IsotropicLaws = testing::Types<LinearElastic, SaintVenantKirchhoff>;
+TYPED_TEST_SUITE(IsotropicLaw, IsotropicLaws);
+
+TYPED_TEST(IsotropicLaw, RefusesImpossibleConstants) {
   const double nan = std::numeric_limits<double>::quiet_NaN(),
                infinity = std::numeric_limits<double>::infinity();
   for (double E : {0.0, -1.0, nan, infinity})
-    EXPECT_THROW(LinearElastic(E, 0.3, 1.0), std::invalid_argument) << E;
+    EXPECT_THROW(TypeParam(E, 0.3, 1.0), std::invalid_argument) << E;
   for (double nu : {-1.0, 0.5, -2.0, 0.6, nan})
-    EXPECT_THROW(LinearElastic(1.0, nu, 1.0), std::invalid_argument) << nu;
+    EXPECT_THROW(TypeParam(1.0, nu, 1.0), std::invalid_argument) << nu;
   for (double density : {0.0, -1.0, nan})
-    EXPECT_THROW(LinearElastic(1.0, 0.3, density), std::invalid_argument) << density;
+    EXPECT_THROW(TypeParam(1.0, 0.3, density), std::invalid_argument) << density;
 }
 
 }  // namespace
