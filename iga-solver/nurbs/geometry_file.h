@@ -4,6 +4,8 @@
 //   units: si                                   # si | cgs | mm-g-ms
 //   geometry:                                   # one of:
 //     box: {origin: [x,y,z], size: [x,y,z], elements: [31,31,8], degree: 2}
+//     rolled_plate: {origin: [x,y,z], width: y, strips: [{length: x, thickness: t, elements: 9}, ..],
+//                    elements: [36,1], degree: 2}                         # a solid of varying thickness
 //     plane: {origin: [x,y,z], edges: [[x,y,z],[x,y,z]], elements: [10,10], degree: 2}
 //     cylinder: {origin: [x,y,z], axis: [x,y,z], radius: r, length: l, angle: [0,360], elements: [8,4]}
 //     cone: {origin, axis, radii: [r,r], length, angle, elements}         # a frustum; one radius may be 0
@@ -19,6 +21,10 @@
 //
 // `degree` is one number or one per direction.  In a box or plane `breaks: [[0, .5, 1], ..]` (relative, from
 // 0 to 1) may stand in place of `elements` for graded meshes.
+//
+// A rolled plate is flat below, at the z of its origin; its strips follow one another along x.  `thickness:
+// [from, to]` makes a C1 ramp of two parabolas, with an even number of elements; strips meet in the same
+// thickness.  `elements` are those along y and z.
 //
 // Round shapes are exact.  Their first direction is the azimuth; the second is the length, the latitude or
 // the angle round the tube (0 outside, 90 on top); a tube's third runs from the inner to the outer radius.

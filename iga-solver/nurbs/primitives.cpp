@@ -80,6 +80,76 @@ Curve meridian_circle(double centre, double radius, const Curve& angle) {
   return circle;
 }
 
+void check_strips(const std::vector<Strip>& strips, int degree_x) {
+  if (strips.empty()) throw std::invalid_argument("no strips, expected one at least");
+  if (degree_x < 2)
+    throw std::invalid_argument(
+        fmt::format("degree along x is {}, expected 2 at least: a ramp is quadratic", degree_x));
+  for (size_t i = 0; i < strips.size(); ++i) {
+    const auto& [length, thickness, elements] = strips[i];
+    const std::string strip = fmt::format("strip {}: ", i + 1);
+    expect_positive((strip + "length").c_str(), length);
+    for (double t : thickness) expect_positive((strip + "thickness").c_str(), t);
+    if (elements < 1)
+      throw std::invalid_argument(strip + fmt::format("{} elements, expected 1 at least", elements));
+    if (i > 0 && thickness[0] != strips[i - 1].thickness[1])
+      throw std::invalid_argument(strip +
+                                  fmt::format("begins with thickness {}, expected {}, where strip {} ends",
+                                              thickness[0], strips[i - 1].thickness[1], i));
+    if (thickness[0] != thickness[1] && elements % 2 == 1)
+      throw std::invalid_argument(
+          strip +
+          fmt::format("{} elements in a ramp, expected an even number: its middle is a knot", elements));
+  }
+}
+
+// Parameter x / length of the plate.
+KnotVector scaled_to_one(int degree, std::vector<double> knots) {
+  const double length = knots.back();
+  for (double& knot : knots) knot /= length;
+  return {degree, std::move(knots)};
+}
+
+// Thickness over x, as points (x, 0, t), from x = 0: a quadratic spline that has knots only where two of its
+// parabolas meet.  The control point between two knots is where their tangents meet.
+Curve thickness_law(const std::vector<Strip>& strips) {
+  std::vector<double> knots(3, 0.0);
+  std::vector<Vector3> points{{0.0, 0.0, strips.front().thickness[0]}};
+  const auto add_parabola = [&](double to, double thickness, double slope) {  // at its beginning
+    const double half = 0.5 * (to - knots.back());
+    points.emplace_back(knots.back() + half, 0.0, thickness + half * slope);
+    knots.push_back(to);
+  };
+  for (const auto& [length, thickness, elements] : strips) {
+    const double begin = knots.back(), rise = thickness[1] - thickness[0];
+    if (rise != 0.0) {
+      add_parabola(begin + 0.5 * length, thickness[0], 0.0);
+      add_parabola(begin + length, thickness[0] + 0.5 * rise, 2.0 * rise / length);
+    } else {
+      add_parabola(begin + length, thickness[0], 0.0);
+    }
+  }
+  points.emplace_back(knots.back(), 0.0, strips.back().thickness[1]);
+  knots.insert(knots.end(), 2, knots.back());
+  Curve law{Space<1>({scaled_to_one(2, std::move(knots))}), NodalVectors(3, points.size())};
+  for (size_t a = 0; a < points.size(); ++a) law.control_points.col(a) = points[a];
+  return law;
+}
+
+// Knots between elements that the law does not have yet.
+std::vector<double> inner_knots(const std::vector<Strip>& strips) {
+  std::vector<double> knots;
+  double begin = 0.0;
+  for (const auto& [length, thickness, elements] : strips) {
+    const bool ramp = thickness[0] != thickness[1];
+    for (int i = 1; i < elements; ++i)
+      if (!(ramp && 2 * i == elements)) knots.push_back(begin + length * i / elements);
+    begin += length;
+  }
+  for (double& knot : knots) knot /= begin;
+  return knots;
+}
+
 }  // namespace
 
 Volume box(const Vector3& origin, const Vector3& size, const std::array<KnotVector, 3>& knots) {
@@ -93,6 +163,25 @@ Volume box(const Vector3& origin, const Vector3& size, const std::array<KnotVect
   for (double tz : z)
     for (double ty : y)
       for (double tx : x) volume.control_points.col(a++) = origin + size.cwiseProduct(Vector3(tx, ty, tz));
+  return volume;
+}
+
+Volume rolled_plate(const Vector3& origin, double width, const std::vector<Strip>& strips, int degree_x,
+                    const std::array<KnotVector, 2>& across_and_through) {
+  check_strips(strips, degree_x);
+  expect_positive("width", width);
+  Curve law = thickness_law(strips);
+  if (degree_x > 2) law = elevate_degree(law, 0, degree_x - 2);
+  law = insert_knots(law, 0, inner_knots(strips));
+  Volume volume{Space<3>({law.space.knots(0), across_and_through[0], across_and_through[1]}), {}};
+  volume.control_points.resize(3, volume.space.control_point_count());
+  const std::vector<double> y = relative_greville(across_and_through[0]),
+                            z = relative_greville(across_and_through[1]);
+  int a = 0;
+  for (double tz : z)
+    for (double ty : y)
+      for (const auto& at : law.control_points.colwise())
+        volume.control_points.col(a++) = origin + Vector3(at.x(), ty * width, tz * at.z());
   return volume;
 }
 

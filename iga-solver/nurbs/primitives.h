@@ -8,6 +8,8 @@
 // throw std::invalid_argument for lengths or directions that make no such shape.
 #pragma once
 
+#include <vector>
+
 #include "nurbs/patch.h"
 
 namespace nurbs {
@@ -20,6 +22,21 @@ Volume box(const Vector3& origin, const Vector3& size, const std::array<KnotVect
 /// edge_v.
 Surface plane(const Vector3& origin, const Vector3& edge_u, const Vector3& edge_v,
               const std::array<KnotVector, 2>& knots);
+
+/// Part of a rolled plate between two lines x = const.
+struct Strip {
+  double length;                    ///< along x [length]
+  std::array<double, 2> thickness;  ///< where it begins and where it ends [length]
+  int elements;                     ///< along x; of a ramp an even number, so that its middle is a knot
+};
+/// A tailor rolled blank: flat below at z = origin.z, the strips following one another along x from
+/// origin.x, `width` along y.  A strip between two thicknesses is a C1 ramp of two parabolas, each over half
+/// of its length, with no slope at its ends; so the top is C1, piecewise quadratic and exact.
+/// Parametrised affinely along x and y, and along z at every x.
+/// Throws std::invalid_argument also if strips do not meet in the same thickness, a ramp has an odd number of
+/// elements, or degree_x is 1.
+Volume rolled_plate(const Vector3& origin, double width, const std::vector<Strip>& strips, int degree_x,
+                    const std::array<KnotVector, 2>& across_and_through);
 
 /// Where a round shape stands: z is its axis, and angles count from x to y.
 struct Frame {

@@ -66,6 +66,35 @@ Shape read_box(const YamlMap& map) {
   return blame(map, "size", "", [&] { return box(origin, size, {knots[0], knots[1], knots[2]}); });
 }
 
+// `thickness` of a strip: a number, or [from, to] of a ramp.
+Strip read_strip(const YamlMap& map) {
+  map.allow_only({"length", "thickness", "elements"});
+  Strip strip{map.number("length", positive()), {}, map.integer("elements", 1, kMaxElements)};
+  if (map.is_list("thickness")) {
+    const std::vector<double> ends = map.numbers("thickness");
+    expect_count(map, "thickness", ends.size(), 2);
+    strip.thickness = {ends[0], ends[1]};
+  } else {
+    strip.thickness.fill(map.number("thickness", positive()));
+  }
+  return strip;
+}
+
+Shape read_rolled_plate(const YamlMap& map) {
+  map.allow_only({"origin", "width", "strips", "elements", "degree"});
+  const std::vector<int> degrees = read_degrees(map, 3), elements = map.integers("elements", 1, kMaxElements);
+  expect_count(map, "elements", elements.size(), 2);
+  std::vector<Strip> strips;
+  for (const YamlMap& strip : map.list_of_maps("strips")) strips.push_back(read_strip(strip));
+  const Vector3 origin = map.vector3("origin");
+  const double width = map.number("width", positive());
+  return blame(map, "strips", "", [&] {
+    return rolled_plate(
+        origin, width, strips, degrees[0],
+        {KnotVector::uniform(degrees[1], elements[0]), KnotVector::uniform(degrees[2], elements[1])});
+  });
+}
+
 Shape read_plane(const YamlMap& map) {
   map.allow_only({"origin", "edges", "elements", "breaks", "degree"});
   const std::vector<KnotVector> knots = read_mesh(map, 2);
@@ -226,11 +255,13 @@ struct ShapeKey {
 
 // Deck word -> shape.
 constexpr ShapeKey kShapes[] = {
-    {"box", read_box},       {"plane", read_plane}, {"cylinder", read_cylinder}, {"cone", read_cone},
-    {"sphere", read_sphere}, {"torus", read_torus}, {"tube", read_tube},
+    {"box", read_box},     {"rolled_plate", read_rolled_plate},
+    {"plane", read_plane}, {"cylinder", read_cylinder},
+    {"cone", read_cone},   {"sphere", read_sphere},
+    {"torus", read_torus}, {"tube", read_tube},
 };
-constexpr std::initializer_list<const char*> kKeys = {"box",   "plane", "cylinder", "cone", "sphere",
-                                                      "torus", "tube",  "patches",  "file"};
+constexpr std::initializer_list<const char*> kKeys = {"box",    "rolled_plate", "plane", "cylinder", "cone",
+                                                      "sphere", "torus",        "tube",  "patches",  "file"};
 
 }  // namespace
 
