@@ -124,8 +124,19 @@ class Batch:
                 for name in ["contact_force.csv", *run.written]:
                     stem, dot, ending = name.partition(".")
                     put(run.folder / name, out / f"{stem}_{case.name}{dot}{ending}")
+                self.keep(run.folder, case, out / case.name)
         if failure:
             print(f"see {out / f'log_{run.name}.txt'}", file=sys.stderr)
+
+    @staticmethod
+    def keep(folder: Path, case: Case, out: Path) -> None:
+        """The further files of a case; those of an earlier run are gone."""
+        shutil.rmtree(out, ignore_errors=True)
+        files = [path for pattern in case.keep for path in sorted(folder.glob(pattern))]
+        if files:
+            out.mkdir()
+        for path in files:
+            shutil.copyfile(path, out / path.name)
 
 
 def put(source: Path, target: Path) -> None:

@@ -32,6 +32,7 @@ class Case:
     after: str = ""  # a case that must have run; its *.restart files are put beside the deck
     ranks: int | None = None  # of MPI; None: as the user says
     environment: Mapping[str, str] = field(default_factory=dict)  # of the solver
+    keep: Sequence[str] = ()  # patterns of further files that are kept, in out/<deck>/<case>/
 
 
 @dataclass(frozen=True)

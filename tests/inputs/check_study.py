@@ -86,6 +86,8 @@ ZENER = {
 Z2_DURATION = 9.81243e-6
 # Quantity of the cubic walls: largest value; contact is never lost.
 SMOOTH_WALL = {"rms_error_same_surface": 1e-3, "rms_error_sine": 2e-3, "steps_without_contact": 0.0}
+# Quantity of every run of trb: largest value.
+TRB = {"impulse_error": 1e-10, "energy_drift": 1e-3, "overlap_at_start": 1e-4}
 # Force over the weight in troughs and on crests, 1 +- v^2 kappa / (g (1 -+ kappa r)), v = 0.2995 m/s in the troughs.
 TROUGH, CREST = 1.432, 0.678
 # The drum: 5,000 particles of 2.1 to 2.9 mm and 2500 kg/m3 weigh 8.21 N; (case, quantity): value, largest error of it.
@@ -106,12 +108,14 @@ FIGURES = {
     "thin_plate": ["restitution.png", "force.png", "force_steel.png"],
     "smooth_wall": ["force.png"],
     "drum": ["drum.png"],
+    "trb": ["fig13.png", "fig14.png", "energy.png", "overlaps.png"],
 }
 WITH_REFERENCE = {
     "ball_plate": 23 * 4 + 5 + 5 + 4,
     "thin_plate": 3 * (3 + 4) + 4 * 5 + 1 + 4,
     "smooth_wall": 3 + 3 + 1,
     "drum": 3 + 2 + 2,
+    "trb": 5 * 6 + 13 + 2,
 }
 
 
@@ -203,6 +207,30 @@ def check_drum(rows: dict, out: Path) -> None:
         check(abs(value / power - 1.0) < 1e-6, f"{case}: power {value}, torque times angular velocity {power}")
 
 
+def check_trb(rows: dict, out: Path) -> None:
+    """The stream on the blank: exact balances, force and deflection from the file; what is kept for ParaView."""
+    for case in ("linear_elastic", "saint_venant_kirchhoff", "packing_1", "packing_2", "packing_3"):
+        for quantity, bound in TRB.items():
+            value = rows[case, quantity]["value"]
+            check(0.0 <= value <= bound, f"{case} {quantity}: {value}, expected at most {bound}")
+    for law in ("linear_elastic", "saint_venant_kirchhoff"):
+        with open(out / f"contact_force_{law}.csv", newline="", encoding="utf-8") as file:
+            columns = ("t", "F", "plate_displacement")
+            samples = [tuple(float(row[name]) for name in columns) for row in csv.DictReader(file)]
+        check(len(samples) == 10000, f"{law}: {len(samples)} samples")
+        check(all(F == 0.0 for t, F, _ in samples if t < 0.9999e-5), f"{law}: a force before 0.010 ms")
+        check(max(F for t, F, _ in samples if t < 1.5e-5) > 100.0, f"{law}: no force after 0.010 ms")
+        impulse = sum(1e-7 * F for _, F, _ in samples)
+        check(abs(impulse / 0.142 - 1.0) < 0.10, f"{law}: impulse {impulse}, expected 0.142 +- 10 %")
+        w = samples[-1][2]
+        check(2.0e-3 < w < 2.8e-3, f"{law}: deflection {w}, expected 2.0 to 2.8 mm")
+        for pattern, count in (("blank_*.vtu", 101), ("spheres_*.vtp", 101), ("blank.pvd", 1), ("packing.data", 1)):
+            kept = len([path for path in (out / law).glob(pattern) if "boundingBox" not in path.name])
+            check(kept == count, f"{law}: {kept} files {pattern}, expected {count}")
+    linear, large = (rows[law, "centre_at_end"]["value"] for law in ("linear_elastic", "saint_venant_kirchhoff"))
+    check(0.5 < large / linear < 0.999, f"St. Venant-Kirchhoff / linear deflection {large / linear}, expected stiffer")
+
+
 def main(deck: str, run: str, out: Path) -> None:
     shutil.rmtree(out, ignore_errors=True)
     done = subprocess.run([run, deck, "--out", out], check=False)
@@ -219,6 +247,8 @@ def main(deck: str, run: str, out: Path) -> None:
         check_smooth_wall(rows, out)
     elif deck == "drum":
         check_drum(rows, out)
+    elif deck == "trb":
+        check_trb(rows, out)
     else:
         check_values(deck, rows)
         for case in {row["case"] for row in summary["rows"]}:

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a study may ask for beyond the rows of its cases: rows about several of them, further files."""
+
+import contextlib
+import io
+import tempfile
+import unittest
+from pathlib import Path
+
+from study.batch import Batch
+from study.case import Case, Comparison, Study
+from study.solver import Solver
+from study.summary import Row
+
+HERE = Path(__file__).resolve().parent
+DECK = HERE.parents[1] / "inputs/ball_plate"
+
+
+def peak(result):
+    return result.force["F"].max()
+
+
+def case(name, lam, **further):
+    return Case(name, "in.ball_plate", lambda r: [Row(name, "peak", peak(r), "N")], {"lambda": lam}, **further)
+
+
+class BatchOfTwo(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.out = Path(folder.name)
+
+    def run_cases(self, *chosen, expected=1.2 ** (2 / 5)):
+        cases = [case("one", 1.0, keep=("state.*", "plate.yaml")), case("other", 1.2)]
+        ratio = Comparison(
+            ["one", "other"],
+            lambda results: [Row("both", "ratio", peak(results["other"]) / peak(results["one"]), "1", expected, 1e-4)],
+        )
+        batch = Batch(DECK, Study(cases, [], [ratio]), [cases[i] for i in chosen], {})
+        with contextlib.redirect_stdout(io.StringIO()) as printed, contextlib.redirect_stderr(io.StringIO()):
+            passed = batch.run(Solver(HERE / "closed_form_solver.py"), 1, False, self.out)
+        return passed, printed.getvalue()
+
+    def test_a_comparison_has_the_results_of_its_cases(self):
+        passed, printed = self.run_cases(0, 1)  # peak force ~ lambda^(2/5)
+        self.assertTrue(passed, printed)
+        self.assertIn("ratio", printed)
+        self.assertIn('"ratio"', (self.out / "summary.json").read_text())
+
+    def test_a_comparison_can_fail(self):
+        passed, printed = self.run_cases(0, 1, expected=1.0)
+        self.assertFalse(passed)
+        self.assertIn("FAIL", printed)
+
+    def test_a_comparison_waits_for_all_its_cases(self):
+        passed, printed = self.run_cases(0)
+        self.assertTrue(passed)
+        self.assertNotIn("ratio", printed)
+
+    def test_further_files_are_kept_by_case_and_old_ones_are_not(self):
+        (self.out / "one").mkdir()
+        (self.out / "one/stale.vtu").touch()
+        self.run_cases(0, 1)
+        self.assertEqual(sorted(path.name for path in (self.out / "one").iterdir()), ["plate.yaml", "state.csv"])
+        self.assertFalse((self.out / "other").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
