@@ -88,7 +88,8 @@ class Search(unittest.TestCase):
 
     def test_the_line_is_in_the_log_file_when_the_screen_is_off(self):
         silent = ["sh", "-c", '"$@" -screen none && cat search.log', "sh"]
-        run = decks.good("log search.log\n" + bounce("") + "log none\n", files=FILES, launcher=silent)
+        run = decks.run("log search.log\n" + bounce("") + "log none\n", files=FILES, launcher=silent)
+        self.assertEqual(run.code, 0, run.text)
         self.assertEqual(len(counts(run.text)), 1)
 
 
