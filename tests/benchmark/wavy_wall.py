@@ -223,6 +223,8 @@ def main() -> None:
         shutil.copytree(DECKS, folder, dirs_exist_ok=True)
         bench = Bench(args.program, args.clock, Path(folder))
         (bench.folder / "wall.stl").write_text(triangles(SQUARES, AMPLITUDE))
+        for n in (62, 248):
+            (bench.folder / f"wall_{n}.yaml").write_text(model_file(SplineWave(DEGREE, n), AMPLITUDE))
         for particles, layers in LAYERS.items():
             (bench.folder / f"spheres_{particles}.data").write_text(spheres(layers))
         rows += memory(bench)
