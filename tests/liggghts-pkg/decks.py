@@ -18,6 +18,10 @@ import numpy as np
 NURBS = os.environ.get("LIGGGHTS_NURBS", "liggghts-nurbs")
 STOCK = os.environ.get("LIGGGHTS", "liggghts")
 LOG = "log.deck"
+# Place, velocity and spin of the first ball; needs a compute `spin` of omegax, omegay, omegaz.
+BALL = "".join(f"variable {c} equal {c}[1]\n" for c in ("x", "y", "z", "vx", "vy", "vz")) + "".join(
+    f"variable w{c} equal c_spin[1][{k}]\n" for k, c in enumerate("xyz", 1)
+)
 
 
 @dataclass

@@ -45,25 +45,21 @@ set atom 1 vx {velocity[0]} vy {velocity[1]} vz {velocity[2]}
 fix integrate all nve/sphere
 """
 
-OUTPUT = """
+OUTPUT = (
+    """
 compute spin all property/atom omegax omegay omegaz
 variable fx equal fx[1]
 variable fy equal fy[1]
 variable fz equal fz[1]
-variable x equal x[1]
-variable y equal y[1]
-variable z equal z[1]
-variable vx equal vx[1]
-variable vy equal vy[1]
-variable vz equal vz[1]
-variable wx equal c_spin[1][1]
-variable wy equal c_spin[1][2]
-variable wz equal c_spin[1][3]
+"""
+    + decks.BALL
+    + """\
 {more}
 thermo_style custom step v_fx v_fy v_fz v_x v_y v_z v_vx v_vy v_vz v_wx v_wy v_wz {columns}
 thermo_modify format float %.17g lost error
 thermo {every}
 """
+)
 # at rest: a rank without any atom cannot evaluate a ball's spin
 FAR_AWAY = ((-0.03, 0.0, 0.01), (0.03, 0.0, 0.01))
 KINDS = {"f": ("fx", "fy", "fz"), "x": ("x", "y", "z"), "v": ("vx", "vy", "vz"), "w": ("wx", "wy", "wz")}

@@ -18,7 +18,8 @@ WALLS = {
 }
 
 # One ball bounces off the wall; with vx > 0 it changes ranks during the contact.
-BOUNCE = """
+BOUNCE = (
+    """
 units si
 atom_style granular
 atom_modify map array
@@ -60,20 +61,15 @@ variable fz equal fz[1]
 variable tx equal c_spin[1][4]
 variable ty equal c_spin[1][5]
 variable tz equal c_spin[1][6]
-variable x equal x[1]
-variable y equal y[1]
-variable z equal z[1]
-variable vx equal vx[1]
-variable vy equal vy[1]
-variable vz equal vz[1]
-variable wx equal c_spin[1][1]
-variable wy equal c_spin[1][2]
-variable wz equal c_spin[1][3]
+"""
+    + decks.BALL
+    + """\
 thermo_style custom step v_fx v_fy v_fz v_tx v_ty v_tz v_x v_y v_z v_vx v_vy v_vz v_wx v_wy v_wz ke c_rot
 thermo_modify format float %.17g lost error
 thermo 1
 run 600
 """
+)
 
 MODELS = {
     "hertz": ("model hertz tangential no_history", 1.0, 0.0),

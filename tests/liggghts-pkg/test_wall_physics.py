@@ -37,22 +37,18 @@ fix wall all wall/nurbs model hertz tangential history type 2 geometry wall.yaml
 fix integrate all nve/sphere
 compute spin all property/atom omegax omegay omegaz
 """
-OUTPUT = """
+OUTPUT = (
+    """
 variable overlap equal f_wall[8]
-variable x equal x[1]
-variable y equal y[1]
-variable z equal z[1]
-variable vx equal vx[1]
-variable vy equal vy[1]
-variable vz equal vz[1]
-variable wx equal c_spin[1][1]
-variable wy equal c_spin[1][2]
-variable wz equal c_spin[1][3]
+"""
+    + decks.BALL
+    + """\
 thermo_style custom step v_x v_y v_z v_vx v_vy v_vz v_wx v_wy v_wz v_overlap
 thermo_modify format float %.17g lost error
 thermo {every}
 run {steps}
 """
+)
 
 
 @dataclass
