@@ -149,6 +149,7 @@ class Descent {
   double round_off2() const { return square(kRoundOff) * (2.0 * now_->f.phi + square(now_->size)); }
 
   bool last_step() const {
+    constexpr double kLastStep = 1e-8;  // Newton converges quadratically: after such a step it is there
     for (int i = 0; i < 2; ++i) {
       const double step = std::abs(step_[i]);
       if (step > kLastStep * conditioning_ &&
@@ -287,11 +288,11 @@ class Descent {
 
 ElementStore::ElementStore(const Space<2>& space, SimdLevel level)
     : space_(space),
-      axes_{axis_elements(space, 0), axis_elements(space, 1)},
+      axes_{{space, 0}, {space, 1}},
       kernel_(element_kernel(space.degree(0), space.degree(1), space.rational(), level)),
       rational_(space.rational()),
       functions_(space.functions_per_element()),
-      lines_per_row_((1 + functions_ + 1) / 2),
+      lines_per_row_((row_length(functions_, rational_) + 7) / 8),
       built_(space.element_count(), 0),
       lines_(static_cast<size_t>(space.element_count()) * lines_per_row_) {}
 

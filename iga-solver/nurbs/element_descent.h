@@ -19,8 +19,9 @@ class ElementStore {
     control_points_ = control_points;
     ++version_;
   }
+  const ElementAxis& axis(int i) const { return axes_[i]; }
   const AxisElement& axis(int i, int e) const { return axes_[i][e]; }
-  int count(int i) const { return static_cast<int>(axes_[i].size()); }
+  int count(int i) const { return axes_[i].count(); }
   const ElementKernel& kernel() const { return kernel_; }
   const NodalVectors& control_points() const { return control_points_; }
   bool rational() const { return rational_; }
@@ -34,6 +35,11 @@ class ElementStore {
     const int index = e[0] + count(0) * e[1];
     if (built_[index] != version_) build(e, index);
     return {row(index)};
+  }
+  /// Has the row of an element brought near.
+  void prefetch(const int (&e)[2]) const {
+    const double* numbers = row(e[0] + count(0) * e[1]);
+    for (int line = 0; line < lines_per_row_; ++line) __builtin_prefetch(numbers + 8 * line);
   }
   /// Homogeneous control points (w (P - origin), w), or (P - origin, 0) of a polynomial patch.
   void homogeneous_points(const int (&e)[2], Vector4* out) const;
@@ -53,7 +59,7 @@ class ElementStore {
   void build(const int (&e)[2], int index) const;
 
   const Space<2>& space_;
-  std::vector<AxisElement> axes_[2];
+  ElementAxis axes_[2];
   ElementKernel kernel_;
   bool rational_;
   int functions_, lines_per_row_;

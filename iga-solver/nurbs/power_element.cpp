@@ -3,13 +3,16 @@
 
 namespace nurbs {
 
-std::vector<AxisElement> axis_elements(const Space<2>& space, int direction) {
-  const KnotVector& knots = space.knots(direction);
-  const std::vector<double>&breaks = knots.breaks(), &creases = knots.creases();
-  std::vector<AxisElement> elements(knots.element_count());
+ElementAxis::ElementAxis(const Space<2>& space, int direction)
+    : knots_(space.knots(direction)),
+      count_(knots_.element_count()),
+      front_(knots_.front()),
+      elements_per_length_(count_ / (knots_.back() - knots_.front())),
+      elements_(count_) {
+  const std::vector<double>&breaks = knots_.breaks(), &creases = knots_.creases();
   int crease = 0;
-  for (int e = 0; e < knots.element_count(); ++e) {
-    AxisElement& element = elements[e];
+  for (int e = 0; e < count_; ++e) {
+    AxisElement& element = elements_[e];
     element.begin = breaks[e], element.end = breaks[e + 1];
     element.half_width = 0.5 * (element.end - element.begin);
     element.per_half_width = 1.0 / element.half_width;
@@ -17,12 +20,16 @@ std::vector<AxisElement> axis_elements(const Space<2>& space, int direction) {
     if (element.begin >= creases[crease + 1]) ++crease;
     element.low = creases[crease] == element.begin ? -1.0 : local(creases[crease]);
     element.high = creases[crease + 1] == element.end ? 1.0 : local(creases[crease + 1]);
-    element.first = knots.span_of_element(e) - knots.degree();
-    element.at_end[0] = e == 0, element.at_end[1] = e + 1 == knots.element_count();
+    element.first = knots_.span_of_element(e) - knots_.degree();
+    element.at_end[0] = e == 0, element.at_end[1] = e + 1 == count_;
     element.bezier = space.functions(direction, e).bezier;
     element.power = space.functions(direction, e).power;
   }
-  return elements;
+}
+
+void ElementAxis::search(double xi, int& e, double& s) const {
+  e = knots_.element_at(xi);
+  s = elements_[e].local(xi);
 }
 
 }  // namespace nurbs

@@ -27,13 +27,39 @@ struct AxisElement {
   double parameter(double s) const {
     return s <= -1.0 ? begin : s >= 1.0 ? end : begin + half_width * (1.0 + s);
   }
-  /// The coordinate s nearest to xi.
   /// Whether a parameter of the element is that of the patch's end (it may be, by rounding, where |s| < 1).
   bool at_patch_end(double xi) const { return (at_end[0] && xi == begin) || (at_end[1] && xi == end); }
+  /// The coordinate s nearest to xi.
   double local(double xi) const {
     return xi <= begin ? -1.0 : xi >= end ? 1.0 : (xi - begin) * per_half_width - 1.0;
   }
 };
-std::vector<AxisElement> axis_elements(const Space<2>& space, int direction);
+
+/// The elements of one direction.
+class ElementAxis {
+ public:
+  ElementAxis(const Space<2>& space, int direction);
+  int count() const { return count_; }
+  const AxisElement& operator[](int e) const { return elements_[e]; }
+  /// Element e of a parameter (KnotVector::element_at), and where in it.
+  void locate(double xi, int& e, double& s) const {
+    // As if all elements were equal; a search where they are not.
+    const double place = (xi - front_) * elements_per_length_;
+    e = place < count_ ? (place > 0.0 ? static_cast<int>(place) : 0) : count_ - 1;
+    const AxisElement& element = elements_[e];
+    if (element.begin <= xi && xi < element.end)
+      s = (xi - element.begin) * element.per_half_width - 1.0;
+    else
+      search(xi, e, s);
+  }
+
+ private:
+  void search(double xi, int& e, double& s) const;
+
+  const KnotVector& knots_;
+  int count_;
+  double front_, elements_per_length_;
+  std::vector<AxisElement> elements_;
+};
 
 }  // namespace nurbs

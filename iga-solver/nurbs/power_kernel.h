@@ -3,8 +3,8 @@
 // are compiled once for each instruction set that simd_level.h knows, and once for each of the degrees 2 x 2
 // and 3 x 3 and for all others.
 //
-// An element is a row of numbers: its origin O (3), its size, then (A_x, A_y, A_z, W) of every coefficient
-// a_ij, i + (p+1) j of them before it; W is 0 in polynomial patches.  Rows are aligned to 64 bytes.
+// An element is a row of numbers: its origin O (3), its size, then (A_x, A_y, A_z), and W of a rational
+// patch, of every coefficient a_ij, i + (p+1) j of them before it.  Rows are aligned to 64 bytes.
 #pragma once
 
 #include "nurbs/max_degree.h"
@@ -23,8 +23,6 @@ struct DistanceJet {
 
 /// phi counts as convex where its curvature is above this; a plane has 1.
 constexpr double kLeastCurvature = 1e-10;
-/// Newton converges quadratically: after such a step it is there.
-constexpr double kLastStep = 1e-8;
 /// A tangent shorter than this part of the element's size vanishes, as at a pole.
 constexpr double kPole = 1e-6;
 /// Armijo's condition: the part of the predicted decrease that a step must bring.
@@ -42,15 +40,29 @@ struct ElementNet {
   int stride;             ///< from one row of the patch's control points to the next
 };
 
-/// One point of a Newton iteration inside one element.
-struct NewtonPoint {
-  const double* element;
-  const double* d;  ///< the point (3)
-  double s[2];      ///< where to start; then the foot, or the last point accepted
-  double r[4];      ///< S - d at the foot; the fourth number means nothing
-  int iterations;   ///< 0 if the first step already needs more than this iteration
-  bool done;        ///< the foot is found
-  int e[2];         ///< which element it is: for the caller
+/// Numbers of an element's row.
+constexpr int row_length(int coefficients, bool rational) {
+  return 4 + (rational ? 4 * coefficients : 3 * coefficients + 1);  // the last is read with three others
+}
+
+/// Where a Newton iteration inside one element ends.
+struct NewtonEnd {
+  alignas(32) double foot[3];  ///< S
+  double distance;             ///< |S - d|
+  double s[2];                 ///< the foot's, or those of the last point accepted
+  int iterations;              ///< 0 if the first step already needs more than this iteration
+  bool done;                   ///< the foot is found
+};
+
+/// Many iterations, number by number.
+struct NewtonBatch {
+  static constexpr int kCapacity = 64;  // a multiple of the length of every word
+
+  int count;
+  const double *element[kCapacity], *d[kCapacity];
+  alignas(64) double s[2][kCapacity];  ///< where to start; then as in NewtonEnd
+  double foot[3][kCapacity], distance[kCapacity];
+  long long iterations[kCapacity], done[kCapacity];
 };
 
 /// The functions for one pair of degrees and one instruction set.
@@ -66,10 +78,11 @@ struct ElementKernel {
   void (*evaluate)(int p, int q, const double* element, const double (&s)[2], const double (&d)[3],
                    DistanceJet& out);
   /// Newton's method while phi is convex and every full step stays inside the element and leads downhill:
-  /// nearly all warm searches.  The general descent does the rest (element_descent.h).
-  void (*newton)(int p, int q, NewtonPoint& point);
+  /// nearly all warm searches.  The general descent does the rest (element_descent.h).  The start (s0, s1)
+  /// comes by value: numbers just written one by one cannot be read back as a word without waiting.
+  void (*newton)(int p, int q, const double* element, const double* d, double s0, double s1, NewtonEnd& end);
   /// The same for many points, several in a SIMD word, each in any element.
-  void (*newton_batch)(int p, int q, NewtonPoint* points, int count);
+  void (*newton_batch)(int p, int q, NewtonBatch& batch);
 };
 
 /// Throws std::invalid_argument if this machine does not have the instruction set.

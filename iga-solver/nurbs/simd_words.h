@@ -32,6 +32,9 @@ typedef Word<4>::Numbers Vector4;
 [[gnu::always_inline]] inline Vector4 load3(const double* numbers) {
   return Vector4{numbers[0], numbers[1], numbers[2], 0.0};
 }
+[[gnu::always_inline]] inline Vector4 with_fourth(const Vector4& v, double w) {
+  return Vector4{v[0], v[1], v[2], w};
+}
 #else
 struct Vector4 {
   Word<2>::Numbers xy, zw;
@@ -50,6 +53,9 @@ struct Vector4 {
 [[gnu::always_inline]] inline Vector4 load3(const double* numbers) {
   return {Word<2>::Numbers{numbers[0], numbers[1]}, Word<2>::Numbers{numbers[2], 0.0}};
 }
+[[gnu::always_inline]] inline Vector4 with_fourth(const Vector4& v, double w) {
+  return {v.xy, Word<2>::Numbers{v.zw[0], w}};
+}
 #endif
 
 [[gnu::always_inline]] inline Vector4 load(const double* numbers) {  // of any alignment
@@ -57,8 +63,14 @@ struct Vector4 {
   __builtin_memcpy(&v, numbers, sizeof v);
   return v;
 }
-[[gnu::always_inline]] inline void store(const Vector4& v, double* numbers) {
+template <class Numbers, class Number>
+[[gnu::always_inline]] inline void store(const Numbers& v, Number* numbers) {
   __builtin_memcpy(numbers, &v, sizeof v);
+}
+[[gnu::always_inline]] inline Lanes load_lanes(const double* numbers) {
+  Lanes v;
+  __builtin_memcpy(&v, numbers, sizeof v);
+  return v;
 }
 
 [[gnu::always_inline]] inline LaneVector operator+(const LaneVector& a, const LaneVector& b) {
@@ -69,6 +81,9 @@ struct Vector4 {
 }
 [[gnu::always_inline]] inline LaneVector operator*(const Lanes& f, const LaneVector& a) {
   return {f * a.x, f * a.y, f * a.z};
+}
+[[gnu::always_inline]] inline LaneVector operator*(const LaneVector& a, const LaneVector& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
 }
 [[gnu::always_inline]] inline Lanes dot(const LaneVector& a, const LaneVector& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -100,6 +115,11 @@ bool any(const LaneMask& mask) {
 template <class Number>
 [[gnu::always_inline]] inline Number larger(const Number& a, const Number& b) {
   return a > b ? a : b;
+}
+[[gnu::always_inline]] inline Lanes root(const Lanes& x) {
+  Lanes y;
+  for (int lane = 0; lane < kLanes; ++lane) y[lane] = __builtin_sqrt(x[lane]);
+  return y;
 }
 template <class Number>
 [[gnu::always_inline]] inline Number square(const Number& x) {
@@ -137,6 +157,20 @@ void transpose(const Vector4 (&rows)[N], typename Word<N>::Numbers (&out)[4]) {
   } else {
     for (int c = 0; c < 4; ++c) out[c] = Numbers{rows[0][c], rows[1][c]};
   }
+}
+
+/// The sum over x, y, z of each.
+[[gnu::always_inline]] inline void sums(const LaneVector (&a)[4], Lanes (&out)[4]) {
+  for (int k = 0; k < 4; ++k) out[k] = a[k].x + a[k].y + a[k].z;
+}
+[[gnu::always_inline]] inline void sums(const Vector4 (&a)[4], double (&out)[4]) {
+#if defined(__AVX2__)
+  Vector4 c[4];
+  transpose(a, c);
+  store(c[0] + c[1] + c[2], out);
+#else
+  for (int k = 0; k < 4; ++k) out[k] = a[k][0] + a[k][1] + a[k][2];
+#endif
 }
 
 }  // namespace

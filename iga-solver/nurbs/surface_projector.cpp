@@ -75,22 +75,16 @@ void SurfaceProjector::set_control_points(const Eigen::Ref<const NodalVectors>& 
   ++version_;
 }
 
-// Where Newton alone has found the foot, it is inside an element.
-inline void SurfaceProjector::take_foot(const NewtonPoint& point, Projection& out) const {
-  double r2 = 0.0;
+// Parameters and status where Newton alone has found the foot: inside an element.
+inline void SurfaceProjector::take_parameters(const int (&e)[2], const double (&s)[2],
+                                              Projection& out) const {
   int borders = 0;
   for (int i = 0; i < 2; ++i) {
-    const AxisElement& element = elements_.axis(i, point.e[i]);
-    out.xi[i] = element.parameter(point.s[i]);
-    borders += element.at_patch_end(out.xi[i]);
+    const AxisElement& element = elements_.axis(i, e[i]);
+    out.xi[i] = std::min(element.begin + element.half_width * (1.0 + s[i]), element.end);
+    if (element.at_end[0] || element.at_end[1]) borders += element.at_patch_end(out.xi[i]);
   }
-  for (int c = 0; c < 3; ++c) {
-    out.foot[c] = point.d[c] + point.r[c];
-    r2 += point.r[c] * point.r[c];
-  }
-  out.distance = std::sqrt(r2);
   out.status = kByBorders[borders];
-  out.iterations = point.iterations;
 }
 
 Projection SurfaceProjector::projection(const Vector3& d, const DescentResult& found) const {
@@ -108,22 +102,32 @@ Projection SurfaceProjector::projection(const Vector3& d, const DescentResult& f
   return result;
 }
 
+inline void SurfaceProjector::newton(const Vector3& d, const LocalPoint& start, NewtonEnd& end) const {
+  const ElementKernel& kernel = elements_.kernel();
+  kernel.newton(kernel.p, kernel.q, elements_.element(start.e).row, d.data(), start.s[0], start.s[1], end);
+}
+
+void SurfaceProjector::take_foot(const NewtonEnd& end, const int (&e)[2], Projection& out) const {
+  for (int c = 0; c < 3; ++c) out.foot[c] = end.foot[c];
+  out.distance = end.distance;
+  out.iterations = end.iterations;
+  take_parameters(e, end.s, out);
+}
+
 // The general descent goes on from where Newton has left off.
-DescentResult SurfaceProjector::descend_after(const Vector3& d, const NewtonPoint& point) const {
-  DescentResult found =
-      descend_past_poles(elements_, d, {{point.e[0], point.e[1]}, {point.s[0], point.s[1]}});
-  found.iterations += point.iterations;
+DescentResult SurfaceProjector::descend_after(const Vector3& d, const int (&e)[2], const double (&s)[2],
+                                              int iterations) const {
+  DescentResult found = descend_past_poles(elements_, d, {{e[0], e[1]}, {s[0], s[1]}});
+  found.iterations += iterations;
   return found;
 }
 
 SurfaceProjector::Foot SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& start) const {
-  const ElementKernel& kernel = elements_.kernel();
-  NewtonPoint point;
-  start_newton(d, start, point);
-  kernel.newton(kernel.p, kernel.q, point);
-  if (!point.done) return foot(d, descend_after(d, point));
-  Foot foot{{}, DescentEnd::minimum, {{start.e[0], start.e[1]}, {point.s[0], point.s[1]}}};
-  take_foot(point, foot.point);
+  NewtonEnd end;
+  newton(d, start, end);
+  if (!end.done) return foot(d, descend_after(d, start.e, end.s, end.iterations));
+  Foot foot{{}, DescentEnd::minimum, {{start.e[0], start.e[1]}, {end.s[0], end.s[1]}}};
+  take_foot(end, start.e, foot.point);
   return foot;
 }
 
@@ -135,33 +139,41 @@ Projection SurfaceProjector::minimum_or_global(const Vector3& d, const DescentRe
   return found.end == DescentEnd::minimum ? projection(d, found) : global(d, foot(d, found));
 }
 
-Projection SurfaceProjector::warm(const Vector3& d, const Parameter<2>& guess) const {
-  const ElementKernel& kernel = elements_.kernel();
-  NewtonPoint point;
+Projection SurfaceProjector::warm_from(const Vector3& d, const LocalPoint& start) const {
   Projection result;
-  start_newton(d, local(guess), point);
-  kernel.newton(kernel.p, kernel.q, point);
-  if (point.done)
-    take_foot(point, result);
+  NewtonEnd end;
+  newton(d, start, end);
+  if (end.done)
+    take_foot(end, start.e, result);
   else
-    result = minimum_or_global(d, descend_after(d, point));
+    result = minimum_or_global(d, descend_after(d, start.e, end.s, end.iterations));
   return result;
 }
 
 void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses, int count,
                                   Projection* out) const {
-  constexpr int kChunk = 64;  // a multiple of the length of every word
   const ElementKernel& kernel = elements_.kernel();
-  NewtonPoint points[kChunk];
-  for (; count > 0; d += kChunk, guesses += kChunk, out += kChunk, count -= kChunk) {
-    const int n = std::min(kChunk, count);
-    for (int k = 0; k < n; ++k) start_newton(d[k], local(guesses[k]), points[k]);
-    kernel.newton_batch(kernel.p, kernel.q, points, n);
-    for (int k = 0; k < n; ++k)
-      if (points[k].done)
-        take_foot(points[k], out[k]);
-      else
-        out[k] = minimum_or_global(d[k], descend_after(d[k], points[k]));
+  NewtonBatch batch;
+  int e[NewtonBatch::kCapacity][2];
+  for (; count > 0; count -= batch.count, d += batch.count, guesses += batch.count, out += batch.count) {
+    batch.count = std::min(NewtonBatch::kCapacity, count);
+    for (int k = 0; k < batch.count; ++k) {
+      for (int i = 0; i < 2; ++i) elements_.axis(i).locate(guesses[k][i], e[k][i], batch.s[i][k]);
+      batch.element[k] = elements_.element(e[k]).row;
+      batch.d[k] = d[k].data();
+    }
+    kernel.newton_batch(kernel.p, kernel.q, batch);
+    for (int k = 0; k < batch.count; ++k) {
+      const double s[2] = {batch.s[0][k], batch.s[1][k]};
+      if (batch.done[k]) {
+        for (int c = 0; c < 3; ++c) out[k].foot[c] = batch.foot[c][k];
+        out[k].distance = batch.distance[k];
+        out[k].iterations = static_cast<int>(batch.iterations[k]);
+        take_parameters(e[k], s, out[k]);
+      } else {
+        out[k] = minimum_or_global(d[k], descend_after(d[k], e[k], s, static_cast<int>(batch.iterations[k])));
+      }
+    }
   }
 }
 

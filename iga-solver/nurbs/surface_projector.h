@@ -42,7 +42,15 @@ class SurfaceProjector {
   void set_control_points(const Eigen::Ref<const NodalVectors>& control_points);
 
   /// Local minimum reached from `guess`, not above it; the global one where the descent gets stuck.
-  Projection warm(const Vector3& d, const Parameter<2>& guess) const;
+  Projection warm(const Vector3& d, const Parameter<2>& guess) const { return warm_from(d, start(guess)); }
+  /// The same in two parts.  A loop that asks for the start of its next point before it searches for this one
+  /// does not wait for memory: start() has the element fetched.
+  LocalPoint start(const Parameter<2>& guess) const {
+    const LocalPoint at = local(guess);
+    elements_.prefetch(at.e);
+    return at;
+  }
+  Projection warm_from(const Vector3& d, const LocalPoint& start) const;
   /// The same for `count` points, several at a time; equal to warm() but for round-off.
   void warm_batch(const Vector3* d, const Parameter<2>* guesses, int count, Projection* out) const;
   /// Global minimum, by the tree.
@@ -68,19 +76,16 @@ class SurfaceProjector {
   struct Search;
 
   LocalPoint local(const Parameter<2>& xi) const {
-    const int e[2] = {space_.knots(0).element_at(xi[0]), space_.knots(1).element_at(xi[1])};
-    return {{e[0], e[1]}, {elements_.axis(0, e[0]).local(xi[0]), elements_.axis(1, e[1]).local(xi[1])}};
+    LocalPoint at;
+    for (int i = 0; i < 2; ++i) elements_.axis(i).locate(xi[i], at.e[i], at.s[i]);
+    return at;
   }
-  // Fills numbers in place: to copy a struct just written in parts waits for all stores.
-  void start_newton(const Vector3& d, const LocalPoint& start, NewtonPoint& point) const {
-    point.element = elements_.element(start.e).row;
-    point.d = d.data();
-    point.e[0] = start.e[0], point.e[1] = start.e[1];
-    point.s[0] = start.s[0], point.s[1] = start.s[1];
-  }
-  void take_foot(const NewtonPoint& point, Projection& out) const;
+  void newton(const Vector3& d, const LocalPoint& start, NewtonEnd& end) const;
+  void take_foot(const NewtonEnd& end, const int (&e)[2], Projection& out) const;
+  void take_parameters(const int (&e)[2], const double (&s)[2], Projection& out) const;
   Projection projection(const Vector3& d, const DescentResult& found) const;
-  DescentResult descend_after(const Vector3& d, const NewtonPoint& point) const;
+  DescentResult descend_after(const Vector3& d, const int (&e)[2], const double (&s)[2],
+                              int iterations) const;
   Foot foot_from(const Vector3& d, const LocalPoint& start) const;
   Foot foot(const Vector3& d, const DescentResult& found) const;
   Projection minimum_or_global(const Vector3& d, const DescentResult& found) const;
