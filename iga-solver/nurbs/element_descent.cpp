@@ -300,12 +300,12 @@ void ElementStore::homogeneous_points(const int (&e)[2], Vector4* out) const {
   static const Eigen::Matrix<double, kMaxDegree + 1, kMaxDegree + 1, Eigen::RowMajor> identity =
       Eigen::MatrixXd::Identity(kMaxDegree + 1, kMaxDegree + 1);
   const auto* I = reinterpret_cast<const ElementKernel::Matrix*>(identity.data());
-  kernel_.transform(kernel_.p, kernel_.q, I, I, net(e), out->data());
+  kernel_.transform(kernel_.p, kernel_.q, I, I, net(e[0], e[1]), out->data());
 }
 
-void ElementStore::build(const int (&e)[2], int index) const {
+void ElementStore::build(int e0, int e1, int index) const {
   if (control_points_.cols() == 0) throw std::logic_error("no control points given before the first search");
-  kernel_.build(kernel_.p, kernel_.q, axis(0, e[0]).power, axis(1, e[1]).power, net(e), row(index));
+  kernel_.build(kernel_.p, kernel_.q, axis(0, e0).functions->power, axis(1, e1).functions->power, net(e0, e1), row(index));
   built_[index] = version_;
 }
 

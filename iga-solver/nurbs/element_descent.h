@@ -31,20 +31,20 @@ class ElementStore {
     Vector4 origin() const { return {row[0], row[1], row[2], 0.0}; }
     double size() const { return row[3]; }  ///< length of the half extents, roughly
   };
-  Element element(const int (&e)[2]) const {
-    const int index = e[0] + count(0) * e[1];
-    if (built_[index] != version_) build(e, index);
+  Element element(const int (&e)[2]) const { return element(e[0], e[1]); }
+  Element element(int e0, int e1) const {
+    const int index = e0 + count(0) * e1;
+    if (built_[index] != version_) build(e0, e1, index);
     return {row(index)};
   }
-  /// Has the row of an element brought near.
-  void prefetch(const int (&e)[2]) const {
-    const double* numbers = row(e[0] + count(0) * e[1]);
-    for (int line = 0; line < lines_per_row_; ++line) __builtin_prefetch(numbers + 8 * line);
+  /// Has the processor fetch an element's numbers.
+  void prefetch(const Element& element) const {
+    for (int line = 0; line < lines_per_row_; ++line) __builtin_prefetch(element.row + 8 * line);
   }
   /// Homogeneous control points (w (P - origin), w), or (P - origin, 0) of a polynomial patch.
   void homogeneous_points(const int (&e)[2], Vector4* out) const;
-  ElementNet net(const int (&e)[2]) const {
-    const int n = space_.control_point_count(0), first = axis(0, e[0]).first + n * axis(1, e[1]).first;
+  ElementNet net(int e0, int e1) const {
+    const int n = space_.control_point_count(0), first = axis(0, e0).first + n * axis(1, e1).first;
     const double* points = control_points_.data() + 3 * first;
     return {points, points + 3 * (kernel_.p / 2 + n * (kernel_.q / 2)),
             rational_ ? space_.weights().data() + first : nullptr, n};
@@ -56,7 +56,7 @@ class ElementStore {
   };
 
   double* row(int index) const { return lines_[static_cast<size_t>(index) * lines_per_row_].numbers; }
-  void build(const int (&e)[2], int index) const;
+  void build(int e0, int e1, int index) const;
 
   const Space<2>& space_;
   ElementAxis axes_[2];

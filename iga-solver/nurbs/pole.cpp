@@ -50,7 +50,7 @@ class PoleElement {
     flat_ = kFlat * scale_;
     for (int k = 0; k <= n[i]; ++k) {
       b_[k] = 0.0;
-      for (int m = 0; m <= n[i]; ++m) b_[k] += elements.axis(i, e[i]).bezier[k][m] * slopes[m];
+      for (int m = 0; m <= n[i]; ++m) b_[k] += elements.axis(i, e[i]).functions->bezier[k][m] * slopes[m];
     }
     n_ = n[i];
   }

@@ -8,6 +8,7 @@ ElementAxis::ElementAxis(const Space<2>& space, int direction)
       count_(knots_.element_count()),
       front_(knots_.front()),
       elements_per_length_(count_ / (knots_.back() - knots_.front())),
+      last_(count_ - 1),
       elements_(count_) {
   const std::vector<double>&breaks = knots_.breaks(), &creases = knots_.creases();
   int crease = 0;
@@ -22,14 +23,13 @@ ElementAxis::ElementAxis(const Space<2>& space, int direction)
     element.high = creases[crease + 1] == element.end ? 1.0 : local(creases[crease + 1]);
     element.first = knots_.span_of_element(e) - knots_.degree();
     element.at_end[0] = e == 0, element.at_end[1] = e + 1 == count_;
-    element.bezier = space.functions(direction, e).bezier;
-    element.power = space.functions(direction, e).power;
+    element.functions = &space.functions(direction, e);
   }
 }
 
-void ElementAxis::search(double xi, int& e, double& s) const {
-  e = knots_.element_at(xi);
-  s = elements_[e].local(xi);
+ElementAxis::Place ElementAxis::search(double xi) const {
+  const int e = knots_.element_at(xi);
+  return {e, elements_[e].local(xi)};
 }
 
 }  // namespace nurbs

@@ -20,9 +20,9 @@ struct AxisElement {
   double half_width;  ///< d xi / d s
   double per_half_width;
   double low, high;  ///< local coordinates of the creases or ends before and after; -1, 1 if its own ends
-  const double (*bezier)[kMaxDegree + 1], (*power)[kMaxDegree + 1];  ///< of ElementFunctions
-  int first;                                                         ///< index of its first control point
-  bool at_end[2];                                                    ///< begin, end is an end of the patch
+  const ElementFunctions* functions;
+  int first;       ///< index of its first control point
+  bool at_end[2];  ///< begin, end is an end of the patch
 
   double parameter(double s) const {
     return s <= -1.0 ? begin : s >= 1.0 ? end : begin + half_width * (1.0 + s);
@@ -41,24 +41,27 @@ class ElementAxis {
   ElementAxis(const Space<2>& space, int direction);
   int count() const { return count_; }
   const AxisElement& operator[](int e) const { return elements_[e]; }
-  /// Element e of a parameter (KnotVector::element_at), and where in it.
-  void locate(double xi, int& e, double& s) const {
+  struct Place {
+    int e;
+    double s;
+  };
+  /// The element of a parameter (KnotVector::element_at), and where in it.
+  Place locate(double xi) const {
     // As if all elements were equal; a search where they are not.
     const double place = (xi - front_) * elements_per_length_;
-    e = place < count_ ? (place > 0.0 ? static_cast<int>(place) : 0) : count_ - 1;
+    const int e = place < last_ ? (place > 0.0 ? static_cast<int>(place) : 0) : count_ - 1;
     const AxisElement& element = elements_[e];
     if (element.begin <= xi && xi < element.end)
-      s = (xi - element.begin) * element.per_half_width - 1.0;
-    else
-      search(xi, e, s);
+      return {e, (xi - element.begin) * element.per_half_width - 1.0};
+    return search(xi);
   }
 
  private:
-  void search(double xi, int& e, double& s) const;
+  Place search(double xi) const;
 
   const KnotVector& knots_;
   int count_;
-  double front_, elements_per_length_;
+  double front_, elements_per_length_, last_;
   std::vector<AxisElement> elements_;
 };
 

@@ -174,7 +174,7 @@ constexpr double kTiny = 1e-12;
 
 template <class Surface>
 struct Foot {
-  typename Surface::Number s[2];
+  typename Surface::Number s[2], next[2], distance2;
   typename Surface::Vector r;
   typename Surface::Count iterations;
   typename Surface::Mask done;
@@ -203,6 +203,7 @@ template <class Surface>
       s[0] = active ? to[0] : s[0];
       s[1] = active ? to[1] : s[1];
     }
+    twice_phi = active ? f.twice_phi : twice_phi;
     const Number(&g)[2] = f.g, (&A)[2] = f.A, (&H)[3] = f.H;
     det = H[0] * H[2] - H[1] * H[1];
     step[0] = (H[1] * g[1] - H[2] * g[0]) / det;  // -H^-1 g
@@ -226,8 +227,7 @@ template <class Surface>
     if (iteration == kMaxIterations) break;
     to[0] = active ? to[0] : s[0];
     to[1] = active ? to[1] : s[1];
-    twice_phi = f.twice_phi;
-    allowed = 0.5 * twice_phi + kDecrease * (g[0] * step[0] + g[1] * step[1]);
+    allowed = 0.5 * f.twice_phi + kDecrease * (g[0] * step[0] + g[1] * step[1]);
   }
   // Once more with the same Hessian: the error shrinks by as much as this step is shorter than the last.
   const Number end[2] = {s[0] + step[0], s[1] + step[1]};
@@ -238,8 +238,11 @@ template <class Surface>
   const Number longer = larger(absolute(more[0]), absolute(more[1]));
   done = done && square(longer) <= kFootError * length + square(kTiny) &&
          larger(absolute(further[0]), absolute(further[1])) < kWellInside;
+  const typename Surface::Vector r = S.f + more[0] * S.f_0 + more[1] * S.f_1;
   return {{done ? further[0] : s[0], done ? further[1] : s[1]},
-          S.f + more[0] * S.f_0 + more[1] * S.f_1,
+          {end[0], end[1]},
+          done ? dot(r, r) : twice_phi,
+          r,
           iterations,
           done};
 }
@@ -317,8 +320,8 @@ void newton(int p, int q, const double* element, const double* point, double s0,
   const Element<P, Q, Rational> surface(p, q, element, d);
   double s[2] = {s0, s1};
   const auto foot = newton(surface, s);
-  store(with_fourth(d + foot.r, __builtin_sqrt(dot(foot.r, foot.r))), end.foot);  // and the distance
-  for (int i = 0; i < 2; ++i) end.s[i] = foot.s[i];
+  store(with_fourth(d + foot.r, __builtin_sqrt(foot.distance2)), end.foot);  // and the distance
+  for (int i = 0; i < 2; ++i) end.s[i] = foot.s[i], end.next[i] = foot.next[i];
   end.iterations = foot.iterations;
   end.done = foot.done;
 }
@@ -339,11 +342,12 @@ void newton_batch(int p, int q, NewtonBatch& batch) {
     const auto foot = newton(surface, s);
     store(foot.done, batch.done + first);
     store(foot.iterations, batch.iterations + first);
-    for (int i = 0; i < 2; ++i) store(foot.s[i], batch.s[i] + first);
+    for (int i = 0; i < 2; ++i)
+      store(foot.s[i], batch.s[i] + first), store(foot.next[i], batch.next[i] + first);
     store(d[0] + foot.r.x, batch.foot[0] + first);
     store(d[1] + foot.r.y, batch.foot[1] + first);
     store(d[2] + foot.r.z, batch.foot[2] + first);
-    store(root(dot(foot.r, foot.r)), batch.distance + first);
+    store(root(foot.distance2), batch.distance + first);
   }
 }
 

@@ -48,8 +48,9 @@ constexpr int row_length(int coefficients, bool rational) {
 /// Where a Newton iteration inside one element ends.
 struct NewtonEnd {
   alignas(32) double foot[3];  ///< S
-  double distance;             ///< |S - d|
+  double distance;             ///< |S - d|; that of the last point accepted if there is no foot
   double s[2];                 ///< the foot's, or those of the last point accepted
+  double next[2];              ///< where a step from there leads, outside perhaps
   int iterations;              ///< 0 if the first step already needs more than this iteration
   bool done;                   ///< the foot is found
 };
@@ -61,8 +62,13 @@ struct NewtonBatch {
   int count;
   const double *element[kCapacity], *d[kCapacity];
   alignas(64) double s[2][kCapacity];  ///< where to start; then as in NewtonEnd
-  double foot[3][kCapacity], distance[kCapacity];
+  double next[2][kCapacity], foot[3][kCapacity], distance[kCapacity];
   long long iterations[kCapacity], done[kCapacity];
+
+  NewtonEnd end(int k) const {
+    return {{foot[0][k], foot[1][k], foot[2][k]}, distance[k], {s[0][k], s[1][k]}, {next[0][k], next[1][k]},
+            static_cast<int>(iterations[k]),      done[k] != 0};
+  }
 };
 
 /// The functions for one pair of degrees and one instruction set.

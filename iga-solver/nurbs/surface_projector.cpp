@@ -14,9 +14,6 @@
 namespace nurbs {
 namespace {
 
-constexpr ProjectionStatus kByBorders[] = {ProjectionStatus::interior, ProjectionStatus::edge,
-                                           ProjectionStatus::corner};
-
 bool close_to_pole(const ElementStore& elements, const LocalPoint& at) {
   constexpr double kClose = 1e-6;  // of an element
   for (int j = 0; j < 2; ++j) {
@@ -75,18 +72,6 @@ void SurfaceProjector::set_control_points(const Eigen::Ref<const NodalVectors>& 
   ++version_;
 }
 
-// Parameters and status where Newton alone has found the foot: inside an element.
-inline void SurfaceProjector::take_parameters(const int (&e)[2], const double (&s)[2],
-                                              Projection& out) const {
-  int borders = 0;
-  for (int i = 0; i < 2; ++i) {
-    const AxisElement& element = elements_.axis(i, e[i]);
-    out.xi[i] = std::min(element.begin + element.half_width * (1.0 + s[i]), element.end);
-    if (element.at_end[0] || element.at_end[1]) borders += element.at_patch_end(out.xi[i]);
-  }
-  out.status = kByBorders[borders];
-}
-
 Projection SurfaceProjector::projection(const Vector3& d, const DescentResult& found) const {
   Projection result;
   int borders = 0;
@@ -102,30 +87,51 @@ Projection SurfaceProjector::projection(const Vector3& d, const DescentResult& f
   return result;
 }
 
-inline void SurfaceProjector::newton(const Vector3& d, const LocalPoint& start, NewtonEnd& end) const {
-  const ElementKernel& kernel = elements_.kernel();
-  kernel.newton(kernel.p, kernel.q, elements_.element(start.e).row, d.data(), start.s[0], start.s[1], end);
-}
-
-void SurfaceProjector::take_foot(const NewtonEnd& end, const int (&e)[2], Projection& out) const {
-  for (int c = 0; c < 3; ++c) out.foot[c] = end.foot[c];
-  out.distance = end.distance;
-  out.iterations = end.iterations;
-  take_parameters(e, end.s, out);
-}
-
-// The general descent goes on from where Newton has left off.
-DescentResult SurfaceProjector::descend_after(const Vector3& d, const int (&e)[2], const double (&s)[2],
-                                              int iterations) const {
-  DescentResult found = descend_past_poles(elements_, d, {{e[0], e[1]}, {s[0], s[1]}});
-  found.iterations += iterations;
+// The general descent, where Newton's method alone has found no foot.
+DescentResult SurfaceProjector::descend_after(const Vector3& d, const LocalPoint& start,
+                                              const NewtonEnd& end) const {
+  DescentResult found = descend_past_poles(elements_, d, {{start.e[0], start.e[1]}, {end.s[0], end.s[1]}});
+  found.iterations += end.iterations;
   return found;
 }
 
+// As a rule the next step leads into a neighbour, and Newton's method ends there.
+Projection SurfaceProjector::beyond(const Vector3& d, const LocalPoint& start, const NewtonEnd& end) const {
+  Start next;
+  if (neighbour(start, end.next, next)) {
+    NewtonEnd there = newton(d, next);
+    if (there.done && there.distance <= end.distance) {
+      there.iterations += end.iterations;
+      Projection result;
+      take_foot(there, next.at.e, result);
+      return result;
+    }
+  }
+  return minimum_or_global(d, descend_after(d, start, end));
+}
+
+// A point beyond its element, in the one where it lies; false if that is none of the next or beyond a crease.
+bool SurfaceProjector::neighbour(const LocalPoint& from, const double (&to)[2], Start& start) const {
+  bool crossed = false;
+  for (int i = 0; i < 2; ++i) {
+    start.at.e[i] = from.e[i], start.at.s[i] = to[i];
+    if (std::abs(to[i]) < 1.0) continue;
+    const int side = to[i] > 0.0 ? 1 : -1;
+    const AxisElement& here = elements_.axis(i, from.e[i]);
+    if (side > 0 ? here.high == 1.0 : here.low == -1.0) return false;
+    const AxisElement& next = elements_.axis(i, from.e[i] + side);
+    start.at.e[i] += side;
+    start.at.s[i] = side * ((side * to[i] - 1.0) * here.half_width * next.per_half_width - 1.0);
+    if (!(std::abs(start.at.s[i]) < 1.0)) return false;
+    crossed = true;
+  }
+  if (crossed) start.element = elements_.element(start.at.e);
+  return crossed;
+}
+
 SurfaceProjector::Foot SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& start) const {
-  NewtonEnd end;
-  newton(d, start, end);
-  if (!end.done) return foot(d, descend_after(d, start.e, end.s, end.iterations));
+  const NewtonEnd end = newton(d, {start, elements_.element(start.e)});
+  if (!end.done) return foot(d, descend_after(d, start, end));
   Foot foot{{}, DescentEnd::minimum, {{start.e[0], start.e[1]}, {end.s[0], end.s[1]}}};
   take_foot(end, start.e, foot.point);
   return foot;
@@ -139,17 +145,6 @@ Projection SurfaceProjector::minimum_or_global(const Vector3& d, const DescentRe
   return found.end == DescentEnd::minimum ? projection(d, found) : global(d, foot(d, found));
 }
 
-Projection SurfaceProjector::warm_from(const Vector3& d, const LocalPoint& start) const {
-  Projection result;
-  NewtonEnd end;
-  newton(d, start, end);
-  if (end.done)
-    take_foot(end, start.e, result);
-  else
-    result = minimum_or_global(d, descend_after(d, start.e, end.s, end.iterations));
-  return result;
-}
-
 void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses, int count,
                                   Projection* out) const {
   const ElementKernel& kernel = elements_.kernel();
@@ -158,21 +153,21 @@ void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses,
   for (; count > 0; count -= batch.count, d += batch.count, guesses += batch.count, out += batch.count) {
     batch.count = std::min(NewtonBatch::kCapacity, count);
     for (int k = 0; k < batch.count; ++k) {
-      for (int i = 0; i < 2; ++i) elements_.axis(i).locate(guesses[k][i], e[k][i], batch.s[i][k]);
-      batch.element[k] = elements_.element(e[k]).row;
-      batch.d[k] = d[k].data();
+      for (int i = 0; i < 2; ++i) {
+        const ElementAxis::Place place = elements_.axis(i).locate(guesses[k][i]);
+        e[k][i] = place.e, batch.s[i][k] = place.s;
+      }
+      const ElementStore::Element element = elements_.element(e[k]);
+      elements_.prefetch(element);
+      batch.element[k] = element.row, batch.d[k] = d[k].data();
     }
     kernel.newton_batch(kernel.p, kernel.q, batch);
     for (int k = 0; k < batch.count; ++k) {
-      const double s[2] = {batch.s[0][k], batch.s[1][k]};
-      if (batch.done[k]) {
-        for (int c = 0; c < 3; ++c) out[k].foot[c] = batch.foot[c][k];
-        out[k].distance = batch.distance[k];
-        out[k].iterations = static_cast<int>(batch.iterations[k]);
-        take_parameters(e[k], s, out[k]);
-      } else {
-        out[k] = minimum_or_global(d[k], descend_after(d[k], e[k], s, static_cast<int>(batch.iterations[k])));
-      }
+      const NewtonEnd end = batch.end(k);
+      if (end.done)
+        take_foot(end, e[k], out[k]);
+      else
+        out[k] = beyond(d[k], local(guesses[k]), end);
     }
   }
 }

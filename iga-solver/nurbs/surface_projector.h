@@ -11,6 +11,7 @@
 // minimum distance between a point and a NURBS curve" (the Bernstein form of the squared distance).
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "nurbs/element_descent.h"
@@ -45,12 +46,25 @@ class SurfaceProjector {
   Projection warm(const Vector3& d, const Parameter<2>& guess) const { return warm_from(d, start(guess)); }
   /// The same in two parts.  A loop that asks for the start of its next point before it searches for this one
   /// does not wait for memory: start() has the element fetched.
-  LocalPoint start(const Parameter<2>& guess) const {
-    const LocalPoint at = local(guess);
-    elements_.prefetch(at.e);
-    return at;
+  struct Start {
+    LocalPoint at;
+    ElementStore::Element element;
+  };
+  Start start(const Parameter<2>& guess) const {
+    const ElementAxis::Place u = elements_.axis(0).locate(guess[0]), v = elements_.axis(1).locate(guess[1]);
+    const ElementStore::Element element = elements_.element(u.e, v.e);
+    elements_.prefetch(element);
+    return {{{u.e, v.e}, {u.s, v.s}}, element};
   }
-  Projection warm_from(const Vector3& d, const LocalPoint& start) const;
+  Projection warm_from(const Vector3& d, const Start& start) const {
+    const NewtonEnd end = newton(d, start);
+    Projection result;
+    if (end.done)
+      take_foot(end, start.at.e, result);
+    else
+      result = beyond(d, start.at, end);
+    return result;
+  }
   /// The same for `count` points, several at a time; equal to warm() but for round-off.
   void warm_batch(const Vector3* d, const Parameter<2>* guesses, int count, Projection* out) const;
   /// Global minimum, by the tree.
@@ -76,16 +90,36 @@ class SurfaceProjector {
   struct Search;
 
   LocalPoint local(const Parameter<2>& xi) const {
-    LocalPoint at;
-    for (int i = 0; i < 2; ++i) elements_.axis(i).locate(xi[i], at.e[i], at.s[i]);
-    return at;
+    const ElementAxis::Place u = elements_.axis(0).locate(xi[0]), v = elements_.axis(1).locate(xi[1]);
+    return {{u.e, v.e}, {u.s, v.s}};
   }
-  void newton(const Vector3& d, const LocalPoint& start, NewtonEnd& end) const;
-  void take_foot(const NewtonEnd& end, const int (&e)[2], Projection& out) const;
-  void take_parameters(const int (&e)[2], const double (&s)[2], Projection& out) const;
+  // Newton's method alone.
+  NewtonEnd newton(const Vector3& d, const Start& start) const {
+    const ElementKernel& kernel = elements_.kernel();
+    NewtonEnd end;
+    kernel.newton(kernel.p, kernel.q, start.element.row, d.data(), start.at.s[0], start.at.s[1], end);
+    return end;
+  }
+  void take_foot(const NewtonEnd& end, const int (&e)[2], Projection& out) const {
+    for (int c = 0; c < 3; ++c) out.foot[c] = end.foot[c];
+    out.distance = end.distance;
+    out.iterations = end.iterations;
+    take_parameters(e, end.s, out);
+  }
+  // Parameters and status of a foot inside an element.
+  void take_parameters(const int (&e)[2], const double (&s)[2], Projection& out) const {
+    int borders = 0;
+    for (int i = 0; i < 2; ++i) {
+      const AxisElement& element = elements_.axis(i, e[i]);
+      out.xi[i] = std::min(element.begin + element.half_width * (1.0 + s[i]), element.end);
+      if (e[i] == 0 || e[i] == elements_.count(i) - 1) borders += element.at_patch_end(out.xi[i]);
+    }
+    out.status = kByBorders[borders];
+  }
   Projection projection(const Vector3& d, const DescentResult& found) const;
-  DescentResult descend_after(const Vector3& d, const int (&e)[2], const double (&s)[2],
-                              int iterations) const;
+  Projection beyond(const Vector3& d, const LocalPoint& start, const NewtonEnd& end) const;
+  bool neighbour(const LocalPoint& from, const double (&to)[2], Start& start) const;
+  DescentResult descend_after(const Vector3& d, const LocalPoint& start, const NewtonEnd& end) const;
   Foot foot_from(const Vector3& d, const LocalPoint& start) const;
   Foot foot(const Vector3& d, const DescentResult& found) const;
   Projection minimum_or_global(const Vector3& d, const DescentResult& found) const;
@@ -110,6 +144,9 @@ class SurfaceProjector {
   bool touches_region_border(const DistancePolynomial& F) const;
   bool holds(const DistancePolynomial& F, const Parameter<2>& xi) const;
   void start_from(const LocalPoint& start, Search& search) const;
+
+  static constexpr ProjectionStatus kByBorders[] = {ProjectionStatus::interior, ProjectionStatus::edge,
+                                                    ProjectionStatus::corner};
 
   const Space<2>& space_;
   ElementStore elements_;

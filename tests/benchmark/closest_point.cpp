@@ -5,6 +5,7 @@
 // is within 1e-6 of an element.
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -78,6 +79,26 @@ void add_search(Case& c, const std::string& name, Search search) {
   });
 }
 
+/// Warm feet one by one, as a loop over contacts finds them: the start of the next while this one is
+/// searched.
+void add_warm(Case& c, const std::string& name, const nurbs::SurfaceProjector& ours) {
+  auto right = std::make_shared<std::optional<double>>();
+  benchmark::RegisterBenchmark((name + c.label).c_str(), [&c, &ours, right](benchmark::State& state) {
+    if (!*right) *right = fraction_right(c, [&](const Query& q) { return ours.warm(q.d, q.guess).foot; });
+    size_t i = 0;
+    nurbs::SurfaceProjector::Start start = ours.start(c.queries[0].guess);
+    while (state.KeepRunningBatch(kBatch))
+      for (int k = 0; k < kBatch; ++k) {
+        const Query& query = c.queries[i];
+        if (++i == c.queries.size()) i = 0;
+        const nurbs::SurfaceProjector::Start next = ours.start(c.queries[i].guess);
+        benchmark::DoNotOptimize(ours.warm_from(query.d, start).foot);
+        start = next;
+      }
+    state.counters["right"] = **right;
+  });
+}
+
 /// Feet of all points, kBatch at a time.
 void add_batch(Case& c, const std::string& name, const nurbs::SurfaceProjector& ours) {
   auto right = std::make_shared<std::optional<double>>();
@@ -104,14 +125,14 @@ void add_levels(Case& c) {
     c.levels.push_back(std::make_unique<nurbs::SurfaceProjector>(c.surface.space, level));
     const nurbs::SurfaceProjector& ours = *c.levels.back();
     c.levels.back()->set_control_points(c.surface.control_points);
-    add_search(c, std::string("warm/") + nurbs::name(level),
-               [&ours](const Query& q) { return ours.warm(q.d, q.guess).foot; });
+    add_warm(c, std::string("warm/") + nurbs::name(level), ours);
     add_batch(c, std::string("batch/") + nurbs::name(level), ours);
   }
 }
 
 void add_searches(Case& c) {
-  add_search(c, "warm/ours", [&c](const Query& q) { return c.ours.warm(q.d, q.guess).foot; });
+  add_warm(c, "warm/ours", c.ours);
+  add_search(c, "warm_call/ours", [&c](const Query& q) { return c.ours.warm(q.d, q.guess).foot; });
   add_batch(c, "batch/ours", c.ours);
   add_search(c, "nearest/ours", [&c](const Query& q) { return c.ours.nearest(q.d, q.guess).foot; });
   add_search(c, "warm/opencascade", [&c](const Query& q) { return c.opencascade.warm(q.d, q.guess); });
@@ -167,9 +188,13 @@ void add_steps(Case& c) {
     while (state.KeepRunningBatch(kPoints)) {
       c.ours.set_control_points(c.surface.control_points);
       f.setZero();
-      for (const Query& query : c.queries) {
-        const nurbs::Projection contact = c.ours.warm(query.d, query.guess);
+      nurbs::SurfaceProjector::Start start = c.ours.start(c.queries[0].guess);
+      for (size_t i = 0; i < c.queries.size(); ++i) {
+        const Query &query = c.queries[i], &after = c.queries[std::min(i + 1, c.queries.size() - 1)];
+        const nurbs::SurfaceProjector::Start next = c.ours.start(after.guess);
+        const nurbs::Projection contact = c.ours.warm_from(query.d, start);
         coupling::FootBasis(c.surface.space, contact.xi).distribute(contact.foot - query.d, f);
+        start = next;
       }
       benchmark::DoNotOptimize(f.data());
     }

@@ -28,6 +28,7 @@ OPTIONS = [
 ]
 TITLES = {
     "warm/ours": "warm",
+    "warm_call/ours": "warm_call",
     "batch/ours": "warm_batch",
     "warm/portable": "warm_portable",
     "warm/avx2": "warm_avx2",
@@ -47,9 +48,8 @@ TITLES = {
     "step_batch/ours": "rebuild_batch_projection_distribution_per_contact",
 }
 LEVELS = ("portable", "avx2", "avx512")  # instruction sets; timed where the machine has them
-SEARCHES = [
-    what for what in TITLES if what.startswith(("warm/", "batch/", "nearest/", "cold/")) and not what.endswith(LEVELS)
-]
+KINDS = ("warm/", "warm_call/", "batch/", "nearest/", "cold/")
+SEARCHES = [what for what in TITLES if what.startswith(KINDS) and not what.endswith(LEVELS)]
 STEP_TARGET = 110.0  # ns, a prototype's
 
 
