@@ -305,7 +305,8 @@ void ElementStore::homogeneous_points(const int (&e)[2], Vector4* out) const {
 
 void ElementStore::build(int e0, int e1, int index) const {
   if (control_points_.cols() == 0) throw std::logic_error("no control points given before the first search");
-  kernel_.build(kernel_.p, kernel_.q, axis(0, e0).functions->power, axis(1, e1).functions->power, net(e0, e1), row(index));
+  kernel_.build(kernel_.p, kernel_.q, axis(0, e0).functions->power, axis(1, e1).functions->power, net(e0, e1),
+                row(index));
   built_[index] = version_;
 }
 

@@ -158,8 +158,8 @@ const Vector4* SurfaceProjector::bezier_net(int element) const {
   const Indices<2> indices = space_.element_indices(element);
   const int e[2] = {indices[0], indices[1]};
   const ElementKernel& kernel = elements_.kernel();
-  kernel.transform(kernel.p, kernel.q, elements_.axis(0, e[0]).functions->bezier, elements_.axis(1, e[1]).functions->bezier,
-                   elements_.net(e[0], e[1]), net->data());
+  kernel.transform(kernel.p, kernel.q, elements_.axis(0, e[0]).functions->bezier,
+                   elements_.axis(1, e[1]).functions->bezier, elements_.net(e[0], e[1]), net->data());
   for (int a = 0; a < count; ++a) {
     if (!space_.rational()) net[a][3] = 1.0;
     net[a] *= binomials_[a];
