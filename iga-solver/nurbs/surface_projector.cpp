@@ -95,19 +95,25 @@ DescentResult SurfaceProjector::descend_after(const Vector3& d, const LocalPoint
   return found;
 }
 
-// As a rule the next step leads into a neighbour, and Newton's method ends there.
-Projection SurfaceProjector::beyond(const Vector3& d, const LocalPoint& start, const NewtonEnd& end) const {
+// As a rule the next step leads into a neighbour, and Newton's method goes on and ends there.
+bool SurfaceProjector::follow(const Vector3& d, Start& start, NewtonEnd& end) const {
+  constexpr int kMaxNeighbours = 3;
   Start next;
-  if (neighbour(start, end.next, next)) {
+  for (int k = 0; k < kMaxNeighbours && !end.done && neighbour(start.at, end.next, next); ++k) {
     NewtonEnd there = newton(d, next);
-    if (there.done && there.distance <= end.distance) {
-      there.iterations += end.iterations;
-      Projection result;
-      take_foot(there, next.at.e, result);
-      return result;
-    }
+    if (!(there.distance <= end.distance)) break;
+    there.iterations += end.iterations;
+    start = next;
+    end = there;
   }
-  return minimum_or_global(d, descend_after(d, start, end));
+  return end.done;
+}
+
+Projection SurfaceProjector::warm_beyond(const Vector3& d, Start start, NewtonEnd end) const {
+  if (!follow(d, start, end)) return minimum_or_global(d, descend_after(d, start.at, end));
+  Projection result;
+  take_foot(end, start.at.e, result);
+  return result;
 }
 
 // A point beyond its element, in the one where it lies; false if that is none of the next or beyond a crease.
@@ -129,11 +135,12 @@ bool SurfaceProjector::neighbour(const LocalPoint& from, const double (&to)[2], 
   return crossed;
 }
 
-SurfaceProjector::Foot SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& start) const {
-  const NewtonEnd end = newton(d, {start, elements_.element(start.e)});
-  if (!end.done) return foot(d, descend_after(d, start, end));
-  Foot foot{{}, DescentEnd::minimum, {{start.e[0], start.e[1]}, {end.s[0], end.s[1]}}};
-  take_foot(end, start.e, foot.point);
+SurfaceProjector::Foot SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& from) const {
+  Start start{from, elements_.element(from.e)};
+  NewtonEnd end = newton(d, start);
+  if (!end.done && !follow(d, start, end)) return foot(d, descend_after(d, start.at, end));
+  Foot foot{{}, DescentEnd::minimum, {{start.at.e[0], start.at.e[1]}, {end.s[0], end.s[1]}}};
+  take_foot(end, start.at.e, foot.point);
   return foot;
 }
 
@@ -167,7 +174,7 @@ void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses,
       if (end.done)
         take_foot(end, e[k], out[k]);
       else
-        out[k] = beyond(d[k], local(guesses[k]), end);
+        out[k] = warm_beyond(d[k], start(guesses[k]), end);
     }
   }
 }

@@ -62,7 +62,7 @@ class SurfaceProjector {
     if (end.done)
       take_foot(end, start.at.e, result);
     else
-      result = beyond(d, start.at, end);
+      result = warm_beyond(d, start, end);
     return result;
   }
   /// The same for `count` points, several at a time; equal to warm() but for round-off.
@@ -117,7 +117,8 @@ class SurfaceProjector {
     out.status = kByBorders[borders];
   }
   Projection projection(const Vector3& d, const DescentResult& found) const;
-  Projection beyond(const Vector3& d, const LocalPoint& start, const NewtonEnd& end) const;
+  bool follow(const Vector3& d, Start& start, NewtonEnd& end) const;
+  Projection warm_beyond(const Vector3& d, Start start, NewtonEnd end) const;
   bool neighbour(const LocalPoint& from, const double (&to)[2], Start& start) const;
   DescentResult descend_after(const Vector3& d, const LocalPoint& start, const NewtonEnd& end) const;
   Foot foot_from(const Vector3& d, const LocalPoint& start) const;
