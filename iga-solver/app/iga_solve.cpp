@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
+#include "command.h"
 #include "io/history.h"
 #include "io/model_file.h"
 #include "structure/stable_time_step.h"
@@ -113,21 +113,14 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Runs the model file of a NURBS solid without particles: explicit, isogeometric.");
-  app.add_option("model", options.model, "model file (YAML)")->required();
-  app.add_option("--end", options.end, "end time, in the model's units (else time: {end} of the model)")
+  CLI::App command("Runs the model file of a NURBS solid without particles: explicit, isogeometric.");
+  command.add_option("model", options.model, "model file (YAML)")->required();
+  command.add_option("--end", options.end, "end time, in the model's units (else time: {end} of the model)")
       ->check(CLI::PositiveNumber);
-  app.add_option("--step", options.step, "largest time step (else time: {step}, else 0.9 of the stable step)")
+  command
+      .add_option("--step", options.step,
+                  "largest time step (else time: {step}, else 0.9 of the stable step)")
       ->check(CLI::PositiveNumber);
-  app.add_flag("--quiet", options.quiet, "print nothing but errors");
-  try {
-    app.parse(argc, argv);
-    run(options);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "ERROR: {}\n", error.what());
-    return 1;
-  }
-  return 0;
+  command.add_flag("--quiet", options.quiet, "print nothing but errors");
+  return app::run_command(command, argc, argv, [&] { run(options); });
 }

@@ -2,11 +2,11 @@
 // nurbs-convert: prints what a geometry file holds, and writes it in another format.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
 #include <stdexcept>
 
+#include "command.h"
 #include "geometry_io/geometry_io.h"
 #include "geometry_summary.h"
 
@@ -58,21 +58,12 @@ void run(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Prints what a geometry file holds, and writes it in another format.");
-  app.add_option("input", options.in, "geometry file: .h5, .hdf5 (HDF5), .xml (G+Smo), else YAML")
+  CLI::App command("Prints what a geometry file holds, and writes it in another format.");
+  command.add_option("input", options.in, "geometry file: .h5, .hdf5 (HDF5), .xml (G+Smo), else YAML")
       ->required();
-  app.add_option("output", options.out, "file to write: .yaml, .yml, .h5, .hdf5 or .xml");
-  app.add_option("--surface", options.surface, "keep the patches of this named surface only");
-  app.add_option("--units", options.units,
-                 "units of a file that has none (G+Smo): si (default), cgs or mm-g-ms");
-  try {
-    app.parse(argc, argv);
-    run(options);
-  } catch (const CLI::Success& success) {
-    return app.exit(success);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "ERROR: {}\n", error.what());
-    return 1;
-  }
-  return 0;
+  command.add_option("output", options.out, "file to write: .yaml, .yml, .h5, .hdf5 or .xml");
+  command.add_option("--surface", options.surface, "keep the patches of this named surface only");
+  command.add_option("--units", options.units,
+                     "units of a file that has none (G+Smo): si (default), cgs or mm-g-ms");
+  return app::run_command(command, argc, argv, [&] { run(options); });
 }
