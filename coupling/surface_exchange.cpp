@@ -8,7 +8,8 @@
 
 namespace coupling {
 
-SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver) : comm_(comm), solver_(solver) {
+SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver, int late_imports)
+    : comm_(comm), solver_(solver), late_imports_(late_imports) {
   int ranks = 1;
   MPI_Comm_size(comm_, &ranks);
   bytes_.resize(ranks);
@@ -21,6 +22,13 @@ SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver) : comm_
 void SurfaceExchange::import_surface() {
   solver_.surface().map.to_surface(solver_.positions(), positions_);
   solver_.surface().map.to_surface(solver_.velocities(), velocities_);
+  if (late_imports_ > 0) delay();
+}
+
+void SurfaceExchange::delay() {
+  past_.emplace_back(positions_, velocities_);
+  if (past_.size() > late_imports_ + 1) past_.pop_front();
+  std::tie(positions_, velocities_) = past_.front();
 }
 
 const NodalVectors& SurfaceExchange::export_add(const std::vector<ContactForce>& local) {

@@ -29,7 +29,7 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
     : WallNurbsSetup(lmp, narg, arg),
       FixWallGran(lmp, static_cast<int>(stock_arg_.size()), stock_arg_.data()),
       structure_(*opened_.solver),
-      exchange_(world, structure_),
+      exchange_(world, structure_, late_steps()),
       surface_(structure_.surface().topology),
       projector_(surface_),
       regularity_(surface_),
@@ -53,7 +53,17 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
   restart_global = 1;
   can_create_mesh_ = true;
   open_output();
-  late_surface_ = std::getenv("LIGGGHTS_NURBS_TEST_LATE_SURFACE") != nullptr;
+}
+
+int FixWallNurbs::late_steps() const {
+  const char* word = std::getenv("LIGGGHTS_NURBS_TEST_LATE_SURFACE");
+  if (!word) return 0;
+  char* end = nullptr;
+  const long steps = std::strtol(word, &end, 10);
+  if (*end != '\0' || steps < 1 || steps > 10000)
+    fail(fmt::format("LIGGGHTS_NURBS_TEST_LATE_SURFACE is '{}'; expected a number of steps, 1 to 10000",
+                     word));
+  return static_cast<int>(steps);
 }
 
 void FixWallNurbs::fail(const std::string& message) const {
@@ -179,9 +189,8 @@ void FixWallNurbs::setup(int vflag) {
 
 void FixWallNurbs::initial_integrate(int) {
   if (!structure_.moves()) return;
-  if (late_surface_) import_surface();
   structure_.begin_step();
-  if (!late_surface_) import_surface();
+  import_surface();
   // The list is good until the wall has moved half a skin; it is then rebuilt before this step's forces.
   const double motion = candidates_.motion_since_build(exchange_.positions(), structure_.deforms(), frame_);
   if (!std::isfinite(motion))

@@ -123,6 +123,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   [[noreturn]] void fail_on_this_rank(const std::string& message) const;
   void warn(const std::string& message) const;
   void print(const std::string& message) const;
+  int late_steps() const;  // of a deforming surface, for tests alone
 
   coupling::StructureSolver& structure_;
   coupling::SurfaceExchange exchange_;
@@ -136,8 +137,6 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   double surface_motion_ = 0.0;  // of a deforming wall since the list was built
   bool surface_imported_ = false;
   bool rebuild_candidates_ = true;
-  bool late_surface_;  // for tests alone: contact sees the surface one step late, which must show as first
-                       // order
 
   std::vector<class FixPropertyAtom*> fix_slots_;  // the particles' contact memory
   std::vector<double**> slots_;                    // their rows

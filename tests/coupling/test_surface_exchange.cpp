@@ -8,10 +8,13 @@
 #include <cstdio>
 
 #include "coupling/force_distribution.h"
+#include "coupling/iga_structure.h"
 #include "coupling/open_structure.h"
 #include "coupling/rigid_surface.h"
 #include "coupling/surface_exchange.h"
+#include "nurbs/primitives.h"
 #include "nurbs/yaml_map.h"
+#include "structure/linear_elastic.h"
 #include "wavy_surface.h"
 
 namespace {
@@ -79,6 +82,32 @@ TEST(SurfaceExchange, ImportBringsTheControlPoints) {
   const coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
   EXPECT_EQ(exchange.positions(), surface.control_points);
   EXPECT_EQ(exchange.velocities().cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(SurfaceExchange, LateByTwoImports) {
+  const auto knots = nurbs::KnotVector::uniform(2, 1);
+  nurbs::Volume cube = nurbs::box({0, 0, 0}, {1, 1, 1}, {knots, knots, knots});
+  auto material = std::make_shared<structure::LinearElastic>(1.0, 0.0, 1.0);
+  coupling::IgaStructure solver(structure::ExplicitSolver({std::move(cube), material}, {}),
+                                {nurbs::Face::zeta_plus});
+  solver.set_time_step(0.1);
+  const NodalVectors pull = NodalVectors::Ones(3, solver.positions().cols());
+  solver.initialise_forces(pull);
+
+  coupling::SurfaceExchange exchange(MPI_COMM_WORLD, solver, 2);
+  std::vector<NodalVectors> positions(3, exchange.positions()), velocities(3, exchange.velocities());
+  for (int step = 0; step < 4; ++step) {
+    EXPECT_EQ(exchange.positions(), positions[step]);
+    EXPECT_EQ(exchange.velocities(), velocities[step]);
+    solver.begin_step();
+    positions.emplace_back();
+    velocities.emplace_back();
+    solver.surface().map.to_surface(solver.positions(), positions.back());
+    solver.surface().map.to_surface(solver.velocities(), velocities.back());
+    EXPECT_NE(positions.back(), *(positions.end() - 2));
+    exchange.import_surface();
+    solver.end_step(pull);
+  }
 }
 
 TEST(OpenRigidSurface, MissingFileIsAnErrorOnEveryRank) {

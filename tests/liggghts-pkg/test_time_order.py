@@ -30,12 +30,13 @@ def one_run(phase: float, refinement: int) -> str:
 
 class TimeOrder(unittest.TestCase):
     @staticmethod
-    def measure(late: bool):
-        """Orders of the quantities at the two times, and the largest relative gain of energy over all runs."""
-        environment = {"LIGGGHTS_NURBS_TEST_LATE_SURFACE": "1"} if late else {}
+    def measure(late: int, refinements=REFINEMENTS):
+        """Orders of the quantities at the two times with a surface so many steps late, and the relative gain of energy
+        of each of the coarsest runs."""
+        environment = {"LIGGGHTS_NURBS_TEST_LATE_SURFACE": str(late)} if late else {}
         values = {}  # refinement -> [phase][time][quantity]
         gains = []
-        for refinement in REFINEMENTS:
+        for refinement in refinements:
             deck = "".join(one_run((k + 0.5) / PHASES, refinement) for k in range(PHASES))
             tables = decks.good(deck, files=FILES, environment=environment, timeout=400).tables
             assert len(tables) == PHASES
@@ -48,25 +49,28 @@ class TimeOrder(unittest.TestCase):
                 quantities = ("z", "vz", "plate11", "plate20")
                 rows.append([[table[q][step] for q in quantities] for step in TIMES])
             values[refinement] = np.array(rows)
-        pairs = list(zip(REFINEMENTS[:-1], REFINEMENTS[1:]))
+        pairs = list(zip(refinements[:-1], refinements[1:]))
         differences = [np.sqrt(np.mean((values[a] - values[b]) ** 2, axis=0)) for a, b in pairs]
         orders = [np.log2(coarse / fine) for coarse, fine in zip(differences[:-1], differences[1:])]
         return np.array(orders), np.array(gains)
 
     def test_in_phase_surface_is_second_order(self):
-        orders, gains = self.measure(late=False)
+        orders, gains = self.measure(late=0)
         print("orders [refinement][time][z, vz, momentum, displacement]:\n", orders.round(3))
         print("energy gain: mean %.2e, largest %.2e" % (gains.mean(), np.abs(gains).max()))
         self.assertGreaterEqual(orders.min(), 1.8)
         self.assertLessEqual(orders.max(), 2.3)
 
     def test_late_surface_is_first_order_and_gains_energy(self):
-        orders, gains = self.measure(late=True)
+        orders, gains = self.measure(late=1)
         print("orders [refinement][time][z, vz, momentum, displacement]:\n", orders.round(3))
         print("energy gain: mean %.2e" % gains.mean())
         self.assertGreaterEqual(orders.min(), 0.9)
         self.assertLessEqual(orders.max(), 1.1)
         self.assertGreater(gains.min(), 0.0)
+        _, twice = self.measure(late=2, refinements=REFINEMENTS[:1])
+        print("two steps late: %.4f times the gain" % (twice.mean() / gains.mean()))
+        self.assertAlmostEqual(twice.mean() / gains.mean(), 2.0, delta=0.1)
 
 
 if __name__ == "__main__":
