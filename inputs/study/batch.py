@@ -50,7 +50,7 @@ class Batch:
         for case in self.cases:
             variables = run_variables(case, self.defaults(case), self.user)
             files = partial(case.files, numbers(variables)) if case.files else dict
-            own = dict(ranks=case.ranks, environment=case.environment)
+            own = dict(ranks=case.ranks, environment=case.environment, leaves=case.leaves)
             run = Run(case.name, self.folder, case.deck, variables, scratch / case.name, files, **own)
             settings = (tuple(words.items()) for words in (numbers(variables), case.environment))
             same = (case.deck, *settings, case.after, case.ranks)
@@ -60,7 +60,7 @@ class Batch:
             run.after = run_of.get(case.after)
         return list(shared.values())
 
-    def run(self, solver: Solver, jobs: int, keep_going: bool, out: Path) -> bool:
+    def run(self, solver: Solver, jobs: int | None, keep_going: bool, out: Path) -> bool:
         """Runs everything and writes `out`; whether every run and every row went well."""
         out.mkdir(parents=True, exist_ok=True)
         for stale in [out / "summary.json", *(out / figure.file for figure in self.study.figures)]:
@@ -84,7 +84,7 @@ class Batch:
         self,
         runs: Sequence[tuple[Run, list[Case]]],
         solver: Solver,
-        jobs: int,
+        jobs: int | None,
         keep_going: bool,
         out: Path,
     ) -> None:
@@ -121,7 +121,8 @@ class Batch:
                 self.complete = False
                 self.rows[case.name] = [Row(case.name, "completed", 0.0, "1", 1.0, 0.0)]
             else:
-                for name in ["contact_force.csv", *run.written]:
+                forces = [path.name for path in run.folder.glob("contact_force.csv")]  # a packing has none
+                for name in [*forces, *run.written]:
                     stem, dot, ending = name.partition(".")
                     put(run.folder / name, out / f"{stem}_{case.name}{dot}{ending}")
                 self.keep(run.folder, case, out / case.name)

@@ -29,10 +29,12 @@ class Case:
     variables: Mapping[str, float | str] = field(default_factory=dict)  # -var of the deck, SI
     steps: Callable[[Values], int] | None = None  # how long to run; None: as the deck says
     files: Callable[[Values], Mapping[str, str]] | None = None  # name -> text, beside the deck
-    after: str = ""  # a case that must have run; its *.restart files are put beside the deck
+    after: str = ""  # a case that must have run; the files it leaves are put beside the deck
+    leaves: Sequence[str] = ("*.restart",)  # patterns of files for the cases after this one
     ranks: int | None = None  # of MPI; None: as the user says
     environment: Mapping[str, str] = field(default_factory=dict)  # of the solver
     keep: Sequence[str] = ()  # patterns of further files that are kept, in out/<deck>/<case>/
+    on_request: bool = False  # runs only if --case names it
 
 
 @dataclass(frozen=True)
@@ -57,6 +59,7 @@ class Study:
     cases: Sequence[Case]
     figures: Sequence[Figure]
     comparisons: Sequence[Comparison] = ()
+    ranks: int = 1  # of MPI, of each run, if neither case nor user say otherwise
 
 
 @dataclass(frozen=True)

@@ -35,8 +35,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
     add("--case", metavar="NAME", **again, help="only this case; may be repeated, * matches")
     pair = dict(metavar=("NAME", "VALUE"), nargs=2, **again)
     add("-var", **pair, help="a variable of the deck, in place of what deck and case say")
-    add("--ranks", metavar="N", type=positive, default=1, help="MPI ranks of each run (1)")
-    add("--jobs", metavar="N", type=positive, help="runs at a time (cores / ranks)")
+    add("--ranks", metavar="N", type=positive, help="MPI ranks of each run (1; trb: 2)")
+    add("--jobs", metavar="N", type=positive, help="runs at a time (one rank per core)")
     add("--keep-going", action="store_true", help="go on after a run that failed")
     add("--out", metavar="DIR", type=Path, help="folder for the results (out/DECK)")
     add("--solver", metavar="FILE", type=Path, help="run this executable and build nothing")
@@ -65,11 +65,14 @@ def list_decks() -> None:
 
 
 def chosen(cases: Sequence, wanted: Sequence[str]) -> list:
-    """The cases that --case names and those that they start from, in the order of the study; all without --case."""
+    """The cases that --case names and those that they start from, in the order of the study.
+
+    Without --case: all but those that run on request."""
     for pattern in wanted:
         if not any(fnmatchcase(case.name, pattern) for case in cases):
             one_of("case", pattern, [case.name for case in cases])
-    named = [case for case in cases if not wanted or any(fnmatchcase(case.name, p) for p in wanted)]
+    named = [case for case in cases if any(fnmatchcase(case.name, p) for p in wanted)]
+    named = named or [case for case in cases if not case.on_request]
     return [case for case in cases if case in named or case.name in {other.after for other in named}]
 
 
@@ -105,7 +108,7 @@ def dispatch(args: argparse.Namespace) -> int:
 
     from study.batch import Batch  # these need the packages
     from study.case import load
-    from study.solver import Solver, cores
+    from study.solver import Solver
 
     study = load(folder)
     if args.list:
@@ -115,10 +118,9 @@ def dispatch(args: argparse.Namespace) -> int:
     batch.check_variables()
     if not args.solver:
         set_up("liggghts-nurbs", "iga-solve")
-    solver = Solver((args.solver or SOLVER).resolve(), args.ranks)
-    jobs = args.jobs or max(1, cores() // args.ranks)
+    solver = Solver((args.solver or SOLVER).resolve(), args.ranks or study.ranks)
     out = args.out or ROOT / "out" / args.deck
-    return EXIT_PASS if batch.run(solver, jobs, args.keep_going, out) else EXIT_FAIL
+    return EXIT_PASS if batch.run(solver, args.jobs, args.keep_going, out) else EXIT_FAIL
 
 
 if __name__ == "__main__":

@@ -24,7 +24,8 @@ class Solver:
     def command(self, deck: str, variables: Mapping[str, str]) -> list[str]:
         launcher = ["mpirun", "--bind-to", "none", "-np", str(self.ranks)] if self.ranks > 1 else []
         options = [word for name, value in variables.items() for word in ("-var", name, value)]
-        return [*launcher, str(self.program), "-in", deck, "-log", "none", *options]
+        by_line = ["stdbuf", "-oL"]  # the log is read while it grows
+        return [*launcher, *by_line, str(self.program), "-in", deck, "-log", "none", *options]
 
     def environment(self) -> dict[str, str]:
         """Open MPI runs as root, and oversubscribes, only where it is told to."""
@@ -53,7 +54,8 @@ class Run:
     folder: Path
     files: Callable[[], Mapping[str, str]] = dict  # name -> text, written beside the deck
     ranks: int | None = None  # in place of the solver's
-    after: Run | None = None  # starts when that has ended, with its *.restart files
+    after: Run | None = None  # starts when that has ended, with the files it leaves
+    leaves: Sequence[str] = ()  # patterns of files for the runs after this one
     environment: Mapping[str, str] = field(default_factory=dict)  # beyond the solver's own
     written: Sequence[str] = ()  # their names, once it has started
     seconds: float = 0.0
@@ -66,8 +68,9 @@ class Run:
         for name, text in files.items():
             (self.folder / name).write_text(text, encoding="utf-8")
         self.written = list(files)
-        for restart in self.after.folder.glob("*.restart") if self.after else ():
-            shutil.copyfile(restart, self.folder / restart.name)
+        for pattern in self.after.leaves if self.after else ():
+            for left in self.after.folder.glob(pattern):
+                shutil.copyfile(left, self.folder / left.name)
         solver = replace(solver, ranks=self.ranks or solver.ranks)
         self.seconds = -time.monotonic()
         with open(self.folder / LOG, "w", encoding="utf-8") as log:
@@ -86,34 +89,46 @@ class Run:
         self.seconds += time.monotonic()
         return True
 
+    def log(self) -> str:
+        """What the solver has printed so far."""
+        return (self.folder / LOG).read_text(encoding="utf-8", errors="replace")
+
     def failure(self) -> str | None:
         """None if the run went well, else the solver's own words."""
         if self.process.returncode == 0:
             return None
-        lines = (self.folder / LOG).read_text(encoding="utf-8", errors="replace").splitlines()
-        errors = [line for line in lines if line.startswith("ERROR")]
+        errors = [line for line in self.log().splitlines() if line.startswith("ERROR")]
         return errors[0] if errors else f"the solver ended with code {self.process.returncode}"
 
 
 def run_all(
     runs: Sequence[Run],
     solver: Solver,
-    jobs: int,
+    jobs: int | None,
     watch: Callable[[int, Sequence[Run]], None],
 ) -> Iterator[Run]:
-    """Runs `jobs` at a time and yields each as it ends; to close the generator stops what runs.
+    """Runs `jobs` at a time (None: as many as the cores have room for) and yields each as it ends.
 
-    `watch(done, running)` is called a few times a second.
+    To close the generator stops what runs.  `watch(done, running)` is called a few times a second.
     """
     waiting, running, done = list(runs), [], 0
+
+    def ranks(run: Run) -> int:
+        return run.ranks or solver.ranks
+
+    def room(run: Run) -> bool:
+        if jobs:
+            return len(running) < jobs
+        return not running or sum(map(ranks, [*running, run])) <= cores()
+
     try:
         while waiting or running:
             busy = [id(run) for run in waiting + running]
-            ready = [run for run in waiting if id(run.after) not in busy]
-            for run in ready[: jobs - len(running)]:
-                waiting.remove(run)
-                running.append(run)
-                run.start(solver)
+            for run in [run for run in waiting if id(run.after) not in busy]:
+                if room(run):
+                    waiting.remove(run)
+                    running.append(run)
+                    run.start(solver)
             watch(done, running)
             time.sleep(0.1)
             for run in [run for run in running if run.finished()]:

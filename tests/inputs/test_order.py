@@ -1,23 +1,24 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A case that starts from another's restart file, its own number of ranks, and rows that compare cases."""
+"""A case that starts from what another one leaves, numbers of ranks, cases on request, rows that compare cases."""
 
 import contextlib
 import io
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
-from study import cli
+from study import cli, solver
 from study.batch import Batch
 from study.case import Case, Comparison, Study
-from study.solver import Solver
+from study.solver import Run, Solver, run_all
 from study.summary import Row
 
 SOLVER = """#!/bin/sh
 # a stand-in: the first run leaves a restart file, the others say what they found
 printf 't,F\\n0,1\\n1,2\\n' > contact_force.csv
-case "$*" in *in.first*) sleep 0.5 && echo ready > bed.restart ;; esac
-[ -e bed.restart ] || { echo 'ERROR: no bed.restart'; exit 1; }
+case "$*" in *in.first*) sleep 0.5 && echo ready > bed.restart && touch grains.data ;; esac
+[ -e grains.data ] || { echo 'ERROR: no grains.data'; exit 1; }
 """
 
 
@@ -31,7 +32,7 @@ def total(results):
 
 CASES = [
     Case("second", "in.next", rows, after="first"),
-    Case("first", "in.first", lambda result: []),
+    Case("first", "in.first", lambda result: [], leaves=("*.restart", "grains.*")),
     Case("third", "in.next", rows, after="first", ranks=1),
 ]
 STUDY = Study(CASES, [], [Comparison(["second", "third"], total), Comparison(["second", "other"], total)])
@@ -75,6 +76,33 @@ class Order(unittest.TestCase):
         self.assertEqual([run.ranks for run, _ in runs], [None, None, 1])
         self.assertIs(runs[0][0].after, runs[1][0])
         self.assertIsNone(runs[1][0].after)
+
+    def test_cases_on_request(self):
+        cases = [Case("usual", "in.first", rows), Case("usual_fine", "in.first", rows, on_request=True)]
+        names = lambda *wanted: [case.name for case in cli.chosen(cases, wanted)]  # noqa: E731
+        self.assertEqual(names(), ["usual"])
+        self.assertEqual(names("usual_fine"), ["usual_fine"])
+        self.assertEqual(names("usual*"), ["usual", "usual_fine"])
+
+    def together(self, ranks: dict, jobs: int | None) -> set:
+        """Sets of runs that were seen running side by side, on two cores; the solver has two ranks by itself."""
+        scratch = Path(tempfile.mkdtemp(dir=self.folder.parent))
+        runs = [Run(name, self.folder, "in.first", {}, scratch / name, ranks=n) for name, n in ranks.items()]
+        seen = set()
+        watch = lambda done, running: seen.add("".join(run.name for run in running))  # noqa: E731
+        with (
+            mock.patch.object(solver, "cores", lambda: 2),
+            mock.patch.object(Solver, "command", lambda *_: ["sleep", "0.25"]),
+        ):
+            ended = [run.name for run in run_all(runs, Solver(self.solver, 2), jobs, watch)]
+        self.assertEqual(sorted(ended), sorted(ranks))
+        return {names for names in seen if len(names) > 1}
+
+    def test_ranks_of_runs_side_by_side(self):
+        self.assertEqual(self.together({"a": None, "b": None}, None), set())
+        self.assertEqual(self.together({"a": 4, "b": 1, "c": 1}, None), {"bc"})
+        self.assertEqual(self.together({"a": None, "b": 1}, 2), {"ab"})
+        self.assertEqual(self.together({"a": 1, "b": 1}, 1), set())
 
 
 if __name__ == "__main__":
