@@ -155,8 +155,9 @@ def free_plate_rows(peak_tolerance: float, result: Result) -> list[Row]:
 
 def energy_gain(result: Result) -> float:
     """Of ball and plate over the whole contact, over the ball's energy before."""
-    end, before = read_csv(result.folder / "energy.csv")[-1], 0.5 * fixed_wall(result.values).m * result.values["V"] ** 2
-    return float(((end["v"] / result.values["V"]) ** 2 - 1.0) + (end["kinetic"] + end["strain"]) / before)
+    end, ball = read_csv(result.folder / "energy.csv")[-1], fixed_wall(result.values)
+    before, plate = 0.5 * ball.m * ball.V**2, end["kinetic"] + end["strain"]
+    return float((end["v"] / ball.V) ** 2 - 1.0 + plate / before)
 
 
 def energy_rows(expected: float, tolerance: float, result: Result) -> list[Row]:
