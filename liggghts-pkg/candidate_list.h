@@ -56,7 +56,6 @@ class CandidateList {
   std::vector<ImageElements> image_elements_;
   std::vector<int> elements_;
   std::vector<nurbs::Vector3> images_;
-  std::vector<nurbs::Box> boxes_, patch_boxes_;
   nurbs::BoxTree tree_;
   nurbs::NodalVectors control_points_at_build_;
   coupling::RigidFrame frame_at_build_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace nurbs {
 namespace {
@@ -29,10 +30,10 @@ void element_boxes(const Space<2>& space, const Eigen::Ref<const NodalVectors>& 
   for (int e = 0; e < space.element_count(); ++e) out[e] = element_box(space, control_points, e);
 }
 
-void BoxTree::build(const std::vector<Box>& boxes) {
-  boxes_ = boxes;
+void BoxTree::build(std::vector<Box> boxes) {
+  boxes_ = std::move(boxes);
   nodes_.clear();
-  order_.resize(boxes.size());
+  order_.resize(boxes_.size());
   std::iota(order_.begin(), order_.end(), 0);
   if (boxes_.empty()) return;
   nodes_.emplace_back();

@@ -33,7 +33,7 @@ void element_boxes(const Space<2>& space, const Eigen::Ref<const NodalVectors>& 
 class BoxTree {
  public:
   /// Rebuilds over the boxes; their order gives the indices that query returns.
-  void build(const std::vector<Box>& boxes);
+  void build(std::vector<Box> boxes);
   /// Appends the indices, in rising order, of all boxes not farther than `reach` from `point`.
   void query(const Vector3& point, double reach, std::vector<int>& out) const;
   /// Box of everything; undefined while empty.

@@ -14,7 +14,7 @@ from functools import cached_property
 from typing import Callable
 
 import numpy as np
-from scipy.interpolate import BSpline, make_interp_spline
+from scipy.interpolate import BSpline, insert
 
 SIDE = 62e-3  # of the periodic box [m]
 WAVES = 3  # along a side
@@ -54,14 +54,18 @@ class SplineWave:
         somewhere = centres[p + np.argmax(wave.c[p:-p])]
         return BSpline(knots, wave.c / (wave(somewhere) / np.sin(K * somewhere)), p)
 
-    @cached_property
-    def clamped(self) -> BSpline:
-        """The same function on [0, SIDE] with open knots, as NURBS files want them."""
+    def clamped(self, first: int, last: int) -> BSpline:
+        """The same function on the elements first <= i < last of the line, with open knots, as NURBS files want them.
+        Where two of these meet, knots and coefficients are the same to the last bit, but for the ends."""
         p, h = self.degree, SIDE / self.elements
-        knots = np.concatenate([np.zeros(p), np.linspace(0.0, SIDE, self.elements + 1), np.full(p, SIDE)])
-        greville = np.convolve(knots[1:-1], np.full(p, 1.0 / p), "valid")
-        greville[[0, -1]] = 0.0, SIDE
-        return make_interp_spline(greville, self.spline(greville), k=p, t=knots)
+        first_knot, last_knot = first - p - 1, last + p + 1
+        knots = h * np.arange(first_knot, last_knot + 1)
+        coefficients = self.spline.c[np.arange(first_knot + p, last_knot) % self.elements]
+        spline = knots, coefficients, p
+        for end in (first, last):
+            spline = insert(h * end, spline, m=p)
+        knots, coefficients, _ = spline
+        return BSpline(knots[p + 1 : -p - 1], coefficients[p + 1 :][: last - first + p], p)
 
 
 def spline_surface(wave: SplineWave, amplitude: float) -> Surface:
@@ -87,9 +91,10 @@ def sine_surface(amplitude: float) -> Surface:
     return at
 
 
-def model_file(wave: SplineWave, amplitude: float) -> str:
-    """For `geometry`: the patch as surface `wall`."""
-    knots, c, n = wave.clamped.t, wave.clamped.c, len(wave.clamped.c)
+def model_file(wave: SplineWave, amplitude: float, around: int = 0) -> str:
+    """For `geometry`: the patch as surface `wall`, continued by some elements around the periodic box."""
+    spline = wave.clamped(-around, wave.elements + around)
+    knots, c, n = spline.t, spline.c, len(spline.c)
     x = [knots[i + 1 : i + 1 + wave.degree].mean() for i in range(n)]  # so that x(xi) = xi
     points = (f"[{x[i]!r}, {x[j]!r}, {amplitude * c[i] * c[j]!r}]" for j in range(n) for i in range(n))
     return (

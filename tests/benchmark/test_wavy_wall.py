@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The benchmark of the wavy wall: its spheres, and what it reads from LIGGGHTS' timers."""
+"""The benchmark of the wavy wall: its spheres, and what it reads from LIGGGHTS' timers, dumps and the system."""
 
 import re
 import unittest
@@ -7,6 +7,8 @@ import unittest
 import numpy as np
 from scipy.spatial.distance import pdist
 
+import wavy_bench
+import wavy_memory
 import wavy_wall
 from study.waves import K, SIDE
 
@@ -25,8 +27,8 @@ Fix contacthistory contacthistory time (%) = 0.0011 (0.03)
 
 class Spheres(unittest.TestCase):
     def test_above_the_wall_and_apart(self):
-        layers = wavy_wall.LAYERS[3500]
-        rows = wavy_wall.spheres(layers).split("Atoms\n\n")[1].splitlines()
+        layers = wavy_bench.LAYERS[3500]
+        rows = wavy_bench.spheres(layers).split("Atoms\n\n")[1].splitlines()
         self.assertEqual(len(rows), layers.count)
         _, _, diameter, _, x, y, z = np.array([row.split() for row in rows], dtype=float).T
         gap = z - 2e-3 * np.sin(K * x) * np.sin(K * y)
@@ -36,6 +38,11 @@ class Spheres(unittest.TestCase):
         centres, radii = np.stack([x, y, z], axis=1)[middle], diameter[middle] / 2
         first, second = np.triu_indices(len(middle), 1)
         self.assertGreaterEqual((pdist(centres) - radii[first] - radii[second]).min(), 0.0)
+
+    def test_grid_is_the_same_in_a_wider_box(self):
+        narrow, wide = (wavy_bench.spheres(wavy_bench.LAYERS[3500], around) for around in (0.0, 0.031))
+        self.assertEqual(narrow.split("Atoms")[1], wide.split("Atoms")[1])
+        self.assertIn("-0.031 0.093 ylo yhi", wide)
 
 
 class Timers(unittest.TestCase):
@@ -50,9 +57,38 @@ class Timers(unittest.TestCase):
 
     def test_decks_exist(self):
         for wall in wavy_wall.WALLS.values():
-            text = (wavy_wall.DECKS / f"in.{wall.deck}").read_text(encoding="utf-8")
+            text = (wavy_bench.DECKS / f"in.{wall.deck}").read_text(encoding="utf-8")
             self.assertTrue(re.search(r"^fix wall all wall/", text, re.MULTILINE))
             self.assertIn(wall.settled_on, wavy_wall.WALLS)
+
+
+class SameRun(unittest.TestCase):
+    DUMP = (
+        "ITEM: TIMESTEP\n7\nITEM: NUMBER OF ATOMS\n2\nITEM: BOX BOUNDS ff ff ff\n0 1\n0 1\n0 1\n"
+        "ITEM: ATOMS id radius x y z fx fy fz \n2 0.0005 {} 0 0 0 0 {}\n1 0.0004 0 0 0 0 0 0\n"
+    )
+
+    def verdicts(self, x: float, force: float) -> list[bool]:
+        one, other = self.DUMP.format(0.03, 1e-5), self.DUMP.format(x, force)
+        return [row.passes for row in wavy_wall.same_run("c", one, other)]
+
+    def test_positions_and_forces_are_compared(self):
+        self.assertEqual(self.verdicts(0.03, 1e-5), [True, True])
+        self.assertEqual(self.verdicts(0.03 + 1e-14, 1e-5), [False, True])
+        self.assertEqual(self.verdicts(0.03, 1.00001e-5), [True, False])
+        _, force = wavy_wall.same_run("c", self.DUMP.format(0, 0.0), self.DUMP.format(0, 1e-5))
+        self.assertAlmostEqual(force.value, 1e-5 / (4 / 3 * np.pi * 0.5e-3**3 * 2500 * 9.81), delta=1e-12)
+
+
+class Memory(unittest.TestCase):
+    LOG = "VmHWM:\t   100 kB\nVmRSS:\t    90 kB\nStep\nVmHWM:\t  300 kB\nVmRSS:\t  200 kB\n"
+
+    def test_the_last_sizes_count(self):
+        self.assertEqual(wavy_memory.memory(self.LOG), wavy_memory.Memory(200 * 1024, 300 * 1024))
+
+    def test_per_element(self):
+        sizes = {10: wavy_memory.Memory(5e5, 6e5), 20: wavy_memory.Memory(8e5, 12e5)}
+        self.assertEqual([wavy_memory.per_element(sizes, 10, 20, when) for when in ("now", "peak")], [1000.0, 2000.0])
 
 
 if __name__ == "__main__":

@@ -5,46 +5,26 @@ writes OUT/summary.json in the shape of the studies' summaries.  Slow is reporte
 from __future__ import annotations
 
 import argparse
-import os
 import re
 import shutil
 import statistics
-import subprocess
 import sys
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial import cKDTree
 
+import wavy_memory
 from bounds import AtMost
+from study.hertz import sphere_mass
 from study.summary import Row, table, write_json
-from study.waves import K, SIDE, SplineWave, model_file, triangles
+from study.waves import SIDE, SplineWave, model_file, triangles
+from wavy_bench import AMPLITUDE, DECKS, DEGREE, ELEMENTS, LAYERS, Bench, spheres
 
-DECKS = Path(__file__).parent / "wavy_wall"
-AMPLITUDE = 2e-3  # [m]
-DEGREE = 3
 REPEATS = 5
 SQUARES = 124  # in a row, of two triangles each
-
-
-@dataclass(frozen=True)
-class Layers:
-    """Spheres on a grid in layers above the wall, and for how many steps they settle and are timed."""
-
-    per_row: int
-    layers: int
-    settle: int
-    before: int
-    timed: int
-
-    @property
-    def count(self) -> int:
-        return self.per_row**2 * self.layers
-
-
-LAYERS = {3500: Layers(59, 1, 4000, 100, 400), 50000: Layers(49, 21, 16000, 50, 100)}
+CONTINUED = (124, 496)  # elements in a row of walls that go on around the spheres
 
 
 @dataclass(frozen=True)
@@ -54,14 +34,18 @@ class Wall:
     deck: str
     geometry: str
     settled_on: str
+    open: bool = False  # the box is not periodic, and wider than the grid of spheres
 
 
+NEAR, FAR = (f"nurbs_continued_{n}" for n in CONTINUED)
 WALLS = {
     "nurbs": Wall("nurbs", "wall_62.yaml", "nurbs"),
     "nurbs_248": Wall("nurbs", "wall_248.yaml", "nurbs_248"),
     "nurbs_moving": Wall("nurbs_moving", "wall_62.yaml", "nurbs"),
     "triangles": Wall("triangles", "wall.stl", "triangles"),
     "triangles_moving": Wall("triangles_moving", "wall.stl", "triangles"),
+    NEAR: Wall("nurbs", f"continued_{CONTINUED[0]}.h5", NEAR, open=True),
+    FAR: Wall("nurbs", f"continued_{CONTINUED[1]}.h5", NEAR, open=True),
 }
 TIMED = {3500: list(WALLS), 50000: ["nurbs", "triangles"]}
 # (walls, particles): the first wall's time over the second's, at most
@@ -70,94 +54,37 @@ TARGETS = {
     ("nurbs_moving", "triangles_moving", 3500): 0.05,
     ("nurbs", "triangles", 50000): 0.15,
 }
-MEMORY_ELEMENTS = (186, 248, 372)  # enough to show beside the program itself
+FAR_TOLERANCE = 0.05  # of the time with FAR over that with NEAR, which should be 1
 
 
 @dataclass(frozen=True)
 class Timing:
-    """CPU time of a step: the wall's fixes, everything [s]; and the largest memory of the process [bytes]."""
+    """CPU time of a step: the wall's fixes, everything [s]."""
 
     wall: float
     step: float
-    memory: float
 
 
-def spheres(layers: Layers) -> str:
-    """LIGGGHTS data file: a jittered grid 0.9 mm above the surface, radii 0.4 to 0.6 mm."""
-    random = np.random.default_rng(1)
-    n = layers.per_row
-    i, j, layer = (a.ravel() for a in np.mgrid[0:n, 0:n, 0 : layers.layers])
-    x, y = (SIDE / n * (a + 0.5 + random.uniform(-0.05, 0.05, a.size)) for a in (i, j))
-    z = AMPLITUDE * np.sin(K * x) * np.sin(K * y) + 0.9e-3 + 1.25e-3 * layer
-    radii = random.uniform(0.4e-3, 0.6e-3, x.size)
-    z = lift(x, y, z, radii)
-    rows = (f"{n} 1 {2 * r!r} 2500 {a!r} {b!r} {c!r}" for n, (r, a, b, c) in enumerate(zip(radii, x, y, z), 1))
-    return (
-        f"spheres above the wavy wall\n\n{layers.count} atoms\n2 atom types\n\n"
-        f"0 {SIDE} xlo xhi\n0 {SIDE} ylo yhi\n-0.004 {z.max() + 4e-3!r} zlo zhi\n\nAtoms\n\n" + "\n".join(rows) + "\n"
-    )
+def spheres_file(particles: int, wall: Wall) -> str:
+    return f"spheres_{particles}_open.data" if wall.open else f"spheres_{particles}.data"
 
 
-def lift(x: np.ndarray, y: np.ndarray, z: np.ndarray, radii: np.ndarray) -> np.ndarray:
-    """Heights from which no two spheres overlap: of each pair that does, the upper one goes up."""
-    while True:
-        tree = cKDTree(np.stack([x, y, z], axis=1), boxsize=[SIDE, SIDE, 0.0])
-        pairs = tree.query_pairs(2 * radii.max(), output_type="ndarray")
-        upper = np.where(z[pairs[:, 0]] > z[pairs[:, 1]], 0, 1)
-        high, low = (np.take_along_axis(pairs, side[:, None], axis=1)[:, 0] for side in (upper, 1 - upper))
-        across = [(d - SIDE * np.round(d / SIDE)) ** 2 for d in (x[high] - x[low], y[high] - y[low])]
-        needed = np.sqrt(np.maximum((radii[high] + radii[low]) ** 2 - sum(across), 0.0))
-        missing = needed - (z[high] - z[low])
-        if missing.max() <= 0.0:
-            return z
-        z = z.copy()
-        np.maximum.at(z, high, z[high] + np.maximum(missing, 0.0) * (1.0 + 1e-6))
+def settle(bench: Bench, name: str, particles: int) -> int:
+    """Lets the layers come to rest on a wall; how many spheres touch it."""
+    wall = WALLS[name]
+    variables = dict(wall=wall.deck, geometry=wall.geometry, sides="f" if wall.open else "p")
+    variables |= dict(spheres=spheres_file(particles, wall), state=f"state_{name}_{particles}")
+    log = bench.run("in.settle", steps=LAYERS[particles].settle, **variables)
+    rows = re.findall(r"^\s*\d+\s+\d+\s+\S+\s+(\d+)\s*$", log, re.MULTILINE)
+    return int(rows[-1])
 
 
-@dataclass
-class Bench:
-    """Runs decks in a folder of its own that holds decks, walls and states."""
-
-    program: str
-    clock: str
-    folder: Path
-
-    def run(self, deck: str, log: str, **variables: object) -> float:
-        """Runs a deck; the largest memory of its process [bytes].  Raises if it fails."""
-        words = [word for name, value in variables.items() for word in ("-var", name, str(value))]
-        environment = dict(os.environ, LD_PRELOAD=self.clock)
-        if os.geteuid() == 0:
-            environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-        with open(self.folder / log, "w", encoding="utf-8") as output:
-            process = subprocess.Popen(
-                [self.program, "-in", deck, "-log", "none", *words],
-                cwd=self.folder,
-                env=environment,
-                stdout=output,
-                stderr=subprocess.STDOUT,
-            )
-            _, status, usage = os.wait4(process.pid, 0)
-        if status != 0:
-            raise RuntimeError(f"{deck} {words} failed:\n{self.log(log)[-1500:]}")
-        return 1024.0 * usage.ru_maxrss
-
-    def log(self, log: str) -> str:
-        return (self.folder / log).read_text(encoding="utf-8", errors="replace")
-
-    def settle(self, name: str, particles: int) -> int:
-        """Lets the layers come to rest on a wall; how many spheres touch it."""
-        wall, layers = WALLS[name], LAYERS[particles]
-        state = dict(spheres=f"spheres_{particles}.data", steps=layers.settle, state=f"state_{name}_{particles}")
-        self.run("in.settle", "settle.txt", wall=wall.deck, geometry=wall.geometry, **state)
-        rows = re.findall(r"^\s*\d+\s+\d+\s+\S+\s+(\d+)\s*$", self.log("settle.txt"), re.MULTILINE)
-        return int(rows[-1])
-
-    def time(self, name: str, particles: int) -> Timing:
-        wall, layers = WALLS[name], LAYERS[particles]
-        state = dict(state=f"state_{wall.settled_on}_{particles}", before=layers.before, steps=layers.timed)
-        memory = self.run("in.time", "time.txt", wall=wall.deck, geometry=wall.geometry, **state)
-        seconds, loop = fix_times(self.log("time.txt"))
-        return Timing(sum(seconds.values()) / layers.timed, loop / layers.timed, memory)
+def time(bench: Bench, name: str, particles: int) -> Timing:
+    wall, layers = WALLS[name], LAYERS[particles]
+    variables = dict(wall=wall.deck, geometry=wall.geometry, state=f"state_{wall.settled_on}_{particles}")
+    variables |= dict(before=layers.before, steps=layers.timed, end=f"end_{name}.txt")
+    seconds, loop = fix_times(bench.run("in.time", **variables))
+    return Timing(sum(seconds.values()) / layers.timed, loop / layers.timed)
 
 
 def fix_times(log: str) -> tuple[dict[str, float], float]:
@@ -171,11 +98,11 @@ def fix_times(log: str) -> tuple[dict[str, float], float]:
 def measure(bench: Bench, particles: int) -> list[Row]:
     """Rows of one number of particles; walls take turns."""
     timed = TIMED[particles]
-    touching = {name: bench.settle(name, particles) for name in timed if WALLS[name].settled_on == name}
+    touching = {name: settle(bench, name, particles) for name in timed if WALLS[name].settled_on == name}
     times: dict[str, list[Timing]] = {name: [] for name in timed}
     for _ in range(REPEATS):
         for name in timed:
-            times[name].append(bench.time(name, particles))
+            times[name].append(time(bench, name, particles))
     wall = {name: statistics.median(t.wall for t in taken) for name, taken in times.items()}
     step = {name: statistics.median(t.step for t in taken) for name, taken in times.items()}
     case = f"{LAYERS[particles].count} particles"
@@ -189,30 +116,49 @@ def measure(bench: Bench, particles: int) -> list[Row]:
         if number == particles:
             rows.append(AtMost(case, f"{ours}_over_{theirs}", wall[ours] / wall[theirs], "1", bound))
     if "nurbs_248" in wall:
-        rows.append(Row(case, "nurbs_248_over_nurbs", wall["nurbs_248"] / wall["nurbs"], "1", note="16 x the elements"))
+        rows.append(Row(case, "nurbs_248_over_nurbs", wall["nurbs_248"] / wall["nurbs"], "1", note="finer, same size"))
+    if FAR in wall:
+        rows.append(Row(case, f"{FAR}_over_{NEAR}", wall[FAR] / wall[NEAR], "1", 1.0, FAR_TOLERANCE))
+        rows += same_run(case, *((bench.folder / f"end_{name}.txt").read_text() for name in (NEAR, FAR)))
     return rows
 
 
-def memory(bench: Bench) -> list[Row]:
-    """Largest memory of a run on walls of growing numbers of elements, and what each further element takes."""
-    layers = LAYERS[3500]
-    largest = []
-    for n in MEMORY_ELEMENTS:
+def same_run(case: str, one: str, other: str) -> list[Row]:
+    """Largest differences of two dumps of the same steps: of coordinates [m], of forces in weights of the sphere."""
+    (radii, x, F), (_, x_other, F_other) = (final_state(dump) for dump in (one, other))
+    weights = 9.81 * sphere_mass(radii, 2500.0)
+    forces = np.abs(F - F_other) / weights[:, None]
+    return [
+        Row(case, "continued_position_difference", float(np.max(np.abs(x - x_other))), "m", 0.0, 1e-15),
+        Row(case, "continued_force_difference", float(forces.max()), "weights", 0.0, 1e-9),
+    ]
+
+
+def final_state(dump: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Radii (n), coordinates (n, 3) [m], forces (n, 3) [N] in the order of ids."""
+    rows = np.array([line.split() for line in dump.split("ITEM: ATOMS")[-1].splitlines()[1:]], dtype=float)
+    rows = rows[np.argsort(rows[:, 0])]
+    return rows[:, 1], rows[:, 2:5], rows[:, 5:8]
+
+
+def write_files(bench: Bench) -> None:
+    """Walls and spheres."""
+    (bench.folder / "wall.stl").write_text(triangles(SQUARES, AMPLITUDE))
+    for n in (ELEMENTS, 248):
         (bench.folder / f"wall_{n}.yaml").write_text(model_file(SplineWave(DEGREE, n), AMPLITUDE))
-        variables = dict(spheres="spheres_3500.data", steps=1, state="state_memory", geometry=f"wall_{n}.yaml")
-        largest.append(bench.run("in.settle", "memory.txt", wall="nurbs", **variables))
-    case = f"memory, {layers.count} particles"
-    taken = list(zip(MEMORY_ELEMENTS, largest))
-    rows = [Row(case, f"{n}x{n}", m / 2**20, "MiB") for n, m in taken]
-    for (n, m), (finer, more) in zip(taken, taken[1:]):
-        rows.append(Row(case, f"per_element_{n}_to_{finer}", (more - m) / (finer**2 - n**2), "bytes"))
-    return rows
+    for n in {*CONTINUED, *wavy_memory.ELEMENTS}:
+        bench.continued_wall(n)
+    for particles, layers in LAYERS.items():
+        (bench.folder / f"spheres_{particles}.data").write_text(spheres(layers))
+    room = SIDE / ELEMENTS * (CONTINUED[0] - ELEMENTS) / 2
+    (bench.folder / "spheres_3500_open.data").write_text(spheres(LAYERS[3500], room))
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
     add("program")
+    add("convert", help="nurbs-convert")
     add("clock", help="libcpu_clock.so")
     add("out", type=Path)
     add("--particles", type=int, action="append", choices=list(LAYERS))
@@ -221,13 +167,9 @@ def main() -> None:
     rows: list[Row] = []
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(DECKS, folder, dirs_exist_ok=True)
-        bench = Bench(args.program, args.clock, Path(folder))
-        (bench.folder / "wall.stl").write_text(triangles(SQUARES, AMPLITUDE))
-        for n in (62, 248):
-            (bench.folder / f"wall_{n}.yaml").write_text(model_file(SplineWave(DEGREE, n), AMPLITUDE))
-        for particles, layers in LAYERS.items():
-            (bench.folder / f"spheres_{particles}.data").write_text(spheres(layers))
-        rows += memory(bench)
+        bench = Bench(args.program, args.convert, args.clock, Path(folder))
+        write_files(bench)
+        rows += wavy_memory.rows(bench, "spheres_3500_open.data")
         for particles in args.particles or LAYERS:
             rows += measure(bench, particles)
     write_json(args.out / "summary.json", "wavy_wall", rows)

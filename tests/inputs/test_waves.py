@@ -37,6 +37,18 @@ class Spline(unittest.TestCase):
                 with self.subTest(degree=degree, order=order):
                     self.assertAlmostEqual(spline(0.0, order) / K**order, spline(SIDE, order) / K**order, delta=1e-12)
 
+    def test_clamped_anywhere_on_the_line(self):
+        x = np.random.default_rng(2).uniform(-0.031, 0.093, 200)
+        for degree in (2, 3):
+            wave = SplineWave(degree, 62)
+            short, long = wave.clamped(0, 62), wave.clamped(-31, 93)
+            with self.subTest(degree=degree):
+                np.testing.assert_allclose(long(x), wave.spline(x % SIDE), atol=1e-14)
+                self.assertEqual((long.t[:degree + 1] - long.t[0]).tolist(), [0.0] * (degree + 1))
+                inner = slice(31 + degree, -31 - degree)
+                self.assertEqual(short.t[degree:-degree].tolist(), long.t[inner].tolist(), "to the last bit")
+                self.assertEqual(short.c[degree:-degree].tolist(), long.c[inner].tolist(), "to the last bit")
+
     def test_order_of_the_curvature(self):
         x = np.linspace(0.0, SIDE, 5001)
         for degree, order in ((2, 1), (3, 2)):
