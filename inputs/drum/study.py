@@ -19,7 +19,7 @@ from matplotlib.figure import Figure as Picture
 from study.case import Case, Comparison, Figure, Result, Study, Values
 from study.rotating_drum import Drum, Frame, atom_data, read_frames, slope
 from study.figures import COLOURS, save
-from study.hertz import sphere_mass
+from study.hertz import effective_modulus, penalty_impact, sphere_mass
 from study.pulse import NoPulse
 from study.summary import Row
 
@@ -30,7 +30,8 @@ SEED = 1
 STEADY = 1.2  # [s] from here on means are taken
 
 COMPARED_STEPS = 2000  # on 1, 2 and 4 ranks
-RANKS_TOLERANCE = 1e-9  # of positions, relative to the drum's radius
+RANKS_TOLERANCE = 1e-9  # of positions, relative to the drum's radius R; of velocities, relative to pi R / t_c
+ALONE_TOLERANCE = 1e-14  # of positions / R and velocities / (omega R), without contacts between particles
 SLOPE_TOLERANCE = 1.0  # [degree]
 POWER_TOLERANCE = 0.02
 BALANCE_TOLERANCE = 0.01  # power and M g x omega: what the bed's angular momentum still changes by
@@ -108,20 +109,45 @@ def against_triangles(results: Mapping[str, Result]) -> list[Row]:
     ]
 
 
+def omega_R(values: Values) -> float:
+    """Speed of the shell [m/s]."""
+    return 2.0 * math.pi / values["period"] * values["R"]
+
+
+def largest_differences(results: Mapping[str, Result], one: str, more: str) -> tuple[float, float]:
+    """At the end of two runs: of coordinates [m], of velocities [m/s]."""
+    last, other = (frames(results[case].folder)[-1] for case in (one, more))
+    differences = {name: float(np.max(np.abs(last.values[name] - other.values[name]))) for name in last.values}
+    return max(differences[c] for c in ("x", "y", "z")), max(differences[c] for c in ("vx", "vy", "vz"))
+
+
+def contact_time(bed: Values, speed: float) -> float:
+    """How long the smallest particle touches the drum that it meets with this speed [s], after Hertz."""
+    E_star = effective_modulus(bed["E"], bed["nu"], bed["E"], bed["nu"])
+    return penalty_impact("hertz", 1.0, E_star, bed["r_min"], bed["rho"], speed).duration
+
+
 def ranks_rows(name: str, results: Mapping[str, Result]) -> list[Row]:
-    """Largest differences at the end of COMPARED_STEPS: of coordinates [R], of velocities [omega R]."""
-    one, more = (frames(results[case].folder)[-1] for case in ("ranks_1", name))
+    """The bed after COMPARED_STEPS.  A contact turns a difference dx of positions into one of pi dx / t_c of
+    velocities, so that is the scale on which velocities are held to the bound of positions."""
     values = results[name].values
-    omega = 2.0 * math.pi / values["period"]
-
-    def largest(columns: tuple[str, ...]) -> float:
-        return max(float(np.max(np.abs(one.values[c] - more.values[c]))) for c in columns)
-
-    positions = largest(("x", "y", "z")) / values["R"]
-    velocities = largest(("vx", "vy", "vz")) / (omega * values["R"])
+    x, v = largest_differences(results, "ranks_1", name)
+    speed = omega_R(values)
+    t_c = contact_time(results["settle"].values, speed)
     return [
-        Row(name, "position_difference", positions, "R", 0.0, RANKS_TOLERANCE),
-        Row(name, "velocity_difference", velocities, "omega R"),
+        Row(name, "position_difference", x / values["R"], "R", 0.0, RANKS_TOLERANCE),
+        Row(name, "velocity_difference", v * t_c / (math.pi * values["R"]), "pi R/t_c", 0.0, RANKS_TOLERANCE),
+        Row(name, "velocity_difference_over_omega_R", v / speed, "1"),
+    ]
+
+
+def alone_rows(name: str, results: Mapping[str, Result]) -> list[Row]:
+    """Particles that do not feel each other: what the wall's contacts alone make of the number of ranks."""
+    values = results[name].values
+    x, v = largest_differences(results, "alone_1", name)
+    return [
+        Row(name, "position_difference", x / values["R"], "R", 0.0, ALONE_TOLERANCE),
+        Row(name, "velocity_difference", v / omega_R(values), "omega R", 0.0, ALONE_TOLERANCE),
     ]
 
 
@@ -161,18 +187,20 @@ def turning(name: str, rows=lambda result: [], ranks: int | None = None, **varia
     return Case(name, "in.drum", rows, variables, files=geometry_files, after="settle", ranks=ranks)
 
 
-RANKS = ["ranks_2", "ranks_4"]
+RANKS = (1, 2, 4)
 
 STUDY = Study(
     cases=[
         Case("settle", "in.settle", rest_rows, files=settle_files),
         turning("triangles", turning_rows, wall="triangles"),
         turning("nurbs", turning_rows),
-        *(turning(f"ranks_{n}", ranks=n, steps=COMPARED_STEPS) for n in (1, 2, 4)),
+        *(turning(f"ranks_{n}", ranks=n, steps=COMPARED_STEPS) for n in RANKS),
+        *(turning(f"alone_{n}", ranks=n, steps=COMPARED_STEPS, alone=1) for n in RANKS),
     ],
     comparisons=[
         Comparison(["nurbs", "triangles"], against_triangles),
-        *(Comparison(["ranks_1", name], partial(ranks_rows, name)) for name in RANKS),
+        *(Comparison(["settle", "ranks_1", f"ranks_{n}"], partial(ranks_rows, f"ranks_{n}")) for n in RANKS[1:]),
+        *(Comparison(["alone_1", f"alone_{n}"], partial(alone_rows, f"alone_{n}")) for n in RANKS[1:]),
     ],
     figures=[Figure("drum.png", ["nurbs", "triangles"], draw)],
 )

@@ -98,8 +98,8 @@ DRUM = {
     ("settle", "force_at_rest"): (8.212, 0.01),
     ("nurbs/triangles", "angle_of_repose"): (40.5, 1.5),
     ("nurbs/triangles", "power"): (0.422, 0.01),
-    ("ranks_2", "position_difference"): (0.0, 1e-9),
-    ("ranks_4", "position_difference"): (0.0, 1e-9),
+    **{(f"ranks_{n}", f"{what}_difference"): (0.0, 1e-9) for n in (2, 4) for what in ("position", "velocity")},
+    **{(f"alone_{n}", f"{what}_difference"): (0.0, 1e-14) for n in (2, 4) for what in ("position", "velocity")},
 }
 OMEGA, STEADY = 2.0 * math.pi / 4.0, 1.2  # of the drum [1/s], [s]
 BALANCE = {
@@ -117,7 +117,7 @@ WITH_REFERENCE = {
     "ball_plate": 23 * 4 + 5 + 5 + 4,
     "thin_plate": 3 * (3 + 4) + 4 * 5 + 2 * 2 + 1 + 4 + 3,
     "smooth_wall": 3 + 3 + 1,
-    "drum": 3 + 2 + 2,
+    "drum": 3 + 2 + 2 * 2 + 2 * 2,
     "trb": 5 * 7 + 1 + 14 + 2 + 2,
 }
 
