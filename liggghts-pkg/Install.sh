@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Puts the package into src of a LIGGGHTS source tree, whose subfolder it is there (USER-NURBS); run by
-# `make yes-user-nurbs` (mode 1), `make package-update` (2) and `make no-user-nurbs` (0).
+# `make yes-user-nurbs` (mode 1) and `make no-user-nurbs` (0), and by `make package-update` (2) if PACKUSER in that
+# folder's Makefile names user-nurbs.
 # NURBS=FOLDER in the environment: where this project's libraries are installed; default /usr/local.
 
 mode=$1

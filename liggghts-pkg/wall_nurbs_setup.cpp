@@ -37,6 +37,12 @@ std::vector<std::string> stock_command_line(char** arg, const liggghts_pkg::Wall
   return words;
 }
 
+// LIGGGHTS' contact models would take their bounding spheres without a word.
+void check_particles(const Atom& atom) {
+  if (atom.superquadric_flag || atom.shapetype_flag)
+    throw std::invalid_argument("the particles are superquadrics or polyhedra, expected spheres");
+}
+
 void check_type(int type, int types) {
   if (type > types)
     throw std::invalid_argument(
@@ -88,6 +94,7 @@ int WallNurbsSetup::modify_drive(LAMMPS* lmp, const char* id, int narg, char** a
 
 WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
   try {
+    check_particles(*lmp->atom);
     options_ = liggghts_pkg::parse_wall_nurbs(std::vector<std::string>(arg + 3, arg + narg),
                                               variables_of(lmp, arg[0]));
     if (options_.drive.servo) complete_servo(lmp, *options_.drive.servo);

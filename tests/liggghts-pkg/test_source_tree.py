@@ -137,11 +137,20 @@ whole: $(OBJECTS)
         self.assertIn("LAMMPS_NS::FixWallNurbs::post_force(int)", symbols)
         self.assertNotRegex(symbols, r" T LAMMPS_NS::LAMMPS::create\(\)", "a tree has its own")
 
-    def test_fast_math_alone_is_refused(self):
+    def check_syntax(self, source: str, *words: str) -> subprocess.CompletedProcess:
         self.assertEqual(self.install_sh(1).returncode, 0)
         include = [word for word in self.package_words()["PKG_INC"] if word.startswith("-I")]
-        command = ["mpicxx", *FLAGS, f"-I{HEADERS}", f"-I{LISTS}", *include, "-fsyntax-only", "fix_wall_nurbs.cpp"]
-        done = subprocess.run(command, cwd=self.src, capture_output=True, text=True, check=False)
+        command = ["mpicxx", *FLAGS, *words, f"-I{HEADERS}", f"-I{LISTS}", *include, "-fsyntax-only", source]
+        return subprocess.run(command, cwd=self.src, capture_output=True, text=True, check=False)
+
+    def test_compiles_beside_superquadrics(self):
+        """`make auto` switches them on; LIGGGHTS' contact data then have more members."""
+        words = ["-fno-finite-math-only", "-DSUPERQUADRIC_ACTIVE_FLAG", "-DNONSPHERICAL_ACTIVE_FLAG"]
+        done = self.check_syntax("fix_wall_nurbs_contact.cpp", *words)
+        self.assertEqual(done.returncode, 0, done.stderr[-3000:])
+
+    def test_fast_math_alone_is_refused(self):
+        done = self.check_syntax("fix_wall_nurbs.cpp")
         self.assertNotEqual(done.returncode, 0)
         self.assertRegex(done.stderr, re.escape("compile with -fno-finite-math-only after -ffast-math"))
 
