@@ -294,7 +294,7 @@ ElementStore::ElementStore(const Space<2>& space, SimdLevel level)
       functions_(space.functions_per_element()),
       lines_per_row_((row_length(functions_, rational_) + 7) / 8),
       built_(space.element_count(), 0),
-      lines_(static_cast<size_t>(space.element_count()) * lines_per_row_) {}
+      lines_(new Line[static_cast<size_t>(space.element_count()) * lines_per_row_]) {}
 
 void ElementStore::homogeneous_points(const int (&e)[2], Vector4* out) const {
   static const Eigen::Matrix<double, kMaxDegree + 1, kMaxDegree + 1, Eigen::RowMajor> identity =

@@ -5,6 +5,8 @@
 // may end in another element; a crease is crossed where the far side leads downhill.
 #pragma once
 
+#include <memory>
+
 #include "nurbs/power_element.h"
 #include "nurbs/power_kernel.h"
 
@@ -66,7 +68,7 @@ class ElementStore {
   NodalVectors control_points_;
   unsigned version_ = 1;
   mutable std::vector<unsigned> built_;
-  mutable std::vector<Line> lines_;
+  std::unique_ptr<Line[]> lines_;  // rows of elements never used take no memory
 };
 
 /// A point of the surface: element per direction, and where in it.
