@@ -53,7 +53,9 @@ SurfaceProjector::SurfaceProjector(const Space<2>& space, SimdLevel level)
       products_(product_terms(space.degree(0), space.degree(1))),
       tree_(space),
       reach_(space),
+      box_version_(space.element_count(), 0),
       net_version_(space.element_count(), 0),
+      boxes_(new Box[space.element_count()]),
       nets_(static_cast<size_t>(space.element_count()) * space.functions_per_element()) {
   const int p = space.degree(0), q = space.degree(1);
   for (int j = 0; j <= q; ++j)

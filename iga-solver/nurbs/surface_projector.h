@@ -12,6 +12,7 @@
 #pragma once
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "nurbs/element_descent.h"
@@ -137,6 +138,7 @@ class SurfaceProjector {
   bool has_its_only_foot(const ElementBlock& block, Search& search) const;
   bool interior_of_region(const LocalPoint& at) const;
   void examine_element(int element, Search& search) const;
+  const Box& box(int element) const;
   bool beyond(int element, const Search& search) const;
   const Vector4* bezier_net(int element) const;
   void examine(const DistancePolynomial& F, Search& search) const;
@@ -157,8 +159,9 @@ class SurfaceProjector {
   mutable bool tree_current_ = false;
   LocalReach reach_;
   unsigned version_ = 1;  // of the control points
-  mutable std::vector<unsigned> net_version_;
-  mutable std::vector<Vector4> nets_;  // Bezier nets times binomials, of the elements that needed one
+  mutable std::vector<unsigned> box_version_, net_version_;
+  std::unique_ptr<Box[]> boxes_;       // of the elements that needed one
+  mutable std::vector<Vector4> nets_;  // Bezier nets times binomials, likewise
 };
 
 }  // namespace nurbs

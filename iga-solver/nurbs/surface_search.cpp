@@ -32,25 +32,33 @@ void SurfaceProjector::search_tree(Search& search) const {
 void SurfaceProjector::search_elements(const int* elements, int count, Search& search) const {
   if (count < 1) return;
   elements_.element({0, 0});  // throws if there are no control points
-  const auto box = [&](int k) { return element_box(space_, elements_.control_points(), elements[k]); };
-  Box bounds = box(0);
+  Box bounds = box(elements[0]);
   int first = 0;
   double least = Search::kInfinity;
   for (int k = 0; k < count; ++k) {
-    const Box here = box(k);
+    const Box& here = box(elements[k]);
     const double rank =
         here.squared_distance(search.d) + (0.5 * (here.low + here.high) - search.d).squaredNorm();
     if (rank < least) least = rank, first = k;
     bounds = {bounds.low.cwiseMin(here.low), bounds.high.cwiseMax(here.high)};
   }
   search.begin((bounds.high - bounds.low).norm());
-  if (!search.started) start_from(centre(elements[first]), search);
+  const Foot start = foot_from(search.d, centre(elements[first]));
+  if (search.all == nullptr || start.end == DescentEnd::minimum) search.found(start);
   if (search.all == nullptr && !search.best.finite()) return;
   for (int k = 0; k < count; ++k) {
     const Indices<2> e = space_.element_indices(elements[k]);
-    if (box(k).squared_distance(search.d) < search.bound2 && !settled({0, {e[0], e[1]}}, search))
+    if (box(elements[k]).squared_distance(search.d) < search.bound2 && !settled({0, {e[0], e[1]}}, search))
       examine_element(elements[k], search);
   }
+}
+
+const Box& SurfaceProjector::box(int element) const {
+  if (box_version_[element] != version_) {
+    boxes_[element] = element_box(space_, elements_.control_points(), element);
+    box_version_[element] = version_;
+  }
+  return boxes_[element];
 }
 
 // The children of a block, first that which seems nearest; the first element reached gives the first foot.
@@ -80,7 +88,6 @@ void SurfaceProjector::descend_to(const ElementBlock& block, Search& search) con
 
 // Nothing on a block can be wanted, as a foot is known.
 bool SurfaceProjector::settled(const ElementBlock& block, Search& search) const {
-  if (search.all != nullptr) return has_its_only_foot(block, search);
   const ElementWindow own = tree_.elements(block);
   if (search.proved.holds(own)) return true;
   const LocalPoint& at = search.best.at;
@@ -89,17 +96,18 @@ bool SurfaceProjector::settled(const ElementBlock& block, Search& search) const 
     const ElementWindow window = reach_.window(level, at.e);
     if (!window.holds(own)) continue;
     if (interior_of_region(at) &&
-        search.best.point.distance < kReach * reach_(level, at.e, elements_.control_points())) {
+        search.needed_reach() < kReach * reach_(level, at.e, elements_.control_points())) {
       search.proved = window;
       search.proved_level = level;
       return true;
     }
     search.unproved_level = level;
   }
-  return false;
+  return search.all != nullptr && has_its_only_foot(block, search);
 }
 
-// In a search for all minima: a window around the block has one foot at most within reach, and it is found.
+// In a search for all minima, far from the last foot: a window around the block has one foot at most within
+// reach, and it is found.
 bool SurfaceProjector::has_its_only_foot(const ElementBlock& block, Search& search) const {
   const int level = 2 * block.level;
   if (level >= LocalReach::kLevels) return false;

@@ -2,6 +2,7 @@
 // What the searches of SurfaceProjector carry along; used by its two sources alone.
 #pragma once
 
+#include <cmath>
 #include <limits>
 
 #include "nurbs/surface_projector.h"
@@ -33,15 +34,15 @@ struct SurfaceProjector::Search {
   std::vector<Projection>* all = nullptr;  // null in a search for the nearest
   double bound2 = kInfinity;               // squared distance from which on nothing is wanted
   bool started = false;                    // there is a bound
-  Foot best{};                             // of a search for the nearest
+  Foot best{};                             // the nearest so far; of a search for all the last
   double same = 0.0;                       // lengths that differ less are equal
   double size = 0.0;                       // of the surface
 
   // For the tree: d and the bound in its units.
   SurfaceTree::Point point{};
   float limit = std::numeric_limits<float>::infinity();
-  // Nothing in the window around the block of `proved_level` that holds the best foot is nearer; this is not
-  // known for the level `unproved_level`.
+  // The window around the block of `proved_level` that holds the best foot has nothing else that is wanted;
+  // this is not known for the level `unproved_level`.
   ElementWindow proved{};
   int proved_level = -1, unproved_level = 0;
 
@@ -64,10 +65,17 @@ struct SurfaceProjector::Search {
     started = true;
     best = foot;
     set_bound(best.rank() == 0 ? distance * distance * (1.0 - kTie) : (distance + same) * (distance + same));
+    nothing_is_proved();
+  }
+
+  void nothing_is_proved() {
     proved = {};
     proved_level = -1;
-    unproved_level = foot.end == DescentEnd::minimum ? LocalReach::kLevels : 0;
+    unproved_level = best.end == DescentEnd::minimum ? LocalReach::kLevels : 0;
   }
+
+  // A window with a foot has nothing else that is wanted if its local reach is above this.
+  double needed_reach() const { return all != nullptr ? std::sqrt(bound2) : best.point.distance; }
 
   void found(const Foot& foot) {
     if (all != nullptr) return list(foot);
@@ -77,7 +85,7 @@ struct SurfaceProjector::Search {
     if (foot.point.distance < level) set_best(foot);
   }
 
-  void list(const Foot& foot) const {
+  void list(const Foot& foot) {
     if (foot.end == DescentEnd::unknown || !(foot.point.distance * foot.point.distance < bound2)) return;
     for (Projection& other : *all) {
       if ((other.foot - foot.point.foot).norm() > same) continue;
@@ -85,6 +93,8 @@ struct SurfaceProjector::Search {
       return;
     }
     all->push_back(foot.point);
+    best = foot;
+    nothing_is_proved();
   }
 };
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "distance_bound.h"
 #include "nurbs/refinement.h"
@@ -94,21 +95,27 @@ class BruteForce {
 };
 
 // At random points of a box: nothing that brute force finds is overlooked, and what else is found (in basins
-// that fall through the grid) fulfils the conditions of a minimum.  Returns the number of points with several
-// minima.
+// that fall through the grid) fulfils the conditions of a minimum.  With and without a tree.  Returns the
+// number of points with several minima.
 int expect_all_minima(const Surface& surface, const Vector3& low, const Vector3& high, double reach) {
   constexpr int kPoints = 40;
   Random random(31);
   SurfaceProjector projector(surface.space);
   projector.set_control_points(surface.control_points);
   const judge::DistanceBound bound(surface);
-  std::vector<Projection> found;
+  std::vector<int> elements(surface.space.element_count());
+  std::iota(elements.begin(), elements.end(), 0);
+  std::vector<Projection> found, found_on;
   int several = 0;
   for (int k = 0; k < kPoints; ++k) {
     const Vector3 d(uniform(random, low[0], high[0]), uniform(random, low[1], high[1]),
                     uniform(random, low[2], high[2]));
     SCOPED_TRACE(testing::Message() << "d = " << d.transpose());
     projector.all_minima(d, reach, found);
+    projector.all_minima_on(d, reach, elements.data(), static_cast<int>(elements.size()), found_on);
+    EXPECT_EQ(found_on.size(), found.size());
+    for (size_t m = 0; m < std::min(found.size(), found_on.size()); ++m)
+      EXPECT_NEAR(found_on[m].distance, found[m].distance, 1e-13);
     for (const Minimum& m : BruteForce(surface, d).minima_within(reach)) {
       const auto same = [&](const Projection& p) {
         return std::abs(p.distance - m.distance) < 1e-12 && (p.foot - m.foot).norm() < 1e-6;
@@ -173,6 +180,13 @@ TEST(AllMinima, Trough) {
       trough.control_points.col(a++) << x, y,
           3.0 * (2.0 * std::abs(x) - 1.0) + 0.5 * (2.0 * std::abs(y) - 1.0);
   EXPECT_GT(expect_all_minima(refined(trough), {-0.2, -0.3, 0.6}, {0.2, 0.3, 1.6}, 5.0), 20);
+  // Close to one flank, far from the other: the near foot is within its local reach, the far one is not. (The
+  // small elements give the window a frame that makes its reach nearly the radius of curvature.)
+  const KnotVector knots = trough.space.knots(0);
+  for (int i = 0; i < 2; ++i)
+    for (const double t : {0.4999, 0.5001})
+      trough = insert_knot(trough, i, knots.front() + t * (knots.back() - knots.front()));
+  EXPECT_GT(expect_all_minima(trough, {0.32, -0.1, 0.6}, {0.36, 0.1, 0.65}, 5.0), 20);
 }
 
 // Three quarters of a round and of an oval tube.
