@@ -6,8 +6,22 @@
 namespace nurbs {
 namespace {
 
+// Of a foot whose patch and image are known; in place, since to copy a struct just written in parts waits for
+// all stores.
+void take(const Projection& p, SurfaceFoot& foot) {
+  foot.at.xi = p.xi;
+  foot.foot = p.foot + foot.image;
+  foot.distance = p.distance;
+  foot.status = p.status;
+  foot.iterations = p.iterations;
+}
+
 SurfaceFoot on_surface(int patch, const Vector3& image, const Projection& p) {
-  return {{patch, p.xi}, image, p.foot + image, p.distance, p.status, p.iterations};
+  SurfaceFoot foot;
+  foot.at.patch = patch;
+  foot.image = image;
+  take(p, foot);
+  return foot;
 }
 
 }  // namespace
@@ -25,6 +39,29 @@ void MultiPatchProjector::set_control_points(const NodalVectors& control_points)
 SurfaceFoot MultiPatchProjector::follow(const Vector3& d, const SurfacePoint& from,
                                         const Vector3& image) const {
   return cross_borders(d, on_surface(from.patch, image, patches_[from.patch]->warm(d - image, from.xi)));
+}
+
+// Runs of feet on the same patch; those that end on an edge go on one by one.
+void MultiPatchProjector::follow_batch(const Vector3* d, SurfaceFoot* const* feet, int count) const {
+  constexpr int kChunk = 64;
+  Vector3 moved[kChunk];
+  Parameter<2> guesses[kChunk];
+  Projection found[kChunk];
+  while (count > 0) {
+    const int patch = feet[0]->at.patch;
+    int n = 0;
+    for (; n < std::min(count, kChunk) && feet[n]->at.patch == patch; ++n) {
+      moved[n] = d[n] - feet[n]->image;
+      guesses[n] = feet[n]->at.xi;
+    }
+    patches_[patch]->warm_batch(moved, guesses, n, found);
+    for (int k = 0; k < n; ++k) {
+      SurfaceFoot& foot = *feet[k];
+      take(found[k], foot);
+      if (foot.status != ProjectionStatus::interior) foot = cross_borders(d[k], foot);
+    }
+    d += n, feet += n, count -= n;
+  }
 }
 
 SurfaceFoot MultiPatchProjector::cross_borders(const Vector3& d, SurfaceFoot foot) const {

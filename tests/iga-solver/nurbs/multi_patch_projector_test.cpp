@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numeric>
 
@@ -30,6 +31,59 @@ TEST(MultiPatchProjector, MinimaAtASeam) {
         ASSERT_EQ(feet.size(), 1U) << "y = " << sign * off << ", latitude " << latitude;
         EXPECT_NEAR(feet[0].distance, 0.1, 1e-13);
       }
+}
+
+PatchedSurface ball_of(int per_quarter) {
+  std::vector<Surface> patches;  // eight octants
+  for (const double height : {-90.0, 0.0})
+    for (const double from : {0.0, 90.0, 180.0, 270.0})
+      patches.push_back(sphere(frame({0, 0, 0}, {0, 0, 1}), 1.0,
+                               refined(arc(from, from + 90), per_quarter, 2),
+                               refined(arc(height, height + 90), per_quarter, 2)));
+  return join(patches);
+}
+
+// Points that circle a ball of eight patches, each in a plane of its own, and an image of it far away: their
+// feet, followed together from patch to patch, are where theory has them.
+TEST(MultiPatchProjector, FollowsManyAcrossBorders) {
+  const PatchedSurface ball = ball_of(3);
+  MultiPatchProjector projector(ball.topology);
+  projector.set_control_points(ball.control_points);
+  constexpr int kPoints = 150, kSteps = 60;  // more than are taken at a time
+  const Vector3 images[2] = {Vector3::Zero(), Vector3(40.0, -30.0, 20.0)};
+  std::vector<Vector3> d(kPoints);
+  std::vector<SurfaceFoot> feet(kPoints);
+  std::vector<SurfaceFoot*> pointers;
+  for (SurfaceFoot& foot : feet) pointers.push_back(&foot);
+  const auto direction = [](int k, int step) {
+    const Vector3 axis = Vector3(std::cos(k), std::sin(3.0 * k), 0.1 + 0.001 * k).normalized();
+    const Vector3 start = axis.cross(Vector3(std::sin(k), 0.3, std::cos(2.0 * k))).normalized();
+    return Vector3(Eigen::AngleAxisd(0.1 * step, axis) * start);
+  };
+  int changes = 0;
+  for (int step = 0; step < kSteps; ++step) {
+    for (int k = 0; k < kPoints; ++k) d[k] = images[k % 2] + (1.0 + 0.002 * k) * direction(k, step);
+    if (step == 0)
+      for (int k = 0; k < kPoints; ++k) {
+        std::vector<SurfaceFoot> all;
+        std::vector<int> elements(ball.topology.element_count());
+        std::iota(elements.begin(), elements.end(), 0);
+        projector.add_minima(d[k], images[k % 2], 0.4, 1e-7, elements.data(),
+                             static_cast<int>(elements.size()), all);
+        ASSERT_FALSE(all.empty()) << "point " << k;
+        feet[k] = all[0];
+      }
+    std::vector<int> before;
+    for (const SurfaceFoot& foot : feet) before.push_back(foot.at.patch);
+    projector.follow_batch(d.data(), pointers.data(), kPoints);
+    for (int k = 0; k < kPoints; ++k) {
+      changes += feet[k].at.patch != before[k];
+      ASSERT_NEAR(feet[k].distance, 0.002 * k, 1e-13) << "point " << k << ", step " << step;
+      ASSERT_LT((feet[k].foot - images[k % 2] - direction(k, step)).norm(), 1e-13);
+      ASSERT_EQ(feet[k].image, images[k % 2]);
+    }
+  }
+  EXPECT_GT(changes, 2 * kPoints);  // a turn crosses four octants or more
 }
 
 }  // namespace
