@@ -34,6 +34,7 @@ class RigidSurface final : public StructureSolver {
   const NodalVectors& positions() const override { return positions_; }
   const NodalVectors& velocities() const override { return velocities_; }
   RigidFrame frame() const override { return body_.frame(); }
+  bool slides() const override { return sliding_.has_value(); }
   Vector3 surface_velocity(const Vector3& x, const Vector3& normal) const override;
 
   void begin_run() override;

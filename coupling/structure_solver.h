@@ -40,8 +40,9 @@ class StructureSolver {
   virtual const NodalVectors& velocities() const = 0;
   /// Where the body frame is; the identity for a solver whose positions are in space.
   virtual RigidFrame frame() const { return {}; }
-  /// What a surface that slides within itself (a conveyor belt) adds to the velocity of the wall at x in
-  /// space [length/time]; `normal` is the unit normal there, of either sign.
+  /// Whether the surface slides within itself (a conveyor belt), and what this adds to the velocity of the
+  /// wall at x in space [length/time]; `normal` is the unit normal there, of either sign.
+  virtual bool slides() const { return false; }
   virtual Vector3 surface_velocity(const Vector3& /*x*/, const Vector3& /*normal*/) const {
     return Vector3::Zero();
   }

@@ -31,41 +31,50 @@ void ContactTracker::list_is_new() {
   feet_.clear();
 }
 
-FeetRange ContactTracker::feet(int c, const Query& query, const ContactMemory& memory) {
-  const Candidate& candidate = candidates_.candidates()[c];
-  State& state = states_[c];
-  if (still_quiet(state, query)) return {nullptr, 0};
+void ContactTracker::follow(const Query* queries, int count) {
+  followed_.clear();
+  followed_centres_.clear();
+  for (const Query* query = queries; query < queries + count; ++query) {
+    const State& state = states_[query->candidate];
+    for (int k = state.first; k < state.first + state.count; ++k) {
+      followed_.push_back(&feet_[k].foot);
+      followed_centres_.push_back(query->centre);
+    }
+  }
+  search_.follow_batch(followed_centres_.data(), followed_.data(), static_cast<int>(followed_.size()));
+}
 
-  FeetRange feet;
-  if (state.is_new) {
-    state.is_new = false;
-    state.regular = is_regular(candidate, query);
-    find_all(candidate, query, query.list_reach, memory, all_feet_);
-    state.first = static_cast<int>(feet_.size());
-    state.count = state.regular ? static_cast<int>(all_feet_.size()) : 0;
-    if (state.regular) feet_.insert(feet_.end(), all_feet_.begin(), all_feet_.end());
-    feet = state.regular ? FeetRange{feet_.data() + state.first, state.count}
-                         : FeetRange{all_feet_.data(), static_cast<int>(all_feet_.size())};
-  } else if (state.regular) {
+FeetRange ContactTracker::feet(const Query& query, const ContactMemory& memory) {
+  const Candidate& candidate = candidates_.candidates()[query.candidate];
+  State& state = states_[query.candidate];
+
+  FeetRange feet{all_feet_.data(), 0};
+  if (state.regular) {
     feet = {feet_.data() + state.first, state.count};
-    for (TrackedFoot& f : feet) f.foot = search_.follow(query.centre, f.foot.at, f.foot.image);
   } else {
     find_all(candidate, query, state.touched ? query.touch_reach : query.list_reach, memory, all_feet_);
     feet = {all_feet_.data(), static_cast<int>(all_feet_.size())};
   }
+  if (state.is_new) {
+    state.is_new = false;
+    state.regular = is_regular(candidate, query);
+    if (state.regular) {
+      state.first = static_cast<int>(feet_.size());
+      state.count = feet.count;
+      feet_.insert(feet_.end(), feet.begin(), feet.end());
+      feet.first = feet_.data() + state.first;
+    }
+  }
 
   const double nearest = std::min(nearest_distance(feet), query.list_reach);
-  state.quiet = state.touched && !state.regular ? 0.0 : nearest - query.touch_reach;
+  const bool was_touched = state.touched;
   state.touched = nearest < query.touch_reach;
-  state.centre = query.centre;
-  state.surface_motion = query.surface_motion;
+  state.quiet = was_touched && !state.regular ? 0.0 : nearest - query.touch_reach;
+  if (state.quiet > 0.0) {
+    state.centre = query.centre;
+    state.surface_motion = surface_motion_;
+  }
   return feet;
-}
-
-bool ContactTracker::still_quiet(const State& state, const Query& query) const {
-  const double allowance = state.quiet - query.surface_motion - state.surface_motion;
-  return !state.is_new && allowance > 0.0 &&
-         (query.centre - state.centre).squaredNorm() < allowance * allowance;
 }
 
 bool ContactTracker::is_regular(const Candidate& candidate, const Query& query) const {

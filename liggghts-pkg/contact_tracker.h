@@ -36,17 +36,27 @@ class ContactTracker {
 
   /// After the list was rebuilt.
   void list_is_new();
+  /// `surface_motion`: CandidateList::motion_since_build of a deforming wall, else 0 [length].
+  void begin_step(double surface_motion) { surface_motion_ = surface_motion; }
 
-  /// Where a candidate is, and how far its contacts and its list reach [length].
+  /// A candidate of this step: where it is, and how far its contacts and its list reach [length].
   struct Query {
+    int candidate;          ///< its number in the list
     nurbs::Vector3 centre;  ///< in the frame of the control points
     double touch_reach;     ///< feet nearer than this may touch
     double list_reach;      ///< feet nearer than this may do so before the next rebuild
-    double surface_motion;  ///< CandidateList::motion_since_build of a deforming wall, else 0
   };
-  /// The feet of candidate number `c`; those nearer than touch_reach are complete.  Slots of `memory` whose
-  /// branches are gone are cleared.  Valid until the next call.
-  FeetRange feet(int c, const Query& query, const ContactMemory& memory);
+  /// Whether nothing can touch a candidate: too little has moved since its feet were found last.
+  bool is_quiet(int candidate, const nurbs::Vector3& centre) const {
+    const State& state = states_[candidate];
+    const double allowance = state.quiet - (surface_motion_ + state.surface_motion);
+    return allowance > 0.0 && (centre - state.centre).squaredNorm() < allowance * allowance;
+  }
+  /// Takes the branches of these candidates to where they are now, as far as they are followed.
+  void follow(const Query* queries, int count);
+  /// The feet of a candidate, after follow(); those nearer than touch_reach are complete.  Slots of `memory`
+  /// whose branches are gone are cleared.  Valid until the next call.
+  FeetRange feet(const Query& query, const ContactMemory& memory);
 
  private:
   struct State {
@@ -57,7 +67,6 @@ class ContactTracker {
         0.0;  // nothing touches before centre and surface have moved this far relative to each other
     double surface_motion = 0.0;
   };
-  bool still_quiet(const State& state, const Query& query) const;
   bool is_regular(const Candidate& candidate, const Query& query) const;
   void find_all(const Candidate& candidate, const Query& query, double reach, const ContactMemory& memory,
                 std::vector<TrackedFoot>& out);
@@ -73,6 +82,9 @@ class ContactTracker {
   std::vector<TrackedFoot> feet_;      // of regular candidates
   std::vector<TrackedFoot> all_feet_;  // of one that is not, this step
   std::vector<nurbs::SurfaceFoot> found_;
+  std::vector<nurbs::SurfaceFoot*> followed_;     // of the branches of follow(): feet,
+  std::vector<nurbs::Vector3> followed_centres_;  // and what they are the feet of
+  double surface_motion_ = 0.0;
 };
 
 }  // namespace liggghts_pkg

@@ -22,7 +22,7 @@
 using namespace LAMMPS_NS;
 using namespace FixConst;
 using liggghts_pkg::Candidate;
-using liggghts_pkg::ContactMemory;
+using liggghts_pkg::ContactTracker;
 using nurbs::Vector3;
 
 FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
@@ -35,6 +35,7 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
       regularity_(surface_),
       search_(options_.search, projector_),
       tracker_(search_, regularity_, candidates_),
+      outward_sign_(structure_.surface().outward_sign),
       no_forces_(coupling::NodalVectors::Zero(3, structure_.surface().map.node_count())),
       totals_(),
       all_totals_() {
@@ -226,6 +227,10 @@ void FixWallNurbs::final_integrate() {
   }
 }
 
+inline double FixWallNurbs::touch_reach(int particle) const {
+  return atom->radius[particle] * neighbor->contactDistanceFactor;
+}
+
 /* ----------------------------------------------------------------------
    global search: since LIGGGHTS built its lists a particle may be half a skin to either side, and the wall
    may move half a skin more; what is faster than that must not slip through unseen
@@ -280,12 +285,6 @@ void FixWallNurbs::find_slots() {
   for (size_t s = 0; s < slots_.size(); ++s) slots_[s] = fix_slots_[s]->array_atom;
 }
 
-ContactMemory FixWallNurbs::memory(int particle) { return {slots_, particle, dnum_}; }
-
-double FixWallNurbs::touch_reach(int particle) const {
-  return atom->radius[particle] * neighbor->contactDistanceFactor;
-}
-
 /* ---------------------------------------------------------------------- */
 
 void FixWallNurbs::post_force_primitive(int) {
@@ -293,7 +292,34 @@ void FixWallNurbs::post_force_primitive(int) {
   contacts_.clear();
   local_rows_.clear();
   totals_ = Totals();
-  const int count = static_cast<int>(candidates_.candidates().size());
-  for (int c = 0; c < count; ++c)
-    if (atom->mask[candidates_.candidates()[c].particle] & groupbit) resolve_contacts(c);
+  now_.deforms = structure_.deforms();
+  now_.slides = structure_.slides();
+  now_.stands =
+      !now_.deforms && !now_.slides && frame_.velocity.isZero(0.0) && frame_.angular_velocity.isZero(0.0);
+  now_.is_turned = !frame_.rotation.isIdentity(0.0);
+  now_.needs_forces = structure_.needs_forces();
+  tracker_.begin_step(surface_motion_);
+  // A block at a time: its feet are found together, and are still at hand when its contacts are resolved.
+  constexpr int kBlock = 64;
+  ContactTracker::Query queries[kBlock];
+  const std::vector<Candidate>& candidates = candidates_.candidates();
+  const int count = static_cast<int>(candidates.size());
+  for (int c = 0; c < count;) {
+    int n = 0;
+    for (; c < count && n < kBlock; ++c) {
+      const int i = candidates[c].particle;
+      if (!(atom->mask[i] & groupbit)) continue;
+      // In place: to copy a struct just written in parts waits for all stores.
+      ContactTracker::Query& query = queries[n];
+      query.centre = Vector3::Map(atom->x[i]) - frame_.origin;
+      if (now_.is_turned) query.centre = frame_.rotation.transpose() * query.centre;
+      if (tracker_.is_quiet(c, query.centre)) continue;
+      query.candidate = c;
+      query.touch_reach = touch_reach(i);
+      query.list_reach = list_reach_[i];
+      ++n;
+    }
+    tracker_.follow(queries, n);
+    for (int k = 0; k < n; ++k) resolve_contacts(queries[k]);
+  }
 }

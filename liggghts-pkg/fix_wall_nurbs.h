@@ -76,6 +76,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
 
   /// One row of the local array.
   struct LocalRow {
+    LocalRow() {}  // not set to zero first
     double tag, patch, xi[2];
     double point[3];  // foot
     double force[3];  // on the wall
@@ -89,14 +90,14 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   void build_candidates();
   void forget_lost_contacts();
   void find_slots();
-  liggghts_pkg::ContactMemory memory(int particle);
+  liggghts_pkg::ContactMemory memory(int particle) { return {slots_, particle, dnum_}; }
   double touch_reach(int particle) const;
   void check_images(const std::vector<nurbs::Vector3>& images) const;
 
   // fix_wall_nurbs_contact.cpp
-  void resolve_contacts(int candidate);
+  void resolve_contacts(const liggghts_pkg::ContactTracker::Query& query);
   nurbs::Vector3 wall_velocity(const nurbs::SurfaceFoot& foot, const nurbs::Vector3& point,
-                               const nurbs::Vector3& normal) const;
+                               const nurbs::Vector3& delta) const;
   void apply_contact(int particle, liggghts_pkg::TrackedFoot& tracked, const nurbs::Vector3& delta,
                      const nurbs::Vector3& v_wall);
   void call_contact_model(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta,
@@ -133,7 +134,11 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   liggghts_pkg::CandidateList candidates_;
   liggghts_pkg::LocalSearch search_;
   liggghts_pkg::ContactTracker tracker_;
-  coupling::RigidFrame frame_;   // of these control points
+  const std::vector<int>& outward_sign_;  // of each patch
+  coupling::RigidFrame frame_;            // of these control points
+  struct {
+    bool stands, deforms, slides, is_turned, needs_forces;
+  } now_{};                      // what the wall is and asks for in this step
   double surface_motion_ = 0.0;  // of a deforming wall since the list was built
   bool surface_imported_ = false;
   bool rebuild_candidates_ = true;

@@ -15,24 +15,57 @@
 using namespace LAMMPS_NS;
 using liggghts_pkg::ContactMemory;
 using liggghts_pkg::ContactSlot;
+using liggghts_pkg::ContactTracker;
 using liggghts_pkg::TrackedFoot;
 using nurbs::SurfaceFoot;
 using nurbs::Vector3;
 
+inline Vector3 FixWallNurbs::wall_velocity(const SurfaceFoot& foot, const Vector3& point,
+                                           const Vector3& delta) const {
+  if (now_.stands) return Vector3::Zero();
+  if (now_.deforms) return coupling::FootBasis(surface_, foot.at).interpolate(exchange_.velocities());
+  Vector3 v = frame_.velocity_at(point);
+  if (now_.slides) v += structure_.surface_velocity(point, delta / foot.distance);
+  return v;
+}
+
+// Whether the centre may come to the surface within one step; a wall that deforms is asked for its velocity
+// only where it matters.
+inline bool FixWallNurbs::may_cross(int i, const SurfaceFoot& foot) const {
+  constexpr double kNear = 0.1;  // of the distance
+  return !now_.deforms || Vector3::Map(atom->v[i]).norm() * dt_ >= kNear * foot.distance;
+}
+
+// A centre that comes to the surface within one step would leave it on the other side.
+inline void FixWallNurbs::check_crossing(int i, const SurfaceFoot& foot, const Vector3& delta,
+                                         const Vector3& v_wall) {
+  const double approach = (v_wall - Vector3::Map(atom->v[i])).dot(delta);  // times the distance
+  if (approach > 0.0 && approach * dt_ >= foot.distance * foot.distance)
+    crossing_.raise(atom->tag[i], atom->radius[i], approach / foot.distance);
+}
+
+namespace {
+
+// Of numbers just written one by one: a load of several at once would wait for all stores.
+Vector3 number_by_number(const volatile double* x) {
+  const double x_0 = x[0], x_1 = x[1], x_2 = x[2];
+  return {x_0, x_1, x_2};
+}
+
+}  // namespace
+
 // `delta`, from a foot to the particle's centre, is in space from here on; feet stay in the frame.
-void FixWallNurbs::resolve_contacts(int candidate) {
-  const int i = candidates_.candidates()[candidate].particle;
-  const Vector3 centre = frame_.to_body(Vector3::Map(atom->x[i]));
-  const double reach = touch_reach(i);
+void FixWallNurbs::resolve_contacts(const ContactTracker::Query& query) {
+  const int i = candidates_.candidates()[query.candidate].particle;
   const ContactMemory slots = memory(i);
-  for (TrackedFoot& tracked :
-       tracker_.feet(candidate, {centre, reach, list_reach_[i], surface_motion_}, slots)) {
+  for (TrackedFoot& tracked : tracker_.feet(query, slots)) {
     const SurfaceFoot& foot = tracked.foot;
-    const Vector3 delta = frame_.rotation * (centre - foot.foot);
-    const bool touches = foot.distance <= atom->radius[i] || foot.distance < reach;
+    const bool touches = foot.distance <= atom->radius[i] || foot.distance < query.touch_reach;
+    const Vector3 from_foot = query.centre - foot.foot;
+    const Vector3 delta = now_.is_turned ? Vector3(frame_.rotation * from_foot) : from_foot;
     Vector3 v_wall;
     if (touches || may_cross(i, foot)) {
-      v_wall = wall_velocity(foot, Vector3::Map(atom->x[i]) - delta, delta / foot.distance);
+      v_wall = wall_velocity(foot, Vector3::Map(atom->x[i]) - delta, delta);
       check_crossing(i, foot, delta, v_wall);
     }
     if (touches) {
@@ -55,16 +88,9 @@ void FixWallNurbs::take_slot(int i, TrackedFoot& tracked, const ContactMemory& s
   slots.slot(tracked.slot).set_foot(tracked.foot.at);
 }
 
-Vector3 FixWallNurbs::wall_velocity(const SurfaceFoot& foot, const Vector3& point,
-                                    const Vector3& normal) const {
-  if (structure_.deforms()) return coupling::FootBasis(surface_, foot.at).interpolate(exchange_.velocities());
-  return frame_.velocity_at(point) + structure_.surface_velocity(point, normal);
-}
-
 void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& delta, const Vector3& v_wall) {
   const SurfaceFoot& foot = tracked.foot;
-  const Eigen::Map<const Vector3> x(atom->x[i]);
-  const Vector3 point = x - delta;
+  const Vector3 x(atom->x[i]), point = x - delta;
 
   // The models add to the particle's force; a force of zero before shows what they add.
   Eigen::Map<Vector3> f(atom->f[i]), torque(atom->torque[i]);
@@ -72,7 +98,7 @@ void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& del
   f.setZero();
   torque.setZero();
   call_contact_model(i, foot, delta, memory(i).slot(tracked.slot), v_wall);
-  const Vector3 F = f, T = torque;
+  const Vector3 F = number_by_number(atom->f[i]), T = number_by_number(atom->torque[i]);
   f = f_before + F;
   torque = torque_before + T;
 
@@ -83,22 +109,25 @@ void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& del
   Vector3::Map(totals_.torque) += wall_torque;
   totals_.contacts += 1.0;
   totals_.overlap = std::max(totals_.overlap, overlap);
-  // The wall feels -F at the foot and what is left of the torque.
-  const Vector3 wall_couple = wall_torque + point.cross(F);
-  totals_.power += F.dot(v_wall) - wall_couple.dot(frame_.angular_velocity);
+  if (!now_.stands) {
+    // The wall feels -F at the foot and what is left of the torque.
+    const Vector3 wall_couple = wall_torque + point.cross(F);
+    totals_.power += F.dot(v_wall) - wall_couple.dot(frame_.angular_velocity);
+  }
 
   const nurbs::SurfacePoint& at = foot.at;
-  if (structure_.needs_forces()) {
+  if (now_.needs_forces) {
     const Vector3 on_body = -(frame_.rotation.transpose() * F);
     contacts_.push_back(
         {atom->tag[i], tracked.slot, at.patch, {at.xi[0], at.xi[1]}, {on_body[0], on_body[1], on_body[2]}});
   }
-  local_rows_.push_back({static_cast<double>(atom->tag[i]),
-                         static_cast<double>(at.patch),
-                         {at.xi[0], at.xi[1]},
-                         {point[0], point[1], point[2]},
-                         {-F[0], -F[1], -F[2]},
-                         overlap});
+  LocalRow& row = local_rows_.emplace_back();
+  row.tag = atom->tag[i];
+  row.patch = at.patch;
+  row.xi[0] = at.xi[0], row.xi[1] = at.xi[1];
+  Vector3::Map(row.point) = point;
+  Vector3::Map(row.force) = -F;
+  row.overlap = overlap;
 
   if (output_) tell_output(i, at, delta, F, v_wall);
 
@@ -143,22 +172,8 @@ double FixWallNurbs::effective_radius(int i, const SurfaceFoot& foot, const Vect
 }
 
 bool FixWallNurbs::inside_body(const SurfaceFoot& foot, const Vector3& delta) const {
-  const int sign = structure_.surface().outward_sign[foot.at.patch];
+  const int sign = outward_sign_[foot.at.patch];
   if (sign == 0 || foot.status != nurbs::ProjectionStatus::interior) return false;
   const Vector3 normal = nurbs::shape_at(surface_, exchange_.positions(), foot.at).normal;
   return sign * normal.dot(frame_.rotation.transpose() * delta) < 0.0;
-}
-
-// Whether the centre may come to the surface within one step; a wall that deforms is asked for its velocity
-// only where it matters.
-bool FixWallNurbs::may_cross(int i, const SurfaceFoot& foot) const {
-  constexpr double kNear = 0.1;  // of the distance
-  return !structure_.deforms() || Vector3::Map(atom->v[i]).norm() * dt_ >= kNear * foot.distance;
-}
-
-// A centre that comes to the surface within one step would leave it on the other side.
-void FixWallNurbs::check_crossing(int i, const SurfaceFoot& foot, const Vector3& delta,
-                                  const Vector3& v_wall) {
-  const double approach = (v_wall - Vector3::Map(atom->v[i])).dot(delta) / foot.distance;
-  if (approach * dt_ >= foot.distance) crossing_.raise(atom->tag[i], atom->radius[i], approach);
 }

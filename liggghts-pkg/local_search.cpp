@@ -27,6 +27,15 @@ SurfaceFoot LocalSearch::follow(const Vector3& centre, const SurfacePoint& from,
   return foot;
 }
 
+void LocalSearch::follow_batch(const Vector3* centres, SurfaceFoot* const* feet, int count_of_feet) {
+  if (method_ == SearchMethod::simplex_brent) {
+    for (int k = 0; k < count_of_feet; ++k) *feet[k] = follow(centres[k], feet[k]->at, feet[k]->image);
+    return;
+  }
+  projector_.follow_batch(centres, feet, count_of_feet);
+  for (int k = 0; k < count_of_feet; ++k) count(*feet[k]);
+}
+
 void LocalSearch::add_minima(const Vector3& centre, const Vector3& image, double reach, double same_foot,
                              const int* elements, int count_of_elements, std::vector<SurfaceFoot>& out) {
   const size_t before = out.size();

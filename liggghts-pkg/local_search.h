@@ -26,6 +26,8 @@ class LocalSearch {
   /// `image`.
   nurbs::SurfaceFoot follow(const nurbs::Vector3& centre, const nurbs::SurfacePoint& from,
                             const nurbs::Vector3& image);
+  /// The same for many branches, each foot in place.
+  void follow_batch(const nurbs::Vector3* centres, nurbs::SurfaceFoot* const* feet, int count);
   /// All feet nearer than `reach` on candidate elements, as MultiPatchProjector::add_minima.
   void add_minima(const nurbs::Vector3& centre, const nurbs::Vector3& image, double reach, double same_foot,
                   const int* elements, int count, std::vector<nurbs::SurfaceFoot>& out);
