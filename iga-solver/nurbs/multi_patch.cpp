@@ -30,11 +30,6 @@ int MultiPatch::patch_of_element(int element) const {
   return static_cast<int>(beyond - first_element_.begin()) - 1;
 }
 
-bool MultiPatch::on_side(const SurfacePoint& point, int side) const {
-  const KnotVector& knots = patches_[point.patch].knots(side / 2);
-  return point.xi[side / 2] == (side % 2 == 1 ? knots.back() : knots.front());
-}
-
 SurfacePoint MultiPatch::across(const SurfacePoint& point, int side) const {
   const Border& border = borders_[point.patch][side];
   const KnotVector& here = patches_[point.patch].knots(1 - side / 2);

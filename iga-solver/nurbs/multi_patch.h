@@ -36,7 +36,14 @@ class MultiPatch {
     return all.middleCols(first_control_point_[p], patches_[p].control_point_count());
   }
   /// Whether a point lies on a side of its patch.
-  bool on_side(const SurfacePoint& point, int side) const;
+  bool on_side(const SurfacePoint& point, int side) const {
+    return point.xi[side / 2] == end_of_side(point.patch, side);
+  }
+  /// The parameter that is the same all along a side.
+  double end_of_side(int patch, int side) const {
+    const KnotVector& knots = patches_[patch].knots(side / 2);
+    return side % 2 == 1 ? knots.back() : knots.front();
+  }
   /// The same point in the parameters of the patch beyond a welded side on which it lies.
   SurfacePoint across(const SurfacePoint& point, int side) const;
 

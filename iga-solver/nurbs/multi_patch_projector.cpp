@@ -6,6 +6,8 @@
 namespace nurbs {
 namespace {
 
+constexpr double kEqual = 1.0 + 1e-14;  // of distances: round-off
+
 // Of a foot whose patch and image are known; in place, since to copy a struct just written in parts waits for
 // all stores.
 void take(const Projection& p, SurfaceFoot& foot) {
@@ -71,9 +73,14 @@ SurfaceFoot MultiPatchProjector::cross_borders(const Vector3& d, SurfaceFoot foo
   return foot;
 }
 
-// Whether the distance falls beyond a welded edge on which the foot lies; then where it falls to.
+// Whether the distance falls beyond a welded edge on which the foot lies, or on a patch around a pole where
+// it lies; then where it falls to.
 bool MultiPatchProjector::leads_on(const Vector3& d, const SurfaceFoot& foot, SurfaceFoot& beyond) const {
   if (foot.status == ProjectionStatus::interior) return false;
+  for (int side = 0; side < kSideCount; ++side)
+    if (surface_.border(foot.at.patch, side).kind == Border::pole && surface_.on_side(foot.at, side) &&
+        leads_off_pole(d, foot, side, beyond))
+      return true;
   for (int side = 0; side < kSideCount; ++side) {
     const Border& border = surface_.border(foot.at.patch, side);
     if (border.kind != Border::welded || !surface_.on_side(foot.at, side)) continue;
@@ -82,7 +89,34 @@ bool MultiPatchProjector::leads_on(const Vector3& d, const SurfaceFoot& foot, Su
     beyond = on_surface(border.patch, image, patches_[border.patch]->warm(d - image, start.xi));
     beyond.iterations += foot.iterations;
     const bool left = !surface_.on_side(beyond.at, border.side);
-    if (left && beyond.distance <= foot.distance * (1.0 + 1e-14)) return true;
+    if (left && beyond.distance <= foot.distance * kEqual) return true;
+  }
+  return false;
+}
+
+// Goes round the pole from patch to patch, both ways if the patches do not close: a patch that leads downhill
+// need not be the next one.
+bool MultiPatchProjector::leads_off_pole(const Vector3& d, const SurfaceFoot& foot, int pole,
+                                         SurfaceFoot& beyond) const {
+  for (const int way : {0, 1}) {
+    SurfacePoint corner = foot.at;
+    Vector3 image = foot.image;
+    int at_pole = pole, through = pole < 2 ? 2 + way : way;  // sides of corner.patch
+    for (int turn = 0; turn < surface_.patch_count(); ++turn) {
+      const Border& border = surface_.border(corner.patch, through);
+      if (border.kind != Border::welded) break;
+      corner.xi[through / 2] = surface_.end_of_side(corner.patch, through);
+      corner = surface_.across(corner, through);
+      image += border.translation;
+      const int along = 1 - border.side / 2;
+      at_pole = 2 * along + (corner.xi[along] == surface_.end_of_side(corner.patch, 2 * along + 1) ? 1 : 0);
+      if (corner.patch == foot.at.patch && at_pole == pole) return false;  // all round
+      beyond = on_surface(corner.patch, image, patches_[corner.patch]->warm(d - image, corner.xi));
+      beyond.iterations += foot.iterations;
+      if (!surface_.on_side(beyond.at, at_pole) && beyond.distance <= foot.distance * kEqual) return true;
+      if (surface_.border(corner.patch, at_pole).kind != Border::pole) break;
+      through = border.side ^ 1;
+    }
   }
   return false;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Closest-point projection on a surface of patches: a foot that reaches a welded edge goes on beyond it, and
-// a point of such an edge is a local minimum only if it is one for the patches on both sides.
+// a point of such an edge is a local minimum only if it is one for the patches on both sides; a pole, only if
+// it is one for all patches around it.
 #pragma once
 
 #include <memory>
@@ -46,6 +47,7 @@ class MultiPatchProjector {
 
  private:
   bool leads_on(const Vector3& d, const SurfaceFoot& foot, SurfaceFoot& beyond) const;
+  bool leads_off_pole(const Vector3& d, const SurfaceFoot& foot, int pole, SurfaceFoot& beyond) const;
 
   const MultiPatch& surface_;
   std::vector<std::unique_ptr<SurfaceProjector>> patches_;

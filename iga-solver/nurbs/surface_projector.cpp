@@ -111,7 +111,10 @@ bool SurfaceProjector::follow(const Vector3& d, Start& start, NewtonEnd& end) co
   return end.done;
 }
 
-Projection SurfaceProjector::warm_beyond(const Vector3& d, Start start, NewtonEnd end) const {
+Projection SurfaceProjector::warm_beyond(const Vector3& d, const Start& from,
+                                         const NewtonEnd& stopped) const {
+  Start start = from;
+  NewtonEnd end = stopped;
   if (!follow(d, start, end)) return minimum_or_global(d, descend_after(d, start.at, end));
   Projection result;
   take_foot(end, start.at.e, result);

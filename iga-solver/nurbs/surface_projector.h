@@ -119,7 +119,7 @@ class SurfaceProjector {
   }
   Projection projection(const Vector3& d, const DescentResult& found) const;
   bool follow(const Vector3& d, Start& start, NewtonEnd& end) const;
-  Projection warm_beyond(const Vector3& d, Start start, NewtonEnd end) const;
+  Projection warm_beyond(const Vector3& d, const Start& start, const NewtonEnd& end) const;
   bool neighbour(const LocalPoint& from, const double (&to)[2], Start& start) const;
   DescentResult descend_after(const Vector3& d, const LocalPoint& start, const NewtonEnd& end) const;
   Foot foot_from(const Vector3& d, const LocalPoint& start) const;

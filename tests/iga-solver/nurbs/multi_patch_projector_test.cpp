@@ -33,14 +33,49 @@ TEST(MultiPatchProjector, MinimaAtASeam) {
       }
 }
 
-PatchedSurface ball_of(int per_quarter) {
-  std::vector<Surface> patches;  // eight octants
+PatchedSurface ball_of(int per_quarter, int meridians = 4, int patches_of_half = 4) {
+  std::vector<Surface> patches;
+  const double width = 360.0 / meridians;
   for (const double height : {-90.0, 0.0})
-    for (const double from : {0.0, 90.0, 180.0, 270.0})
+    for (int k = 0; k < patches_of_half; ++k)
       patches.push_back(sphere(frame({0, 0, 0}, {0, 0, 1}), 1.0,
-                               refined(arc(from, from + 90), per_quarter, 2),
+                               refined(arc(width * k, width * (k + 1)), per_quarter, 2),
                                refined(arc(height, height + 90), per_quarter, 2)));
   return join(patches);
+}
+
+// A pole that patches share is a minimum only if no patch around it leads downhill; on an open ball (a wedge
+// is missing) also from both of its ends.
+TEST(MultiPatchProjector, MinimaAtASharedPole) {
+  for (const int meridians : {4, 12})
+    for (const int open : {0, 1}) {
+      const PatchedSurface ball = ball_of(2, meridians, meridians - open);
+      MultiPatchProjector projector(ball.topology);
+      projector.set_control_points(ball.control_points);
+      std::vector<int> elements(ball.topology.element_count());
+      std::iota(elements.begin(), elements.end(), 0);
+      for (const double pole : {-1.0, 1.0})
+        for (const double distance : {0.92, 0.999, 1.001, 1.08})
+          for (int k = 0; k < 40; ++k) {
+            const double polar = 0.2 * (k + 1) / 40.0, longitude = 0.123 + 0.61 * k;
+            const double covered = 2.0 * M_PI * (meridians - open) / meridians;
+            if (std::fmod(longitude, 2.0 * M_PI) > covered - 0.02) continue;
+            const Vector3 d =
+                distance * Vector3(std::sin(polar) * std::cos(longitude),
+                                   std::sin(polar) * std::sin(longitude), pole * std::cos(polar));
+            std::vector<SurfaceFoot> feet;
+            projector.add_minima(d, Vector3::Zero(), 0.4, 1e-7, elements.data(),
+                                 static_cast<int>(elements.size()), feet);
+            ASSERT_GE(feet.size(), 1U) << meridians << " patches, open " << open << ", d " << d.transpose();
+            EXPECT_NEAR(feet[0].distance, std::abs(distance - 1.0), 1e-13);
+            // The edges of a wedge that is missing have feet of their own, but not the pole.
+            if (open == 0) {
+              EXPECT_EQ(feet.size(), 1U) << meridians << " patches, d " << d.transpose();
+            }
+            for (size_t i = 1; i < feet.size(); ++i)
+              EXPECT_GT((feet[i].foot - Vector3(0.0, 0.0, pole)).norm(), 1e-6) << d.transpose();
+          }
+    }
 }
 
 // Points that circle a ball of eight patches, each in a plane of its own, and an image of it far away: their
