@@ -175,11 +175,14 @@ void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses,
     }
     kernel.newton_batch(kernel.p, kernel.q, batch);
     for (int k = 0; k < batch.count; ++k) {
-      const NewtonEnd end = batch.end(k);
-      if (end.done)
-        take_foot(end, e[k], out[k]);
-      else
-        out[k] = warm_beyond(d[k], start(guesses[k]), end);
+      if (batch.done[k] == 0) {
+        out[k] = warm_beyond(d[k], start(guesses[k]), batch.end(k));
+        continue;
+      }
+      for (int c = 0; c < 3; ++c) out[k].foot[c] = batch.foot[c][k];
+      out[k].distance = batch.distance[k];
+      out[k].iterations = static_cast<int>(batch.iterations[k]);
+      take_parameters(e[k], {batch.s[0][k], batch.s[1][k]}, out[k]);
     }
   }
 }
