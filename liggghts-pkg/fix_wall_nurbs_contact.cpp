@@ -51,6 +51,10 @@ Vector3 number_by_number(const volatile double* x) {
   const double x_0 = x[0], x_1 = x[1], x_2 = x[2];
   return {x_0, x_1, x_2};
 }
+Vector3 moment(const Vector3& x, const volatile double* f) {
+  const double f_0 = f[0], f_1 = f[1], f_2 = f[2];
+  return {x[1] * f_2 - x[2] * f_1, x[2] * f_0 - x[0] * f_2, x[0] * f_1 - x[1] * f_0};
+}
 
 }  // namespace
 
@@ -99,12 +103,12 @@ void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& del
   torque.setZero();
   call_contact_model(i, foot, delta, memory(i).slot(tracked.slot), v_wall);
   const Vector3 F = number_by_number(atom->f[i]), T = number_by_number(atom->torque[i]);
+  const Vector3 wall_torque = -(T + moment(x, atom->f[i]));
   f = f_before + F;
   torque = torque_before + T;
 
   const double overlap = atom->radius[i] - foot.distance;
   if (overlap < 0.0 && F.isZero(0.0)) return;
-  const Vector3 wall_torque = -(T + x.cross(F));
   Vector3::Map(totals_.force) -= F;
   Vector3::Map(totals_.torque) += wall_torque;
   totals_.contacts += 1.0;

@@ -38,6 +38,9 @@ void BoxTree::build(std::vector<Box> boxes) {
   if (boxes_.empty()) return;
   nodes_.emplace_back();
   split(0, 0, static_cast<int>(boxes_.size()));
+  std::vector<Box> in_order(boxes_.size());  // those of a leaf one after another
+  for (size_t i = 0; i < boxes_.size(); ++i) in_order[i] = boxes_[order_[i]];
+  boxes_.swap(in_order);
 }
 
 // Halves the range at the median of the box centres along the longest side.
@@ -80,7 +83,7 @@ void BoxTree::query(const Vector3& point, double reach, std::vector<int>& out) c
       stack[depth++] = node.first + 1;
     }
     for (int i = node.first; i < node.first + node.count; ++i)
-      if (boxes_[order_[i]].squared_distance(point) <= reach2) out.push_back(order_[i]);
+      if (boxes_[i].squared_distance(point) <= reach2) out.push_back(order_[i]);
   }
   std::sort(out.begin() + old_size, out.end());
 }

@@ -48,8 +48,8 @@ class BoxTree {
   };
   void split(int node, int begin, int end);
   std::vector<Node> nodes_;
-  std::vector<int> order_;
-  std::vector<Box> boxes_;
+  std::vector<int> order_;  // indices of the boxes given, leaf by leaf
+  std::vector<Box> boxes_;  // in this order
 };
 
 }  // namespace nurbs
