@@ -72,18 +72,24 @@ void BoxTree::split(int node, int begin, int end) {
 void BoxTree::query(const Vector3& point, double reach, std::vector<int>& out) const {
   if (empty()) return;
   const size_t old_size = out.size();
-  const double reach2 = reach * reach;
+  // Along one direction first: most boxes are too far in one.
+  const auto near = [&](const Box& box) {
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      const double away = std::max(std::max(box.low[i] - point[i], point[i] - box.high[i]), 0.0);
+      sum += away * away;
+    }
+    return sum <= reach * reach;
+  };
   int stack[kMaxDepth], depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
     const Node& node = nodes_[stack[--depth]];
-    if (node.box.squared_distance(point) > reach2) continue;
-    if (node.count == 0) {
-      stack[depth++] = node.first;
-      stack[depth++] = node.first + 1;
-    }
+    if (node.count == 0)
+      for (const int child : {node.first, node.first + 1})
+        if (near(nodes_[child].box)) stack[depth++] = child;
     for (int i = node.first; i < node.first + node.count; ++i)
-      if (boxes_[i].squared_distance(point) <= reach2) out.push_back(order_[i]);
+      if (near(boxes_[i])) out.push_back(order_[i]);
   }
   std::sort(out.begin() + old_size, out.end());
 }

@@ -39,10 +39,12 @@ class ElementStore {
     if (built_[index] != version_) build(e0, e1, index);
     return {row(index)};
   }
-  /// Has the processor fetch an element's numbers.
-  void prefetch(const Element& element) const {
-    for (int line = 0; line < lines_per_row_; ++line) __builtin_prefetch(element.row + 8 * line);
+  /// Has the processor fetch an element's numbers, or every so many of its lines: those between come with
+  /// them as a rule, and where many elements are asked for at once the requests themselves are waited for.
+  void prefetch(const Element& element, int every = 1) const {
+    for (int line = 0; line < lines_per_row_; line += every) __builtin_prefetch(element.row + 8 * line);
   }
+  int lines_per_row() const { return lines_per_row_; }
   /// Homogeneous control points (w (P - origin), w), or (P - origin, 0) of a polynomial patch.
   void homogeneous_points(const int (&e)[2], Vector4* out) const;
   ElementNet net(int e0, int e1) const {

@@ -162,6 +162,7 @@ void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses,
   const ElementKernel& kernel = elements_.kernel();
   NewtonBatch batch;
   int e[NewtonBatch::kCapacity][2];
+  const int every = elements_.lines_per_row() > 4 ? 2 : 1;
   for (; count > 0; count -= batch.count, d += batch.count, guesses += batch.count, out += batch.count) {
     batch.count = std::min(NewtonBatch::kCapacity, count);
     for (int k = 0; k < batch.count; ++k) {
@@ -170,7 +171,7 @@ void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses,
         e[k][i] = place.e, batch.s[i][k] = place.s;
       }
       const ElementStore::Element element = elements_.element(e[k]);
-      elements_.prefetch(element);
+      elements_.prefetch(element, every);
       batch.element[k] = element.row, batch.d[k] = d[k].data();
     }
     kernel.newton_batch(kernel.p, kernel.q, batch);
