@@ -171,6 +171,9 @@ constexpr double kLastStep = 1e-4;
 constexpr double kFootError = 1e-14;
 /// Steps below this may be round-off, and leave less.
 constexpr double kTiny = 1e-12;
+/// Nearer to the surface than this part of the element's size the direction of r wants more digits of the
+/// foot: the general descent finds them.
+constexpr double kClose = 1e-4;
 
 template <class Surface>
 struct Foot {
@@ -236,7 +239,7 @@ template <class Surface>
   const Number more[2] = {(H[1] * g[1] - H[2] * g[0]) * per_det, (H[1] * g[0] - H[0] * g[1]) * per_det};
   const Number further[2] = {end[0] + more[0], end[1] + more[1]};
   const Number longer = larger(absolute(more[0]), absolute(more[1]));
-  done = done && square(longer) <= kFootError * length + square(kTiny) &&
+  done = done && twice_phi > square(kClose * size) && square(longer) <= kFootError * length + square(kTiny) &&
          larger(absolute(further[0]), absolute(further[1])) < kWellInside;
   const typename Surface::Vector r = S.f + more[0] * S.f_0 + more[1] * S.f_1;
   return {{done ? further[0] : s[0], done ? further[1] : s[1]},
