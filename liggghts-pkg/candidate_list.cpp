@@ -2,19 +2,18 @@
 #include "candidate_list.h"
 
 #include <cmath>
-#include <utility>
 
 namespace liggghts_pkg {
 
 using nurbs::Vector3;
 
 void CandidateList::set_surface(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points) {
-  std::vector<nurbs::Box> boxes, of_patch;  // not kept: the tree has them
+  std::vector<nurbs::Box> boxes, of_patch;
   for (int p = 0; p < surface.patch_count(); ++p) {
     nurbs::element_boxes(surface.patch(p), surface.control_points_of(p, control_points), of_patch);
     boxes.insert(boxes.end(), of_patch.begin(), of_patch.end());
   }
-  tree_.build(std::move(boxes));
+  tree_.build(boxes);
   control_points_at_build_ = control_points;
 }
 

@@ -2,14 +2,13 @@
 #include "nurbs/box_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
-#include <utility>
 
 namespace nurbs {
 namespace {
 
-constexpr int kLeafSize = 4;
-constexpr int kMaxDepth = 64;  // halving a range of ints reaches the leaves after 31 levels
+constexpr int kMaxStack = 64;  // quartering a range of ints reaches boxes after 16 levels; three wait on each
 
 }  // namespace
 
@@ -30,66 +29,88 @@ void element_boxes(const Space<2>& space, const Eigen::Ref<const NodalVectors>& 
   for (int e = 0; e < space.element_count(); ++e) out[e] = element_box(space, control_points, e);
 }
 
-void BoxTree::build(std::vector<Box> boxes) {
-  boxes_ = std::move(boxes);
+void BoxTree::build(const std::vector<Box>& boxes) {
   nodes_.clear();
-  order_.resize(boxes_.size());
+  if (boxes.empty()) return;
+  order_.resize(boxes.size());
   std::iota(order_.begin(), order_.end(), 0);
-  if (boxes_.empty()) return;
+  const Range all{0, static_cast<int>(boxes.size())};
+  bounds_ = bounds_of(boxes, all);
+  units_.set(bounds_.low, bounds_.high);
   nodes_.emplace_back();
-  split(0, 0, static_cast<int>(boxes_.size()));
-  std::vector<Box> in_order(boxes_.size());  // those of a leaf one after another
-  for (size_t i = 0; i < boxes_.size(); ++i) in_order[i] = boxes_[order_[i]];
-  boxes_.swap(in_order);
+  split(boxes, 0, all);
 }
 
-// Halves the range at the median of the box centres along the longest side.
-void BoxTree::split(int node, int begin, int end) {
-  Box bounds = boxes_[order_[begin]];
-  for (int i = begin + 1; i < end; ++i) {
-    bounds.low = bounds.low.cwiseMin(boxes_[order_[i]].low);
-    bounds.high = bounds.high.cwiseMax(boxes_[order_[i]].high);
+Box BoxTree::bounds_of(const std::vector<Box>& boxes, Range range) const {
+  Box bounds = boxes[order_[range.begin]];
+  for (int i = range.begin + 1; i < range.end; ++i) {
+    bounds.low = bounds.low.cwiseMin(boxes[order_[i]].low);
+    bounds.high = bounds.high.cwiseMax(boxes[order_[i]].high);
   }
-  if (end - begin <= kLeafSize) {
-    nodes_[node] = {bounds, begin, end - begin};
-    return;
-  }
+  return bounds;
+}
+
+// At the median of the box centres along the longest side.
+void BoxTree::halve(const std::vector<Box>& boxes, Range range) {
+  const Box bounds = bounds_of(boxes, range);
   int axis;
   (bounds.high - bounds.low).maxCoeff(&axis);
-  const int middle = begin + (end - begin) / 2;
   const auto before = [&](int a, int b) {
-    return boxes_[a].low[axis] + boxes_[a].high[axis] < boxes_[b].low[axis] + boxes_[b].high[axis];
+    return boxes[a].low[axis] + boxes[a].high[axis] < boxes[b].low[axis] + boxes[b].high[axis];
   };
-  std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end, before);
+  const auto first = order_.begin();
+  std::nth_element(first + range.begin, first + range.half(), first + range.end, before);
+}
 
-  const int children = static_cast<int>(nodes_.size());
-  nodes_[node] = {bounds, children, 0};
-  nodes_.resize(nodes_.size() + 2);
-  split(children, begin, middle);
-  split(children + 1, middle, end);
+// Twice into halves; a part of one box is that box.
+void BoxTree::split(const std::vector<Box>& boxes, int node, Range range) {
+  Range parts[kChildren] = {range};
+  int count = 1;
+  for (int twice = 0; twice < 2; ++twice)
+    for (int k = count - 1; k >= 0; --k) {
+      const Range part = parts[k];
+      if (part.end - part.begin < 2) continue;
+      halve(boxes, part);
+      parts[k].end = part.half();
+      parts[count++] = {part.half(), part.end};
+    }
+  nodes_[node].count = count;
+  for (int k = 0; k < count; ++k) {
+    const Range part = parts[k];
+    const Box box = bounds_of(boxes, part);
+    for (int i = 0; i < 3; ++i) {
+      nodes_[node].low[i][k] = units_.low(box.low[i], i);
+      nodes_[node].high[i][k] = units_.high(box.high[i], i);
+    }
+    const bool is_box = part.end - part.begin == 1;
+    nodes_[node].children[k] = is_box ? ~order_[part.begin] : static_cast<int>(nodes_.size());
+    if (is_box) continue;
+    nodes_.emplace_back();
+    split(boxes, nodes_[node].children[k], part);
+  }
 }
 
 void BoxTree::query(const Vector3& point, double reach, std::vector<int>& out) const {
   if (empty()) return;
-  const size_t old_size = out.size();
-  // Along one direction first: most boxes are too far in one.
-  const auto near = [&](const Box& box) {
-    double sum = 0.0;
-    for (int i = 0; i < 3; ++i) {
-      const double away = std::max(std::max(box.low[i] - point[i], point[i] - box.high[i]), 0.0);
-      sum += away * away;
-    }
-    return sum <= reach * reach;
-  };
-  int stack[kMaxDepth], depth = 0;
+  const BoxUnits::Point at = units_.point(point);
+  if (!std::isfinite(at.far)) return;
+  const float limit = units_.limit(at, reach);
+  const auto old_size = static_cast<std::ptrdiff_t>(out.size());
+  int stack[kMaxStack], depth = 0;
   stack[depth++] = 0;
   while (depth > 0) {
     const Node& node = nodes_[stack[--depth]];
-    if (node.count == 0)
-      for (const int child : {node.first, node.first + 1})
-        if (near(nodes_[child].box)) stack[depth++] = child;
-    for (int i = node.first; i < node.first + node.count; ++i)
-      if (near(boxes_[i])) out.push_back(order_[i]);
+    Lanes away2 = Lanes::Zero();
+    for (int i = 0; i < 3; ++i)
+      away2 += (node.low[i] - at.d[i]).max(at.d[i] - node.high[i]).max(0.0f).square();
+    for (int k = 0; k < node.count; ++k) {
+      if (!(away2[k] <= limit)) continue;
+      const int child = node.children[k];
+      if (child >= 0)
+        stack[depth++] = child;
+      else
+        out.push_back(~child);
+    }
   }
   std::sort(out.begin() + old_size, out.end());
 }

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "nurbs/box_units.h"
 #include "nurbs/patch.h"
 
 namespace nurbs {
@@ -33,23 +34,35 @@ void element_boxes(const Space<2>& space, const Eigen::Ref<const NodalVectors>& 
 class BoxTree {
  public:
   /// Rebuilds over the boxes; their order gives the indices that query returns.
-  void build(std::vector<Box> boxes);
-  /// Appends the indices, in rising order, of all boxes not farther than `reach` from `point`.
+  void build(const std::vector<Box>& boxes);
+  /// Appends the indices, in rising order, of all boxes not farther than `reach` from `point`, and of some
+  /// that are farther by no more than round-off in single precision.
   void query(const Vector3& point, double reach, std::vector<int>& out) const;
   /// Box of everything; undefined while empty.
-  const Box& bounds() const { return nodes_.front().box; }
+  const Box& bounds() const { return bounds_; }
   bool empty() const { return nodes_.empty(); }
 
  private:
+  static constexpr int kChildren = 4;
+  using Lanes = Eigen::Array<float, kChildren, 1>;  // one number for each child
+
   struct Node {
-    Box box;
-    int first,
-        count;  ///< leaf: range in order_; inner node (count == 0): children are at first and first + 1
+    Lanes low[3], high[3];
+    int count;                // of the children
+    int children[kChildren];  // a node, or ~index of a box
   };
-  void split(int node, int begin, int end);
+  struct Range {
+    int begin, end;  // in order_
+    int half() const { return begin + (end - begin) / 2; }
+  };
+  Box bounds_of(const std::vector<Box>& boxes, Range range) const;
+  void halve(const std::vector<Box>& boxes, Range range);
+  void split(const std::vector<Box>& boxes, int node, Range range);
+
+  BoxUnits units_;
+  Box bounds_;
   std::vector<Node> nodes_;
-  std::vector<int> order_;  // indices of the boxes given, leaf by leaf
-  std::vector<Box> boxes_;  // in this order
+  std::vector<int> order_;  // indices of the boxes while the tree is built
 };
 
 }  // namespace nurbs

@@ -15,6 +15,7 @@
 #include <memory>
 #include <vector>
 
+#include "nurbs/box_tree.h"
 #include "nurbs/element_descent.h"
 #include "nurbs/local_reach.h"
 #include "nurbs/projection.h"

@@ -2,14 +2,13 @@
 #include "nurbs/surface_tree.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 namespace nurbs {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr float kNothing = std::numeric_limits<float>::infinity();
-constexpr double kHalfUlp = 0x1p-24;  // of single precision, relative
 
 struct Bounds {
   Vector4 low = Vector4::Constant(kInfinity), high = Vector4::Constant(-kInfinity);
@@ -38,12 +37,7 @@ SurfaceTree::SurfaceTree(const Space<2>& space)
 }
 
 void SurfaceTree::refit(const NodalVectors& control_points) {
-  const Vector3 low = control_points.rowwise().minCoeff(), high = control_points.rowwise().maxCoeff();
-  size_ = (high - low).norm();
-  centre_ << 0.5 * (low + high), 0.0;
-  int exponent;
-  std::frexp(size_, &exponent);
-  scale_ = size_ > 0.0 ? std::ldexp(1.0, -exponent) : 1.0;
+  units_.set(control_points.rowwise().minCoeff(), control_points.rowwise().maxCoeff());
   fit_elements(control_points);
   for (size_t level = 1; level < levels_.size(); ++level) {
     const Level& below = levels_[level - 1];
@@ -85,24 +79,12 @@ void SurfaceTree::fit_elements(const NodalVectors& control_points) {
       for (int j = 1; j <= q; ++j) box.add(rows[e0 + n * j]);
       Children& to = level.children[e0 / 4 + level.count[0] * (e1 / 4)];
       const int k = e0 % 4 + 4 * (e1 % 4);
-      // Coordinates are below 1/2 here: rounding moves them by half of this at most.
-      const Eigen::Array4f box_low = ((box.low - centre_) * scale_ - kHalfUlp).cast<float>(),
-                           box_high = ((box.high - centre_) * scale_ + kHalfUlp).cast<float>();
-      for (int i = 0; i < 3; ++i) to.low[i][k] = box_low[i], to.high[i][k] = box_high[i];
+      for (int i = 0; i < 3; ++i) {
+        to.low[i][k] = units_.low(box.low[i], i);
+        to.high[i][k] = units_.high(box.high[i], i);
+      }
     }
   }
-}
-
-SurfaceTree::Point SurfaceTree::point(const Vector3& d) const {
-  const Vector3 x = scale_ * (d - centre_.head<3>().matrix());
-  return {{static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])}, x.norm()};
-}
-
-// Rounding moves the point by half an ulp of its coordinates, and distances by some half ulps of theirs.
-float SurfaceTree::limit(const Point& point, double distance2) const {
-  const double distance =
-      (scale_ * std::sqrt(distance2) + 2.0 * kHalfUlp * point.far) * (1.0 + 8.0 * kHalfUlp);
-  return static_cast<float>(distance * distance);
 }
 
 }  // namespace nurbs

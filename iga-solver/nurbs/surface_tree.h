@@ -2,9 +2,8 @@
 // Boxes around blocks of 4^k x 4^k elements of a surface, a tree without pointers: which elements may be
 // nearer to a point than something already found.  A block lies in the convex hull of its control points
 // (Piegl & Tiller 1997, P4.8), so their box encloses it.  The sixteen boxes below a block are looked at
-// together, in loops that compilers vectorise; they are in single precision, rounded outwards, in units of
-// the surface's size from its centre. Source: Samet (1984), "The quadtree and related hierarchical data
-// structures".
+// together, in loops that compilers vectorise (box_units.h). Source: Samet (1984), "The quadtree and related
+// hierarchical data structures".
 #pragma once
 
 #include <algorithm>
@@ -13,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-#include "nurbs/box_tree.h"
+#include "nurbs/box_units.h"
 #include "nurbs/power_element.h"
 
 namespace nurbs {
@@ -56,14 +55,11 @@ class SurfaceTree {
     return range;
   }
   /// Length of the diagonal of the box around all control points.
-  double size() const { return size_; }
+  double size() const { return units_.size(); }
 
   /// A point in the tree's units.
-  struct Point {
-    float d[3];
-    double far;  // from the surface's centre
-  };
-  Point point(const Vector3& d) const;
+  using Point = BoxUnits::Point;
+  Point point(const Vector3& d) const { return units_.point(d); }
   using Lanes = Eigen::Array<float, 16, 1>;  // one number for each child
   /// Squared distances of a point from the nearest or the farthest point of the children's boxes; infinite
   /// where there is no child.
@@ -86,7 +82,9 @@ class SurfaceTree {
   /// Bit k: number k, all being >= 0, is less than the limit.
   static unsigned below(const Lanes& numbers, float limit);
   /// near2 from which on nothing in a box is nearer than a squared distance [length^2].
-  float limit(const Point& point, double distance2) const;
+  float limit(const Point& point, double distance2) const {
+    return units_.limit(point, std::sqrt(distance2));
+  }
 
  private:
   struct Children {
@@ -105,8 +103,7 @@ class SurfaceTree {
   int elements_[2], degree_[2], control_points_0_;
   std::vector<int> first_[2];  // control point of each element, per direction
   std::vector<Level> levels_;  // of the blocks of level 1, 2, ...
-  Vector4 centre_ = Vector4::Zero();
-  double size_ = 0.0, scale_ = 1.0;  // 1 / length, a power of two
+  BoxUnits units_;
 };
 
 // As integers, floats that are not negative have the same order.

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "shapes.h"
 
 namespace nurbs {
@@ -26,16 +30,54 @@ TEST(BoxTree, QueryEqualsBruteForce) {
     for (int k = 0; k < 200; ++k) {
       const Vector3 point = 2.0 * random_point(random) - Vector3::Constant(0.5);
       const double reach = shapes::uniform(random, 0.0, 0.4);
-      std::vector<int> expected{9999};  // what is there already stays
+      std::vector<int> expected{9999}, perhaps{9999};  // what is there already stays
       for (int i = 0; i < count; ++i) {
-        const Vector3 nearest = point.cwiseMax(boxes[i].low).cwiseMin(boxes[i].high);
-        if ((nearest - point).norm() <= reach) expected.push_back(i);
+        const double distance = (point.cwiseMax(boxes[i].low).cwiseMin(boxes[i].high) - point).norm();
+        if (distance <= reach) expected.push_back(i);
+        if (distance <= reach + 1e-6) perhaps.push_back(i);
       }
       found.assign(1, 9999);
       tree.query(point, reach, found);
-      EXPECT_EQ(found, expected);
+      if (perhaps == expected)
+        EXPECT_EQ(found, expected);
+      else
+        EXPECT_TRUE(std::includes(found.begin() + 1, found.end(), expected.begin() + 1, expected.end()) &&
+                    std::includes(perhaps.begin() + 1, perhaps.end(), found.begin() + 1, found.end()));
     }
   }
+}
+
+// Boxes touched exactly, at any size and distance from the origin: single precision must not lose them.
+TEST(BoxTree, FindsWhatIsJustInReach) {
+  shapes::Random random(4);
+  BoxTree tree;
+  for (const double size : {1e-12, 1.0, 1e12})
+    for (const double offset : {0.0, 1e3}) {
+      const Vector3 shift = Vector3::Constant(offset * size);
+      std::vector<Box> boxes;
+      for (int i = 0; i < 300; ++i) {
+        const Vector3 low = shift + size * random_point(random);
+        boxes.push_back({low, low + 0.05 * size * random_point(random)});
+      }
+      tree.build(boxes);
+      for (int k = 0; k < 3000; ++k) {
+        const int box = k % 300;
+        const Vector3 point = shift + size * (3.0 * random_point(random) - Vector3::Ones());
+        std::vector<int> found;
+        tree.query(point, std::sqrt(boxes[box].squared_distance(point)) * (1.0 + 1e-15), found);
+        EXPECT_TRUE(std::binary_search(found.begin(), found.end(), box));
+      }
+    }
+}
+
+TEST(BoxTree, PointsThatAreNotFiniteFindNothing) {
+  BoxTree tree;
+  tree.build(std::vector<Box>(5, Box{Vector3::Zero(), Vector3::Ones()}));
+  std::vector<int> found;
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  tree.query({kNaN, 0.0, 0.0}, 1.0, found);
+  tree.query({0.0, std::numeric_limits<double>::infinity(), 0.0}, 1.0, found);
+  EXPECT_TRUE(found.empty());
 }
 
 TEST(BoxTree, EmptyAndEqualBoxes) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "nurbs/box_tree.h"
 #include "shapes.h"
 
 namespace nurbs {
