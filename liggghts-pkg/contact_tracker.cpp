@@ -2,7 +2,6 @@
 #include "contact_tracker.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace liggghts_pkg {
 
@@ -16,12 +15,6 @@ constexpr double kSameFoot = 1e-6;  // of the reach: feet closer than this are o
 
 bool same(const SurfaceFoot& a, const SurfaceFoot& b, double reach) {
   return (a.foot - b.foot).squaredNorm() <= kSameFoot * kSameFoot * reach * reach;
-}
-
-double nearest_distance(const FeetRange& feet) {
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const TrackedFoot& f : feet) nearest = std::min(nearest, f.foot.distance);
-  return nearest;
 }
 
 }  // namespace
@@ -44,17 +37,12 @@ void ContactTracker::follow(const Query* queries, int count) {
   search_.follow_batch(followed_centres_.data(), followed_.data(), static_cast<int>(followed_.size()));
 }
 
-FeetRange ContactTracker::feet(const Query& query, const ContactMemory& memory) {
+// Of a candidate whose branches are not followed, or not yet.
+FeetRange ContactTracker::find_feet(const Query& query, const ContactMemory& memory) {
   const Candidate& candidate = candidates_.candidates()[query.candidate];
   State& state = states_[query.candidate];
-
-  FeetRange feet{all_feet_.data(), 0};
-  if (state.regular) {
-    feet = {feet_.data() + state.first, state.count};
-  } else {
-    find_all(candidate, query, state.touched ? query.touch_reach : query.list_reach, memory, all_feet_);
-    feet = {all_feet_.data(), static_cast<int>(all_feet_.size())};
-  }
+  find_all(candidate, query, state.touched ? query.touch_reach : query.list_reach, memory, all_feet_);
+  FeetRange feet{all_feet_.data(), static_cast<int>(all_feet_.size())};
   if (state.is_new) {
     state.is_new = false;
     state.regular = is_regular(candidate, query);
@@ -65,15 +53,9 @@ FeetRange ContactTracker::feet(const Query& query, const ContactMemory& memory) 
       feet.first = feet_.data() + state.first;
     }
   }
-
-  const double nearest = std::min(nearest_distance(feet), query.list_reach);
-  const bool was_touched = state.touched;
-  state.touched = nearest < query.touch_reach;
-  state.quiet = was_touched && !state.regular ? 0.0 : nearest - query.touch_reach;
-  if (state.quiet > 0.0) {
-    state.centre = query.centre;
-    state.surface_motion = surface_motion_;
-  }
+  const double quiet = nearest_distance(feet, query) - query.touch_reach;
+  keep_quiet(query, state.touched && !state.regular ? 0.0 : quiet, state);
+  state.touched = quiet < 0.0;
   return feet;
 }
 

@@ -8,6 +8,7 @@
 // in each step.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "candidate_list.h"
@@ -56,7 +57,13 @@ class ContactTracker {
   void follow(const Query* queries, int count);
   /// The feet of a candidate, after follow(); those nearer than touch_reach are complete.  Slots of `memory`
   /// whose branches are gone are cleared.  Valid until the next call.
-  FeetRange feet(const Query& query, const ContactMemory& memory);
+  FeetRange feet(const Query& query, const ContactMemory& memory) {
+    State& state = states_[query.candidate];
+    if (!state.regular) return find_feet(query, memory);
+    const FeetRange feet{feet_.data() + state.first, state.count};
+    keep_quiet(query, nearest_distance(feet, query) - query.touch_reach, state);
+    return feet;
+  }
 
  private:
   struct State {
@@ -67,6 +74,18 @@ class ContactTracker {
         0.0;  // nothing touches before centre and surface have moved this far relative to each other
     double surface_motion = 0.0;
   };
+  static double nearest_distance(const FeetRange& feet, const Query& query) {
+    double nearest = query.list_reach;
+    for (const TrackedFoot& f : feet) nearest = std::min(nearest, f.foot.distance);
+    return nearest;
+  }
+  void keep_quiet(const Query& query, double quiet, State& state) const {
+    state.quiet = quiet;
+    if (quiet <= 0.0) return;
+    state.centre = query.centre;
+    state.surface_motion = surface_motion_;
+  }
+  FeetRange find_feet(const Query& query, const ContactMemory& memory);
   bool is_regular(const Candidate& candidate, const Query& query) const;
   void find_all(const Candidate& candidate, const Query& query, double reach, const ContactMemory& memory,
                 std::vector<TrackedFoot>& out);

@@ -23,7 +23,7 @@ using nurbs::Vector3;
 inline Vector3 FixWallNurbs::wall_velocity(const SurfaceFoot& foot, const Vector3& point,
                                            const Vector3& delta) const {
   if (now_.stands) return Vector3::Zero();
-  if (now_.deforms) return coupling::FootBasis(surface_, foot.at).interpolate(exchange_.velocities());
+  if (now_.deforms) return coupling::FootBasis(surface_, foot.at()).interpolate(exchange_.velocities());
   Vector3 v = frame_.velocity_at(point);
   if (now_.slides) v += structure_.surface_velocity(point, delta / foot.distance);
   return v;
@@ -58,41 +58,18 @@ Vector3 moment(const Vector3& x, const volatile double* f) {
 
 }  // namespace
 
-// `delta`, from a foot to the particle's centre, is in space from here on; feet stay in the frame.
-void FixWallNurbs::resolve_contacts(const ContactTracker::Query& query) {
-  const int i = candidates_.candidates()[query.candidate].particle;
-  const ContactMemory slots = memory(i);
-  for (TrackedFoot& tracked : tracker_.feet(query, slots)) {
-    const SurfaceFoot& foot = tracked.foot;
-    const bool touches = foot.distance <= atom->radius[i] || foot.distance < query.touch_reach;
-    const Vector3 from_foot = query.centre - foot.foot;
-    const Vector3 delta = now_.is_turned ? Vector3(frame_.rotation * from_foot) : from_foot;
-    Vector3 v_wall;
-    if (touches || may_cross(i, foot)) {
-      v_wall = wall_velocity(foot, Vector3::Map(atom->x[i]) - delta, delta);
-      check_crossing(i, foot, delta, v_wall);
-    }
-    if (touches) {
-      take_slot(i, tracked, slots);
-      apply_contact(i, tracked, delta, v_wall);
-    } else if (tracked.slot >= 0) {
-      slots.slot(tracked.slot).clear();
-      tracked.slot = -1;
-    }
-  }
-}
-
-void FixWallNurbs::take_slot(int i, TrackedFoot& tracked, const ContactMemory& slots) {
+inline void FixWallNurbs::take_slot(int i, TrackedFoot& tracked, const ContactMemory& slots) {
   if (tracked.slot < 0) tracked.slot = slots.empty_slot();
   if (tracked.slot < 0)
     fail_on_this_rank(
         fmt::format("particle {} touches the wall in more than {} places at step {}; use 'contacts N' "
                     "with a larger N",
                     atom->tag[i], slots.slot_count(), update->ntimestep));
-  slots.slot(tracked.slot).set_foot(tracked.foot.at);
+  slots.slot(tracked.slot).set_foot(tracked.foot.at());
 }
 
-void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& delta, const Vector3& v_wall) {
+inline void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& delta,
+                                        const Vector3& v_wall) {
   const SurfaceFoot& foot = tracked.foot;
   const Vector3 x(atom->x[i]), point = x - delta;
 
@@ -119,7 +96,7 @@ void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& del
     totals_.power += F.dot(v_wall) - wall_couple.dot(frame_.angular_velocity);
   }
 
-  const nurbs::SurfacePoint& at = foot.at;
+  const nurbs::SurfacePoint at = foot.at();
   if (now_.needs_forces) {
     const Vector3 on_body = -(frame_.rotation.transpose() * F);
     contacts_.push_back(
@@ -140,8 +117,8 @@ void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& del
 
 // LIGGGHTS' contact models take one radius for the lever arm and the stiffness.  With another effective
 // radius r*, the arm r - overlap/2 is kept by turning the particle faster or slower in the same proportion.
-void FixWallNurbs::call_contact_model(int i, const SurfaceFoot& foot, const Vector3& delta, ContactSlot slot,
-                                      Vector3 v_wall) {
+inline void FixWallNurbs::call_contact_model(int i, const SurfaceFoot& foot, const Vector3& delta,
+                                             ContactSlot slot, Vector3 v_wall) {
   LCM::SurfacesIntersectData contact;
   contact.is_wall = true;
   contact.i = i;
@@ -167,7 +144,7 @@ void FixWallNurbs::call_contact_model(int i, const SurfaceFoot& foot, const Vect
 // sphere.
 double FixWallNurbs::effective_radius(int i, const SurfaceFoot& foot, const Vector3& delta) const {
   constexpr double kLeast = 0.1;  // of 1/r: in a hollow of nearly the particle's radius Hertz' theory ends
-  const nurbs::SurfaceShape shape = nurbs::shape_at(surface_, exchange_.positions(), foot.at);
+  const nurbs::SurfaceShape shape = nurbs::shape_at(surface_, exchange_.positions(), foot.at());
   const double r = atom->radius[i];
   const double side = shape.normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1.0 : 1.0;
   double product = 1.0;
@@ -175,9 +152,33 @@ double FixWallNurbs::effective_radius(int i, const SurfaceFoot& foot, const Vect
   return r / std::sqrt(product);
 }
 
-bool FixWallNurbs::inside_body(const SurfaceFoot& foot, const Vector3& delta) const {
-  const int sign = outward_sign_[foot.at.patch];
+inline bool FixWallNurbs::inside_body(const SurfaceFoot& foot, const Vector3& delta) const {
+  const int sign = outward_sign_[foot.patch];
   if (sign == 0 || foot.status != nurbs::ProjectionStatus::interior) return false;
-  const Vector3 normal = nurbs::shape_at(surface_, exchange_.positions(), foot.at).normal;
+  const Vector3 normal = nurbs::shape_at(surface_, exchange_.positions(), foot.at()).normal;
   return sign * normal.dot(frame_.rotation.transpose() * delta) < 0.0;
+}
+
+// `delta`, from a foot to the particle's centre, is in space from here on; feet stay in the frame.
+void FixWallNurbs::resolve_contacts(const ContactTracker::Query& query) {
+  const int i = candidates_.candidates()[query.candidate].particle;
+  const ContactMemory slots = memory(i);
+  for (TrackedFoot& tracked : tracker_.feet(query, slots)) {
+    const SurfaceFoot& foot = tracked.foot;
+    const bool touches = foot.distance <= atom->radius[i] || foot.distance < query.touch_reach;
+    const Vector3 from_foot = query.centre - foot.foot;
+    const Vector3 delta = now_.is_turned ? Vector3(frame_.rotation * from_foot) : from_foot;
+    Vector3 v_wall;
+    if (touches || may_cross(i, foot)) {
+      v_wall = wall_velocity(foot, Vector3::Map(atom->x[i]) - delta, delta);
+      check_crossing(i, foot, delta, v_wall);
+    }
+    if (touches) {
+      take_slot(i, tracked, slots);
+      apply_contact(i, tracked, delta, v_wall);
+    } else if (tracked.slot >= 0) {
+      slots.slot(tracked.slot).clear();
+      tracked.slot = -1;
+    }
+  }
 }

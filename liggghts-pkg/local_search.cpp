@@ -19,7 +19,8 @@ SurfaceFoot LocalSearch::follow(const Vector3& centre, const SurfacePoint& from,
     const nurbs::SurfaceProjector& patch = projector_.patch(from.patch);
     const nurbs::Projection p = nurbs::closest_point_simplex_brent(patch.space(), patch.control_points(),
                                                                    centre - image, from.xi, true);
-    foot = {{from.patch, p.xi}, image, p.foot + image, p.distance, p.status, p.iterations};
+    foot = {p, from.patch, image};
+    foot.foot += image;
     if (foot.status != ProjectionStatus::interior) ++counts_.fallbacks;
   }
   if (foot.status != ProjectionStatus::interior) foot = projector_.follow(centre, from, image);
@@ -29,7 +30,7 @@ SurfaceFoot LocalSearch::follow(const Vector3& centre, const SurfacePoint& from,
 
 void LocalSearch::follow_batch(const Vector3* centres, SurfaceFoot* const* feet, int count_of_feet) {
   if (method_ == SearchMethod::simplex_brent) {
-    for (int k = 0; k < count_of_feet; ++k) *feet[k] = follow(centres[k], feet[k]->at, feet[k]->image);
+    for (int k = 0; k < count_of_feet; ++k) *feet[k] = follow(centres[k], feet[k]->at(), feet[k]->image);
     return;
   }
   projector_.follow_batch(centres, feet, count_of_feet);

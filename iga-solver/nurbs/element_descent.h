@@ -39,9 +39,14 @@ class ElementStore {
     if (built_[index] != version_) build(e0, e1, index);
     return {row(index)};
   }
-  /// Has the processor fetch an element's numbers, or every so many of its lines: those between come with
-  /// them as a rule, and where many elements are asked for at once the requests themselves are waited for.
-  void prefetch(const Element& element, int every = 1) const {
+  /// Has the processor fetch an element's numbers.
+  void prefetch(const Element& element) const {
+    for (int line = 0; line < lines_per_row_; ++line) __builtin_prefetch(element.row + 8 * line);
+  }
+  /// The same where many elements are asked for at once, and the requests themselves are waited for: every
+  /// fourth line of long rows; those between come with them as a rule.
+  void prefetch_some(const Element& element) const {
+    const int every = lines_per_row_ > 4 ? 4 : 1;
     for (int line = 0; line < lines_per_row_; line += every) __builtin_prefetch(element.row + 8 * line);
   }
   int lines_per_row() const { return lines_per_row_; }

@@ -8,21 +8,9 @@ namespace {
 
 constexpr double kEqual = 1.0 + 1e-14;  // of distances: round-off
 
-// Of a foot whose patch and image are known; in place, since to copy a struct just written in parts waits for
-// all stores.
-void take(const Projection& p, SurfaceFoot& foot) {
-  foot.at.xi = p.xi;
-  foot.foot = p.foot + foot.image;
-  foot.distance = p.distance;
-  foot.status = p.status;
-  foot.iterations = p.iterations;
-}
-
 SurfaceFoot on_surface(int patch, const Vector3& image, const Projection& p) {
-  SurfaceFoot foot;
-  foot.at.patch = patch;
-  foot.image = image;
-  take(p, foot);
+  SurfaceFoot foot{p, patch, image};
+  foot.foot += image;
   return foot;
 }
 
@@ -48,18 +36,19 @@ void MultiPatchProjector::follow_batch(const Vector3* d, SurfaceFoot* const* fee
   constexpr int kChunk = 64;
   Vector3 moved[kChunk];
   Parameter<2> guesses[kChunk];
-  Projection found[kChunk];
+  Projection* found[kChunk];
   while (count > 0) {
-    const int patch = feet[0]->at.patch;
+    const int patch = feet[0]->patch, most = std::min(count, kChunk);
     int n = 0;
-    for (; n < std::min(count, kChunk) && feet[n]->at.patch == patch; ++n) {
+    for (; n < most && feet[n]->patch == patch; ++n) {
       moved[n] = d[n] - feet[n]->image;
-      guesses[n] = feet[n]->at.xi;
+      guesses[n] = feet[n]->xi;
+      found[n] = feet[n];
     }
     patches_[patch]->warm_batch(moved, guesses, n, found);
     for (int k = 0; k < n; ++k) {
       SurfaceFoot& foot = *feet[k];
-      take(found[k], foot);
+      foot.foot += foot.image;
       if (foot.status != ProjectionStatus::interior) foot = cross_borders(d[k], foot);
     }
     d += n, feet += n, count -= n;
@@ -78,17 +67,17 @@ SurfaceFoot MultiPatchProjector::cross_borders(const Vector3& d, SurfaceFoot foo
 bool MultiPatchProjector::leads_on(const Vector3& d, const SurfaceFoot& foot, SurfaceFoot& beyond) const {
   if (foot.status == ProjectionStatus::interior) return false;
   for (int side = 0; side < kSideCount; ++side)
-    if (surface_.border(foot.at.patch, side).kind == Border::pole && surface_.on_side(foot.at, side) &&
+    if (surface_.border(foot.patch, side).kind == Border::pole && surface_.on_side(foot.at(), side) &&
         leads_off_pole(d, foot, side, beyond))
       return true;
   for (int side = 0; side < kSideCount; ++side) {
-    const Border& border = surface_.border(foot.at.patch, side);
-    if (border.kind != Border::welded || !surface_.on_side(foot.at, side)) continue;
-    const SurfacePoint start = surface_.across(foot.at, side);
+    const Border& border = surface_.border(foot.patch, side);
+    if (border.kind != Border::welded || !surface_.on_side(foot.at(), side)) continue;
+    const SurfacePoint start = surface_.across(foot.at(), side);
     const Vector3 image = foot.image + border.translation;
     beyond = on_surface(border.patch, image, patches_[border.patch]->warm(d - image, start.xi));
     beyond.iterations += foot.iterations;
-    const bool left = !surface_.on_side(beyond.at, border.side);
+    const bool left = !surface_.on_side(beyond.at(), border.side);
     if (left && beyond.distance <= foot.distance * kEqual) return true;
   }
   return false;
@@ -99,7 +88,7 @@ bool MultiPatchProjector::leads_on(const Vector3& d, const SurfaceFoot& foot, Su
 bool MultiPatchProjector::leads_off_pole(const Vector3& d, const SurfaceFoot& foot, int pole,
                                          SurfaceFoot& beyond) const {
   for (const int way : {0, 1}) {
-    SurfacePoint corner = foot.at;
+    SurfacePoint corner = foot.at();
     Vector3 image = foot.image;
     int at_pole = pole, through = pole < 2 ? 2 + way : way;  // sides of corner.patch
     for (int turn = 0; turn < surface_.patch_count(); ++turn) {
@@ -110,10 +99,10 @@ bool MultiPatchProjector::leads_off_pole(const Vector3& d, const SurfaceFoot& fo
       image += border.translation;
       const int along = 1 - border.side / 2;
       at_pole = 2 * along + (corner.xi[along] == surface_.end_of_side(corner.patch, 2 * along + 1) ? 1 : 0);
-      if (corner.patch == foot.at.patch && at_pole == pole) return false;  // all round
+      if (corner.patch == foot.patch && at_pole == pole) return false;  // all round
       beyond = on_surface(corner.patch, image, patches_[corner.patch]->warm(d - image, corner.xi));
       beyond.iterations += foot.iterations;
-      if (!surface_.on_side(beyond.at, at_pole) && beyond.distance <= foot.distance * kEqual) return true;
+      if (!surface_.on_side(beyond.at(), at_pole) && beyond.distance <= foot.distance * kEqual) return true;
       if (surface_.border(corner.patch, at_pole).kind != Border::pole) break;
       through = border.side ^ 1;
     }

@@ -13,13 +13,10 @@
 namespace nurbs {
 
 /// A local minimum of the distance.
-struct SurfaceFoot {
-  SurfacePoint at;
-  Vector3 image;    ///< the surface was met moved by this (periodic images; else 0) [length]
-  Vector3 foot;     ///< S(at) + image [length]
-  double distance;  ///< [length]
-  ProjectionStatus status;
-  int iterations;
+struct SurfaceFoot : Projection {  ///< on one patch; the foot is S(xi) + image
+  int patch;
+  Vector3 image;  ///< the surface was met moved by this (periodic images; else 0) [length]
+  SurfacePoint at() const { return {patch, xi}; }
 };
 
 class MultiPatchProjector {

@@ -157,35 +157,47 @@ Projection SurfaceProjector::minimum_or_global(const Vector3& d, const DescentRe
   return found.end == DescentEnd::minimum ? projection(d, found) : global(d, foot(d, found));
 }
 
-void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses, int count,
-                                  Projection* out) const {
+// out(k) is where the k-th result goes.
+template <class Out>
+void SurfaceProjector::run_batches(const Vector3* d, const Parameter<2>* guesses, int count,
+                                   const Out& out) const {
   const ElementKernel& kernel = elements_.kernel();
   NewtonBatch batch;
   int e[NewtonBatch::kCapacity][2];
-  const int every = elements_.lines_per_row() > 4 ? 2 : 1;
-  for (; count > 0; count -= batch.count, d += batch.count, guesses += batch.count, out += batch.count) {
-    batch.count = std::min(NewtonBatch::kCapacity, count);
+  for (int first = 0; first < count; first += batch.count) {
+    batch.count = std::min(NewtonBatch::kCapacity, count - first);
     for (int k = 0; k < batch.count; ++k) {
       for (int i = 0; i < 2; ++i) {
-        const ElementAxis::Place place = elements_.axis(i).locate(guesses[k][i]);
+        const ElementAxis::Place place = elements_.axis(i).locate(guesses[first + k][i]);
         e[k][i] = place.e, batch.s[i][k] = place.s;
       }
       const ElementStore::Element element = elements_.element(e[k]);
-      elements_.prefetch(element, every);
-      batch.element[k] = element.row, batch.d[k] = d[k].data();
+      elements_.prefetch_some(element);
+      batch.element[k] = element.row, batch.d[k] = d[first + k].data();
     }
     kernel.newton_batch(kernel.p, kernel.q, batch);
     for (int k = 0; k < batch.count; ++k) {
+      Projection& foot = out(first + k);
       if (batch.done[k] == 0) {
-        out[k] = warm_beyond(d[k], start(guesses[k]), batch.end(k));
+        foot = warm_beyond(d[first + k], start(guesses[first + k]), batch.end(k));
         continue;
       }
-      for (int c = 0; c < 3; ++c) out[k].foot[c] = batch.foot[c][k];
-      out[k].distance = batch.distance[k];
-      out[k].iterations = static_cast<int>(batch.iterations[k]);
-      take_parameters(e[k], {batch.s[0][k], batch.s[1][k]}, out[k]);
+      for (int c = 0; c < 3; ++c) foot.foot[c] = batch.foot[c][k];
+      foot.distance = batch.distance[k];
+      foot.iterations = static_cast<int>(batch.iterations[k]);
+      take_parameters(e[k], {batch.s[0][k], batch.s[1][k]}, foot);
     }
   }
+}
+
+void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses, int count,
+                                  Projection* out) const {
+  run_batches(d, guesses, count, [out](int k) -> Projection& { return out[k]; });
+}
+
+void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses, int count,
+                                  Projection* const* out) const {
+  run_batches(d, guesses, count, [out](int k) -> Projection& { return *out[k]; });
 }
 
 LocalPoint SurfaceProjector::centre(int element) const {

@@ -69,6 +69,7 @@ class SurfaceProjector {
   }
   /// The same for `count` points, several at a time; equal to warm() but for round-off.
   void warm_batch(const Vector3* d, const Parameter<2>* guesses, int count, Projection* out) const;
+  void warm_batch(const Vector3* d, const Parameter<2>* guesses, int count, Projection* const* out) const;
   /// Global minimum, by the tree.
   Projection cold(const Vector3& d) const;
   /// Global minimum, warm: the tree proves that nothing is nearer than the minimum reached from `guess`.
@@ -118,6 +119,8 @@ class SurfaceProjector {
     }
     out.status = kByBorders[borders];
   }
+  template <class Out>
+  void run_batches(const Vector3* d, const Parameter<2>* guesses, int count, const Out& out) const;
   Projection projection(const Vector3& d, const DescentResult& found) const;
   bool follow(const Vector3& d, Start& start, NewtonEnd& end) const;
   Projection warm_beyond(const Vector3& d, const Start& start, const NewtonEnd& end) const;

@@ -109,10 +109,10 @@ TEST(MultiPatchProjector, FollowsManyAcrossBorders) {
         feet[k] = all[0];
       }
     std::vector<int> before;
-    for (const SurfaceFoot& foot : feet) before.push_back(foot.at.patch);
+    for (const SurfaceFoot& foot : feet) before.push_back(foot.patch);
     projector.follow_batch(d.data(), pointers.data(), kPoints);
     for (int k = 0; k < kPoints; ++k) {
-      changes += feet[k].at.patch != before[k];
+      changes += feet[k].patch != before[k];
       ASSERT_NEAR(feet[k].distance, 0.002 * k, 1e-13) << "point " << k << ", step " << step;
       ASSERT_LT((feet[k].foot - images[k % 2] - direction(k, step)).norm(), 1e-13);
       ASSERT_EQ(feet[k].image, images[k % 2]);
