@@ -10,6 +10,15 @@ namespace {
 
 constexpr int kMaxStack = 64;  // quartering a range of ints reaches boxes after 16 levels; three wait on each
 
+// Of a tree over so many boxes: one that is split twice into halves, as far as there are two.
+int node_count(int boxes) {
+  if (boxes < 2) return 0;
+  int nodes = 1;
+  for (const int half : {boxes / 2, boxes - boxes / 2})
+    nodes += node_count(half / 2) + node_count(half - half / 2);
+  return nodes;
+}
+
 }  // namespace
 
 Box element_box(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points, int element) {
@@ -37,6 +46,7 @@ void BoxTree::build(const std::vector<Box>& boxes) {
   const Range all{0, static_cast<int>(boxes.size())};
   bounds_ = bounds_of(boxes, all);
   units_.set(bounds_.low, bounds_.high);
+  nodes_.reserve(std::max(node_count(all.end), 1));
   nodes_.emplace_back();
   split(boxes, 0, all);
 }
