@@ -25,16 +25,19 @@ void ContactTracker::list_is_new() {
 }
 
 void ContactTracker::follow(const Query* queries, int count) {
-  followed_.clear();
-  followed_centres_.clear();
+  constexpr int kMost = 64;
+  SurfaceFoot* feet[kMost];
+  Vector3 centres[kMost];
+  int n = 0;
   for (const Query* query = queries; query < queries + count; ++query) {
     const State& state = states_[query->candidate];
-    for (int k = state.first; k < state.first + state.count; ++k) {
-      followed_.push_back(&feet_[k].foot);
-      followed_centres_.push_back(query->centre);
+    for (int k = 0; k < state.count; ++k) {
+      if (n == kMost) search_.follow_batch(centres, feet, n), n = 0;
+      feet[n] = &feet_[state.first + k].foot;
+      centres[n++] = query->centre;
     }
   }
-  search_.follow_batch(followed_centres_.data(), followed_.data(), static_cast<int>(followed_.size()));
+  search_.follow_batch(centres, feet, n);
 }
 
 // Of a candidate whose branches are not followed, or not yet.

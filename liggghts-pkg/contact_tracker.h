@@ -101,8 +101,6 @@ class ContactTracker {
   std::vector<TrackedFoot> feet_;      // of regular candidates
   std::vector<TrackedFoot> all_feet_;  // of one that is not, this step
   std::vector<nurbs::SurfaceFoot> found_;
-  std::vector<nurbs::SurfaceFoot*> followed_;     // of the branches of follow(): feet,
-  std::vector<nurbs::Vector3> followed_centres_;  // and what they are the feet of
   double surface_motion_ = 0.0;
 };
 

@@ -304,18 +304,22 @@ void FixWallNurbs::post_force_primitive(int) {
   ContactTracker::Query queries[kBlock];
   const std::vector<Candidate>& candidates = candidates_.candidates();
   const int count = static_cast<int>(candidates.size());
+  const int* const mask = atom->mask;
+  const double* const radius = atom->radius;
+  const double* const* const x = atom->x;
+  const double touch_factor = neighbor->contactDistanceFactor;
   for (int c = 0; c < count;) {
     int n = 0;
     for (; c < count && n < kBlock; ++c) {
       const int i = candidates[c].particle;
-      if (!(atom->mask[i] & groupbit)) continue;
+      if (!(mask[i] & groupbit)) continue;
       // In place: to copy a struct just written in parts waits for all stores.
       ContactTracker::Query& query = queries[n];
-      query.centre = Vector3::Map(atom->x[i]) - frame_.origin;
+      query.centre = Vector3::Map(x[i]) - frame_.origin;
       if (now_.is_turned) query.centre = frame_.rotation.transpose() * query.centre;
       if (tracker_.is_quiet(c, query.centre)) continue;
       query.candidate = c;
-      query.touch_reach = touch_reach(i);
+      query.touch_reach = radius[i] * touch_factor;
       query.list_reach = list_reach_[i];
       ++n;
     }

@@ -12,6 +12,11 @@ using nurbs::SurfaceFoot;
 using nurbs::SurfacePoint;
 using nurbs::Vector3;
 
+inline void LocalSearch::count(const SurfaceFoot& foot) {
+  ++counts_.by_status[static_cast<int>(foot.status)];
+  counts_.iterations += foot.iterations;
+}
+
 SurfaceFoot LocalSearch::follow(const Vector3& centre, const SurfacePoint& from, const Vector3& image) {
   SurfaceFoot foot;
   foot.status = ProjectionStatus::not_converged;
@@ -43,11 +48,6 @@ void LocalSearch::add_minima(const Vector3& centre, const Vector3& image, double
   projector_.add_minima(centre, image, reach, same_foot, elements, count_of_elements, out);
   counts_.cold += static_cast<long>(out.size() - before);
   for (size_t k = before; k < out.size(); ++k) count(out[k]);
-}
-
-void LocalSearch::count(const SurfaceFoot& foot) {
-  ++counts_.by_status[static_cast<int>(foot.status)];
-  counts_.iterations += foot.iterations;
 }
 
 LocalSearch::Counts sum(const LocalSearch::Counts& counts, MPI_Comm world) {

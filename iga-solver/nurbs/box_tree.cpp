@@ -32,10 +32,9 @@ Box element_box(const Space<2>& space, const Eigen::Ref<const NodalVectors>& con
   return box;
 }
 
-void element_boxes(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points,
-                   std::vector<Box>& out) {
-  out.resize(space.element_count());
-  for (int e = 0; e < space.element_count(); ++e) out[e] = element_box(space, control_points, e);
+void add_element_boxes(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points,
+                       std::vector<Box>& out) {
+  for (int e = 0; e < space.element_count(); ++e) out.push_back(element_box(space, control_points, e));
 }
 
 void BoxTree::build(const std::vector<Box>& boxes) {

@@ -26,9 +26,9 @@ struct Box {
 
 /// Box of the control points of one element.
 Box element_box(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points, int element);
-/// Boxes of all elements, in element order; `out` is reused.
-void element_boxes(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points,
-                   std::vector<Box>& out);
+/// Adds the boxes of all elements, in element order.
+void add_element_boxes(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points,
+                       std::vector<Box>& out);
 
 /// Bounding-volume hierarchy over boxes: built in O(n log n), queried in O(log n + hits).
 class BoxTree {

@@ -98,7 +98,7 @@ TEST(BoxTree, ElementBoxEnclosesElement) {
   for (int k = 0; k < 10; ++k) {
     const Surface surface = shapes::random_patch<2>(random, 6, 4, k % 2);
     std::vector<Box> boxes;
-    element_boxes(surface.space, surface.control_points, boxes);
+    add_element_boxes(surface.space, surface.control_points, boxes);
     ASSERT_EQ(static_cast<int>(boxes.size()), surface.space.element_count());
     for (int sample = 0; sample < 500; ++sample) {
       const Parameter<2> xi = shapes::random_parameter(random, surface.space);

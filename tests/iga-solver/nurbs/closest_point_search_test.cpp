@@ -130,7 +130,7 @@ TEST(ClosestPointSearch, CandidatesOfABoxTree) {
   const Surface hills =
       shapes::random_hills(random, {KnotVector::uniform(2, 12), KnotVector::uniform(2, 9)}, 0.2, true);
   std::vector<Box> boxes;
-  element_boxes(hills.space, hills.control_points, boxes);
+  add_element_boxes(hills.space, hills.control_points, boxes);
   BoxTree tree;
   tree.build(boxes);
   SurfaceProjector projector(hills.space);

@@ -27,7 +27,7 @@ struct Projector {
   explicit Projector(Surface given) : surface(std::move(given)), search(surface.space) {
     search.set_control_points(surface.control_points);
     std::vector<Box> boxes;
-    element_boxes(surface.space, surface.control_points, boxes);
+    add_element_boxes(surface.space, surface.control_points, boxes);
     tree.build(boxes);
   }
   Surface surface;
