@@ -40,7 +40,8 @@ inline bool FixWallNurbs::may_cross(int i, const SurfaceFoot& foot) const {
 inline void FixWallNurbs::check_crossing(int i, const SurfaceFoot& foot, const Vector3& delta,
                                          const Vector3& v_wall) {
   const double approach = (v_wall - Vector3::Map(atom->v[i])).dot(delta);  // times the distance
-  if (approach > 0.0 && approach * dt_ >= foot.distance * foot.distance)
+  // In this order: the sign of the approach is anyone's guess, for the processor too.
+  if (approach * dt_ >= foot.distance * foot.distance && approach > 0.0)
     crossing_.raise(atom->tag[i], atom->radius[i], approach / foot.distance);
 }
 
