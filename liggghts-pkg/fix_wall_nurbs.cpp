@@ -227,10 +227,6 @@ void FixWallNurbs::final_integrate() {
   }
 }
 
-inline double FixWallNurbs::touch_reach(int particle) const {
-  return atom->radius[particle] * neighbor->contactDistanceFactor;
-}
-
 /* ----------------------------------------------------------------------
    global search: since LIGGGHTS built its lists a particle may be half a skin to either side, and the wall
    may move half a skin more; what is faster than that must not slip through unseen
@@ -240,9 +236,10 @@ void FixWallNurbs::build_candidates() {
   find_slots();
   list_reach_.resize(atom->nlocal);
   double largest = 0.0;
+  const double touch_factor = neighbor->contactDistanceFactor;
   for (int i = 0; i < atom->nlocal; ++i) {
     const double travel = Vector3::Map(atom->v[i]).norm() * dt_;
-    list_reach_[i] = touch_reach(i) + 1.5 * neighbor->skin + travel;
+    list_reach_[i] = atom->radius[i] * touch_factor + 1.5 * neighbor->skin + travel;
     largest = std::max(largest, list_reach_[i]);
   }
   if (structure_.deforms() || !candidates_.has_surface()) {

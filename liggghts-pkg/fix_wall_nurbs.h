@@ -91,7 +91,6 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   void forget_lost_contacts();
   void find_slots();
   liggghts_pkg::ContactMemory memory(int particle) { return {slots_, particle, dnum_}; }
-  double touch_reach(int particle) const;
   void check_images(const std::vector<nurbs::Vector3>& images) const;
 
   // fix_wall_nurbs_contact.cpp

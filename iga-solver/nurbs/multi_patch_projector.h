@@ -12,8 +12,8 @@
 
 namespace nurbs {
 
-/// A local minimum of the distance.
-struct SurfaceFoot : Projection {  ///< on one patch; the foot is S(xi) + image
+/// A local minimum of the distance: a projection on one patch, with the foot at S(xi) + image.
+struct SurfaceFoot : Projection {
   int patch;
   Vector3 image;  ///< the surface was met moved by this (periodic images; else 0) [length]
   SurfacePoint at() const { return {patch, xi}; }
