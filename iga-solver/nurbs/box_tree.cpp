@@ -87,10 +87,7 @@ void BoxTree::split(const std::vector<Box>& boxes, int node, Range range) {
   for (int k = 0; k < count; ++k) {
     const Range part = parts[k];
     const Box box = bounds_of(boxes, part);
-    for (int i = 0; i < 3; ++i) {
-      nodes_[node].low[i][k] = units_.low(box.low[i], i);
-      nodes_[node].high[i][k] = units_.high(box.high[i], i);
-    }
+    nodes_[node].boxes.set(k, units_.in_units(box.low), units_.in_units(box.high));
     const bool is_box = part.end - part.begin == 1;
     nodes_[node].children[k] = is_box ? ~order_[part.begin] : static_cast<int>(nodes_.size());
     if (is_box) continue;
@@ -109,9 +106,7 @@ void BoxTree::query(const Vector3& point, double reach, std::vector<int>& out) c
   stack[depth++] = 0;
   while (depth > 0) {
     const Node& node = nodes_[stack[--depth]];
-    Lanes away2 = Lanes::Zero();
-    for (int i = 0; i < 3; ++i)
-      away2 += (node.low[i] - at.d[i]).max(at.d[i] - node.high[i]).max(0.0f).square();
+    const BoxLanes<kChildren>::Lanes away2 = node.boxes.near2(at);
     for (int k = 0; k < node.count; ++k) {
       if (!(away2[k] <= limit)) continue;
       const int child = node.children[k];

@@ -44,10 +44,9 @@ class BoxTree {
 
  private:
   static constexpr int kChildren = 4;
-  using Lanes = Eigen::Array<float, kChildren, 1>;  // one number for each child
 
   struct Node {
-    Lanes low[3], high[3];
+    BoxLanes<kChildren> boxes;
     int count;                // of the children
     int children[kChildren];  // a node, or ~index of a box
   };

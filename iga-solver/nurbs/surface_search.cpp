@@ -67,7 +67,7 @@ void SurfaceProjector::visit(const ElementBlock& block, Search& search) const {
   const SurfaceTree::Lanes near2 = tree_.near2(block, search.point);
   unsigned done = 0;  // a bit for each child
   if (!search.started) {
-    const int first = SurfaceTree::least(near2 + tree_.far2(block, search.point));
+    const int first = SurfaceTree::least(tree_.add_middle2(block, search.point, near2));
     descend_to(SurfaceTree::child(block, first), search);
     if (block.level > 1) done = 1u << first;
   }

@@ -8,7 +8,6 @@ namespace nurbs {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr float kNothing = std::numeric_limits<float>::infinity();
 
 struct Bounds {
   Vector4 low = Vector4::Constant(kInfinity), high = Vector4::Constant(-kInfinity);
@@ -27,12 +26,10 @@ SurfaceTree::SurfaceTree(const Space<2>& space)
     elements_[i] = knots.element_count();
     for (int e = 0; e < elements_[i]; ++e) first_[i].push_back(knots.span_of_element(e) - degree_[i]);
   }
-  Children none;
-  for (int i = 0; i < 3; ++i) none.low[i].setConstant(kNothing), none.high[i].setConstant(kNothing);
   int count[2] = {elements_[0], elements_[1]};
   do {
     for (int& n : count) n = (n + 3) / 4;
-    levels_.push_back({{count[0], count[1]}, std::vector<Children>(count[0] * count[1], none)});
+    levels_.push_back({{count[0], count[1]}, std::vector<BoxLanes<16>>(count[0] * count[1])});
   } while (count[0] * count[1] > 1);
 }
 
@@ -44,13 +41,16 @@ void SurfaceTree::refit(const NodalVectors& control_points) {
     Level& here = levels_[level];
     for (int b = 0; b < below.count[1]; ++b)
       for (int a = 0; a < below.count[0]; ++a) {
-        const Children& from = below.children[a + below.count[0] * b];
-        Children& to = here.children[a / 4 + here.count[0] * (b / 4)];
-        const int k = a % 4 + 4 * (b % 4);
-        for (int i = 0; i < 3; ++i) {
-          to.low[i][k] = from.low[i].minCoeff();
-          to.high[i][k] = (from.high[i] < kNothing).select(from.high[i], -kNothing).maxCoeff();
+        const ElementBlock block{static_cast<int>(level), {a, b}};
+        Vector3 low = Vector3::Constant(kInfinity), high = -low;
+        for (int k = 0; k < 16; ++k) {
+          const ElementWindow own = elements(child(block, k));
+          if (own.begin[0] >= own.end[0] || own.begin[1] >= own.end[1]) continue;
+          const Vector3 middle = children(block).middle(k), half = children(block).half(k);
+          low = low.cwiseMin(middle - half);
+          high = high.cwiseMax(middle + half);
         }
+        here.children[a / 4 + here.count[0] * (b / 4)].set(a % 4 + 4 * (b % 4), low, high);
       }
   }
 }
@@ -77,12 +77,8 @@ void SurfaceTree::fit_elements(const NodalVectors& control_points) {
     for (int e0 = 0; e0 < n; ++e0) {
       Bounds box = rows[e0];
       for (int j = 1; j <= q; ++j) box.add(rows[e0 + n * j]);
-      Children& to = level.children[e0 / 4 + level.count[0] * (e1 / 4)];
-      const int k = e0 % 4 + 4 * (e1 % 4);
-      for (int i = 0; i < 3; ++i) {
-        to.low[i][k] = units_.low(box.low[i], i);
-        to.high[i][k] = units_.high(box.high[i], i);
-      }
+      level.children[e0 / 4 + level.count[0] * (e1 / 4)].set(
+          e0 % 4 + 4 * (e1 % 4), units_.in_units(box.low.head<3>()), units_.in_units(box.high.head<3>()));
     }
   }
 }

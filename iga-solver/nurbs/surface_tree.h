@@ -60,22 +60,12 @@ class SurfaceTree {
   /// A point in the tree's units.
   using Point = BoxUnits::Point;
   Point point(const Vector3& d) const { return units_.point(d); }
-  using Lanes = Eigen::Array<float, 16, 1>;  // one number for each child
-  /// Squared distances of a point from the nearest or the farthest point of the children's boxes; infinite
-  /// where there is no child.
-  Lanes near2(const ElementBlock& block, const Point& point) const {
-    const Children& children = this->children(block);
-    Lanes sum = Lanes::Zero();
-    for (int i = 0; i < 3; ++i)
-      sum += (children.low[i] - point.d[i]).max(point.d[i] - children.high[i]).max(0.0f).square();
-    return sum;
-  }
-  Lanes far2(const ElementBlock& block, const Point& point) const {
-    const Children& children = this->children(block);
-    Lanes sum = Lanes::Zero();
-    for (int i = 0; i < 3; ++i)
-      sum += (point.d[i] - children.low[i]).max(children.high[i] - point.d[i]).square();
-    return sum;
+  using Lanes = BoxLanes<16>::Lanes;  // one number for each child
+  /// Squared distances of a point from the children's boxes, infinite where there is no child; `add_middle2`
+  /// adds those from their middles.
+  Lanes near2(const ElementBlock& block, const Point& point) const { return children(block).near2(point); }
+  Lanes add_middle2(const ElementBlock& block, const Point& point, const Lanes& near2) const {
+    return children(block).add_middle2(point, near2);
   }
   /// Where the least of some numbers >= 0 is, up to differences of 16 ulps.
   static int least(const Lanes& numbers);
@@ -87,14 +77,11 @@ class SurfaceTree {
   }
 
  private:
-  struct Children {
-    Lanes low[3], high[3];  // of one coordinate; infinite where there is no child
-  };
   struct Level {
     int count[2];  // blocks per direction
-    std::vector<Children> children;
+    std::vector<BoxLanes<16>> children;
   };
-  const Children& children(const ElementBlock& block) const {
+  const BoxLanes<16>& children(const ElementBlock& block) const {
     const Level& level = levels_[block.level - 1];
     return level.children[block.at[0] + level.count[0] * block.at[1]];
   }

@@ -35,16 +35,17 @@ class Comparison {
   // Number of elements seen, each once.
   int visit(const ElementBlock& block) const {
     if (block.level == 0) return 1;
-    const SurfaceTree::Lanes near2 = tree_.near2(block, point_), far2 = tree_.far2(block, point_);
+    const SurfaceTree::Lanes near2 = tree_.near2(block, point_),
+                             middle2 = tree_.add_middle2(block, point_, SurfaceTree::Lanes::Zero());
     int count = 0;
     for (int k = 0; k < 16; ++k) {
       const ElementBlock child = SurfaceTree::child(block, k);
       const ElementWindow own = tree_.elements(child);
       if (own.begin[0] >= own.end[0] || own.begin[1] >= own.end[1]) {
-        EXPECT_TRUE(std::isinf(near2[k]) && std::isinf(far2[k]));
+        EXPECT_TRUE(std::isinf(near2[k]) && std::isinf(middle2[k]));
         continue;
       }
-      compare(box_of(surface_, own), near2[k], far2[k]);
+      compare(box_of(surface_, own), near2[k], middle2[k]);
       count += visit(child);
     }
     return count;
@@ -52,15 +53,16 @@ class Comparison {
 
  private:
   // A limit just above the distance lets the box pass, one clearly below keeps it out.
-  void compare(const Box& box, float near2, float far2) const {
+  void compare(const Box& box, float near2, float middle2) const {
     const double near = std::sqrt(box.squared_distance(d_));
     const double far = (d_ - box.low).cwiseAbs().cwiseMax((d_ - box.high).cwiseAbs()).norm();
     const double tolerance = 1e-6 * (tree_.size() + far);
     const auto limit = [&](double distance) { return tree_.limit(point_, distance * distance); };
     EXPECT_LT(near2, limit(near * (1.0 + 1e-12) + 1e-12 * far));
     EXPECT_GE(near2, near > tolerance ? limit(near - tolerance) : 0.0f);
-    EXPECT_LT(far2, limit(far + tolerance));
-    EXPECT_GT(far2, limit(far - tolerance));
+    const double middle = (0.5 * (box.low + box.high) - d_).norm();
+    EXPECT_LT(middle2, limit(middle + tolerance));
+    EXPECT_GE(middle2, middle > tolerance ? limit(middle - tolerance) : 0.0f);
   }
 
   const Surface& surface_;
