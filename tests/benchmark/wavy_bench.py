@@ -81,10 +81,10 @@ class Bench:
     clock: str  # libcpu_clock.so
     folder: Path
 
-    def run(self, deck: str, **variables: object) -> str:
-        """Runs a deck; what it printed.  Raises if it fails."""
+    def run(self, deck: str, settings: dict[str, str] | None = None, **variables: object) -> str:
+        """Runs a deck, with settings of the environment; what it printed.  Raises if it fails."""
         words = [word for name, value in variables.items() for word in ("-var", name, str(value))]
-        environment = dict(os.environ, LD_PRELOAD=self.clock)
+        environment = dict(os.environ, LD_PRELOAD=self.clock, **(settings or {}))
         if os.geteuid() == 0:
             environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
         done = subprocess.run(
