@@ -63,6 +63,7 @@ ContactSurface surface_of(const nurbs::Volume& volume, const std::vector<nurbs::
 IgaStructure::IgaStructure(structure::ExplicitSolver solver, const std::vector<nurbs::Face>& faces,
                            std::vector<structure::Probe> probes)
     : solver_(std::move(solver)),
+      faces_(faces),
       surface_(surface_of(solver_.solid().patch(), faces)),
       probes_(std::move(probes)) {}
 
@@ -85,6 +86,24 @@ std::vector<Probe> IgaStructure::probes() const {
   for (const structure::Probe& probe : probes_)
     values.push_back({probe.name, solver_.displacement(probe.xi)});
   return values;
+}
+
+Fingerprint IgaStructure::fingerprint() const {
+  const nurbs::Volume& patch = solver_.solid().patch();
+  const structure::Material& material = solver_.solid().material();
+  const double E = material.youngs_modulus(), nu = material.poissons_ratio(), density = material.density();
+  const std::vector<int>& fixed = solver_.supports().fixed_dofs();
+  std::vector<std::string> faces;
+  for (const nurbs::Face face : faces_) faces.emplace_back(nurbs::face_name(face));
+  return {geometry_part<3>({patch.space}, patch.control_points),
+          word_part("surface", fmt::format("{}", fmt::join(faces, ", "))),
+          word_part("law of the material", material.law()),
+          {"material",
+           fmt::format("E = {:.10g}, nu = {:.10g}, density = {:.10g}", E, nu, density),
+           {E, nu, density}},
+          {"supports",
+           fmt::format("{} fixed degrees of freedom", fixed.size()),
+           {static_cast<double>(fixed.size()), checksum({fixed.begin(), fixed.end()})}}};
 }
 
 }  // namespace coupling

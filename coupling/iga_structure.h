@@ -39,9 +39,11 @@ class IgaStructure final : public StructureSolver {
   std::vector<Probe> probes() const override;
   std::vector<double> save() const override { return solver_.save(); }
   void load(const std::vector<double>& state) override { solver_.load(state); }
+  Fingerprint fingerprint() const override;
 
  private:
   structure::ExplicitSolver solver_;
+  std::vector<nurbs::Face> faces_;
   ContactSurface surface_;
   std::vector<structure::Probe> probes_;
 };

@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -33,6 +34,15 @@ std::string read_text_on_all_ranks(MPI_Comm comm, const std::string& path) {
   text.resize(length_or_error);
   MPI_Bcast(text.data(), static_cast<int>(length_or_error), MPI_CHAR, 0, comm);
   return text;
+}
+
+bool is_same_file(MPI_Comm comm, const std::string& path, const std::string& other) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  std::error_code missing;  // a file that has gone since it was read is no other's
+  int same = rank == 0 && std::filesystem::equivalent(path, other, missing) && !missing;
+  MPI_Bcast(&same, 1, MPI_INT, 0, comm);
+  return same != 0;
 }
 
 }  // namespace coupling

@@ -18,4 +18,7 @@ inline std::function<std::string(const std::string& path)> reader_on_all_ranks(M
   return [comm](const std::string& path) { return read_text_on_all_ranks(comm, path); };
 }
 
+/// Collective.  Whether two paths lead to one file, by links too, as rank 0 sees it.
+bool is_same_file(MPI_Comm comm, const std::string& path, const std::string& other);
+
 }  // namespace coupling

@@ -107,4 +107,10 @@ void RigidSurface::load(const std::vector<double>& state) {
   if (next != end && servo_) servo_->load(next);
 }
 
+Fingerprint RigidSurface::fingerprint() const {
+  std::vector<nurbs::Space<2>> patches;
+  for (int p = 0; p < surface_.topology.patch_count(); ++p) patches.push_back(surface_.topology.patch(p));
+  return {geometry_part(patches, positions_)};
+}
+
 }  // namespace coupling

@@ -60,6 +60,7 @@ class RigidSurface final : public StructureSolver {
   /// way than the saved one starts its motion anew, from the saved pose.
   std::vector<double> save() const override;
   void load(const std::vector<double>& state) override;
+  Fingerprint fingerprint() const override;
 
  private:
   RigidSurface(nurbs::PatchedSurface surface, std::vector<int> outward_sign);

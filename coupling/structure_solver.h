@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "coupling/contact_surface.h"
+#include "coupling/fingerprint.h"
 #include "coupling/rigid_frame.h"
 
 namespace coupling {
@@ -77,6 +78,8 @@ class StructureSolver {
   /// The state as numbers, for restart files; load throws std::invalid_argument if the size does not fit.
   virtual std::vector<double> save() const = 0;
   virtual void load(const std::vector<double>& state) = 0;
+  /// What these numbers belong to: all that must be the same in the solver that loads them.
+  virtual Fingerprint fingerprint() const = 0;
 };
 
 }  // namespace coupling

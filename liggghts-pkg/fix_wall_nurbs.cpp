@@ -53,6 +53,7 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
   local_freq = 1;
   restart_global = 1;
   can_create_mesh_ = true;
+  refuse_second_solid();
   open_output();
 }
 
@@ -121,6 +122,7 @@ void FixWallNurbs::post_create() {
   for (int s = 0; s < options_.slots; ++s)
     fix_slots_.push_back(add_property(fmt::format("contact{}_{}", s + 1, id), "yes", empty_slot));
   slots_.resize(fix_slots_.size());
+  note_restart_data();
   if (store_force_) fix_wallforce_ = add_property(fmt::format("force_{}", id), "no", {"0.", "0.", "0."});
 }
 
@@ -133,6 +135,7 @@ void FixWallNurbs::pre_delete(bool unfixflag) {
 /* ---------------------------------------------------------------------- */
 
 void FixWallNurbs::init() {
+  warn_of_state_not_taken();
   try {
     liggghts_pkg::check_run_style(*update);
     FixWallGran::init();

@@ -30,6 +30,7 @@ FixStyle(wall/nurbs,FixWallNurbs)
 #include "run_alarm.h"
 #include "wall_nurbs_setup.h"
 #include "wall_output.h"
+#include "wall_state.h"
 
 namespace LAMMPS_NS {
 
@@ -113,6 +114,12 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   double structure_column(int column) const;
   void publish_local_rows();
 
+  // fix_wall_nurbs_restart.cpp
+  void refuse_second_solid() const;
+  liggghts_pkg::WallState::Origin origin() const;
+  void note_restart_data();
+  void warn_of_state_not_taken();
+
   // fix_wall_nurbs_fields.cpp
   void open_output();
   void init_wear();
@@ -159,6 +166,8 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   std::unique_ptr<liggghts_pkg::WallOutput> output_;  // null: none asked for
   const double* const* k_finnie_ = nullptr;           // of the deck, [type - 1][type - 1]
   nurbs::TriangleMesh twin_;
+  bool state_taken_ = false;                 // from a restart file
+  std::vector<std::string> ids_with_state_;  // of walls in the restart file, until the first run
 };
 
 }  // namespace LAMMPS_NS

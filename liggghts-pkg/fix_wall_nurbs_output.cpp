@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix wall/nurbs: what it tells the user, and its restart file.  Columns: doc/fix_wall_nurbs.md.
+// fix wall/nurbs: what it tells the user.  Columns: doc/fix_wall_nurbs.md.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 
 #include "comm.h"
 #include "fix_wall_nurbs.h"
@@ -71,41 +70,4 @@ void FixWallNurbs::post_run() {
         "cases of this kind in this run): use a timestep of at most {:.3g}",
         crossing.tag, crossing.speed, crossing.count, kFraction * crossing.radius / crossing.speed));
   }
-}
-
-/* ----------------------------------------------------------------------
-   restart: the structure's state, the surface fields; contact memory restarts with its fix property/atom
-------------------------------------------------------------------------- */
-
-// Each part is its length and its numbers.
-void FixWallNurbs::write_restart(FILE* file) {
-  std::vector<double> all;
-  for (const std::vector<double>& part :
-       {structure_.save(), output_ ? output_->save() : std::vector<double>()}) {
-    all.push_back(static_cast<double>(part.size()));
-    all.insert(all.end(), part.begin(), part.end());
-  }
-  if (comm->me != 0) return;
-  const int bytes = static_cast<int>(all.size() * sizeof(double));
-  std::fwrite(&bytes, sizeof(int), 1, file);
-  std::fwrite(all.data(), sizeof(double), all.size(), file);
-}
-
-void FixWallNurbs::restart(char* buffer) {
-  const auto next_part = [&buffer] {
-    double size;
-    std::memcpy(&size, buffer, sizeof(double));
-    std::vector<double> part(static_cast<std::size_t>(size));
-    std::memcpy(part.data(), buffer + sizeof(double), part.size() * sizeof(double));
-    buffer += sizeof(double) * (1 + part.size());
-    return part;
-  };
-  try {
-    structure_.load(next_part());
-    const std::vector<double> fields = next_part();
-    if (output_ && !fields.empty()) output_->load(fields, update->ntimestep);
-  } catch (const std::exception& problem) {
-    fail(problem.what());
-  }
-  import_surface();
 }

@@ -23,7 +23,7 @@ FORBIDDEN = {
 }
 # a rigid wall needs these and no structural code
 RIGID = ["contact_surface", "surface_exchange", "surface_fields", "finnie", "rigid_surface", "rigid_frame", "rigid_motion",
-         "servo", "sliding_surface", "model_text", "structure_solver", "open_rigid_surface"]
+         "servo", "sliding_surface", "model_text", "structure_solver", "fingerprint", "open_rigid_surface"]
 
 
 def includes(path: Path) -> list[str]:

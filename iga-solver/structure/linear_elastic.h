@@ -13,6 +13,7 @@ class LinearElastic final : public IsotropicElastic {
   LinearElastic(double youngs_modulus, double poissons_ratio, double density)
       : IsotropicElastic("LinearElastic", youngs_modulus, poissons_ratio, density) {}
 
+  const char* law() const override { return "linear_elastic"; }
   Matrix3 stress(const Matrix3& H) const override { return hooke(0.5 * (H + H.transpose())); }
   double energy_density(const Matrix3& H) const override { return 0.5 * stress(H).cwiseProduct(H).sum(); }
 };

@@ -15,6 +15,7 @@ class SaintVenantKirchhoff final : public IsotropicElastic {
   SaintVenantKirchhoff(double youngs_modulus, double poissons_ratio, double density)
       : IsotropicElastic("SaintVenantKirchhoff", youngs_modulus, poissons_ratio, density) {}
 
+  const char* law() const override { return "saint_venant_kirchhoff"; }
   Matrix3 stress(const Matrix3& H) const override {
     const Matrix3 S = hooke(green_lagrange(H));
     return S + H * S;

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/fingerprint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace coupling {
+
+namespace {
+
+bool same_numbers(const std::vector<double>& a, const std::vector<double>& b) {
+  const auto same = [](double x, double y) {
+    return std::abs(x - y) <= kFingerprintTolerance * std::max(std::abs(x), std::abs(y));
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+}
+
+const FingerprintPart* find(const Fingerprint& fingerprint, const std::string& name) {
+  const auto found = std::find_if(fingerprint.begin(), fingerprint.end(),
+                                  [&](const FingerprintPart& part) { return part.name == name; });
+  return found == fingerprint.end() ? nullptr : &*found;
+}
+
+void add_sentence(std::string& sentences, const std::string& sentence) {
+  sentences += (sentences.empty() ? "" : "; ") + sentence;
+}
+
+std::string text_of(const nurbs::Vector3& x) {
+  std::ostringstream text;
+  text << '[' << x[0] << ", " << x[1] << ", " << x[2] << ']';
+  return text.str();
+}
+
+template <int Dim>
+std::string text_of(const nurbs::Space<Dim>& patch) {
+  std::ostringstream text;
+  for (int d = 0; d < Dim; ++d) text << (d ? " x " : "") << patch.knots(d).element_count();
+  text << " elements of degree";
+  for (int d = 0; d < Dim; ++d) text << ' ' << patch.degree(d);
+  return text.str();
+}
+
+void append(std::vector<double>& numbers, const std::string& text) {
+  numbers.push_back(static_cast<double>(text.size()));
+  for (const char c : text) numbers.push_back(static_cast<unsigned char>(c));
+}
+
+/// Takes what `append` put there, one after the other.
+class NumberReader {
+ public:
+  explicit NumberReader(const std::vector<double>& numbers) : numbers_(numbers) {}
+
+  bool at_end() const { return next_ == numbers_.size(); }
+  std::vector<double> numbers() {
+    const std::size_t count = at_end() ? 1 : static_cast<std::size_t>(numbers_[next_++]);
+    if (count > numbers_.size() - next_)
+      throw std::invalid_argument("the fingerprint in the restart file is cut off");
+    const auto first = numbers_.begin() + next_;
+    next_ += count;
+    return {first, first + count};
+  }
+  std::string text() {
+    std::string text;
+    for (const double c : numbers()) text += static_cast<char>(static_cast<unsigned char>(c));
+    return text;
+  }
+
+ private:
+  const std::vector<double>& numbers_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+double checksum(const std::vector<double>& values) {
+  constexpr double kGoldenRatio = 0.61803398874989485;  // its multiples modulo 1 are all different
+  double sum = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double place = kGoldenRatio * static_cast<double>(i);
+    const double c = 0.5 + 0.5 * (place - std::floor(place));
+    sum += 2.0 * std::abs(values[i]) + c * values[i];
+  }
+  return sum;
+}
+
+template <int Dim>
+FingerprintPart geometry_part(const std::vector<nurbs::Space<Dim>>& patches,
+                              const nurbs::NodalVectors& control_points) {
+  std::vector<double> knots, weights, numbers{Dim, static_cast<double>(patches.size())};
+  int elements = 0;
+  for (const nurbs::Space<Dim>& patch : patches) {
+    elements += patch.element_count();
+    for (const nurbs::KnotVector& direction : patch.knots()) {
+      knots.insert(knots.end(), direction.knots().begin(), direction.knots().end());
+      numbers.push_back(direction.degree());
+      numbers.push_back(direction.element_count());
+    }
+    for (int A = 0; A < patch.control_point_count(); ++A) weights.push_back(patch.weight(A));
+  }
+  const std::vector<double> x(control_points.data(), control_points.data() + control_points.size());
+  numbers.insert(numbers.end(),
+                 {static_cast<double>(x.size()), checksum(x), checksum(knots), checksum(weights)});
+
+  std::ostringstream text;
+  if (patches.size() == 1)
+    text << text_of(patches.front());
+  else
+    text << patches.size() << " patches of " << elements << " elements";
+  text << " from " << text_of(nurbs::Vector3(control_points.rowwise().minCoeff())) << " to "
+       << text_of(nurbs::Vector3(control_points.rowwise().maxCoeff()));
+  return {"geometry", text.str(), std::move(numbers)};
+}
+
+template FingerprintPart geometry_part(const std::vector<nurbs::Space<2>>&, const nurbs::NodalVectors&);
+template FingerprintPart geometry_part(const std::vector<nurbs::Space<3>>&, const nurbs::NodalVectors&);
+
+FingerprintPart word_part(const std::string& name, const std::string& word) {
+  return {name, word, {word.begin(), word.end()}};
+}
+
+std::string difference(const Fingerprint& then, const Fingerprint& now) {
+  std::string differs;
+  for (const FingerprintPart& part : then) {
+    const FingerprintPart* const other = find(now, part.name);
+    if (!other)
+      add_sentence(differs, part.name + ": " + part.text + " then, none now");
+    else if (!same_numbers(part.numbers, other->numbers))
+      add_sentence(differs, part.name + ": " + part.text + " then, " +
+                                (part.text == other->text ? "of other numbers" : other->text) + " now");
+  }
+  for (const FingerprintPart& part : now)
+    if (!find(then, part.name)) add_sentence(differs, part.name + ": none then, " + part.text + " now");
+  return differs;
+}
+
+std::vector<double> to_numbers(const Fingerprint& fingerprint) {
+  std::vector<double> numbers;
+  for (const FingerprintPart& part : fingerprint) {
+    append(numbers, part.name);
+    append(numbers, part.text);
+    numbers.push_back(static_cast<double>(part.numbers.size()));
+    numbers.insert(numbers.end(), part.numbers.begin(), part.numbers.end());
+  }
+  return numbers;
+}
+
+Fingerprint fingerprint_from(const std::vector<double>& numbers) {
+  Fingerprint fingerprint;
+  for (NumberReader reader(numbers); !reader.at_end();) {
+    FingerprintPart part;
+    part.name = reader.text();
+    part.text = reader.text();
+    part.numbers = reader.numbers();
+    fingerprint.push_back(std::move(part));
+  }
+  return fingerprint;
+}
+
+}  // namespace coupling

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a saved state belongs to, so that it is not loaded into something else: geometry, mesh, material,
+// supports; not loads, output or the names of files.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "nurbs/patch.h"
+
+namespace coupling {
+
+struct FingerprintPart {
+  std::string name;             ///< "material"
+  std::string text;             ///< what it is, for messages: "linear_elastic, E = 5e+09, ..."
+  std::vector<double> numbers;  ///< what must agree, within kFingerprintTolerance of each
+};
+using Fingerprint = std::vector<FingerprintPart>;
+
+/// Relative: more than compilers and mathematical libraries differ by.
+constexpr double kFingerprintTolerance = 1e-12;
+
+/// One number for many: sum of 2 |x_i| + c_i x_i with 1/2 <= c_i < 1, each term of which is positive, so a
+/// change of any x_i shows in proportion.
+double checksum(const std::vector<double>& values);
+
+/// Part "geometry" of patches (dimension 2 or 3) that are given as spaces with all control points, patch
+/// after patch, in 3 x n [length].
+template <int Dim>
+FingerprintPart geometry_part(const std::vector<nurbs::Space<Dim>>& patches,
+                              const nurbs::NodalVectors& control_points);
+
+/// A part that is one word, which must agree.
+FingerprintPart word_part(const std::string& name, const std::string& word);
+
+/// What differs, for a message: "material: ... then, ... now; supports: ..."; empty if all agrees.
+std::string difference(const Fingerprint& then, const Fingerprint& now);
+
+/// As numbers, for restart files, and back.  Throws std::invalid_argument if the numbers are cut off.
+std::vector<double> to_numbers(const Fingerprint& fingerprint);
+Fingerprint fingerprint_from(const std::vector<double>& numbers);
+
+}  // namespace coupling

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "wall_state.h"
+
+#include <fmt/format.h>
+
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+namespace liggghts_pkg {
+
+namespace {
+
+constexpr double kVersion = 2.0;
+
+class PartReader {
+ public:
+  explicit PartReader(const char* bytes) : next_(bytes) {}
+
+  double peek() const {
+    double number;
+    std::memcpy(&number, next_, sizeof number);
+    return number;
+  }
+  void skip_number() { next_ += sizeof(double); }
+  std::vector<double> part() {
+    std::vector<double> numbers(static_cast<std::size_t>(peek()));
+    skip_number();
+    std::memcpy(numbers.data(), next_, numbers.size() * sizeof(double));
+    next_ += numbers.size() * sizeof(double);
+    return numbers;
+  }
+
+ private:
+  const char* next_;
+};
+
+}  // namespace
+
+std::vector<double> pack(const WallState& state) {
+  const WallState::Origin& origin = state.origin.value();
+  const std::vector<double> memory = {static_cast<double>(origin.contacts),
+                                      static_cast<double>(origin.history)};
+  std::vector<double> all{-kVersion};
+  for (const std::vector<double>& part :
+       {state.structure, state.fields, coupling::to_numbers(origin.fingerprint), memory}) {
+    all.push_back(static_cast<double>(part.size()));
+    all.insert(all.end(), part.begin(), part.end());
+  }
+  return all;
+}
+
+WallState unpack_wall_state(const char* bytes) {
+  PartReader reader(bytes);
+  const double version = reader.peek() < 0.0 ? -reader.peek() : 1.0;
+  if (version > kVersion)
+    throw std::invalid_argument(
+        fmt::format("the restart file was written by a newer version (format {:g}, expected at most {:g})",
+                    version, kVersion));
+  if (version > 1.0) reader.skip_number();
+  WallState state;
+  state.structure = reader.part();
+  state.fields = reader.part();
+  if (version == 1.0) return state;
+  const coupling::Fingerprint fingerprint = coupling::fingerprint_from(reader.part());
+  const std::vector<double> memory = reader.part();
+  state.origin = {fingerprint, static_cast<int>(memory.at(0)), static_cast<int>(memory.at(1))};
+  return state;
+}
+
+void check_origin(const WallState::Origin& saved, const WallState::Origin& now, const std::string& file) {
+  const std::string differs = coupling::difference(saved.fingerprint, now.fingerprint);
+  if (!differs.empty())
+    throw std::invalid_argument(fmt::format(
+        "the restart file holds the state of something else than '{}': {}; expected the same geometry, "
+        "mesh, material, supports and units: use the file of then, or give the fix another ID, which starts "
+        "the wall anew",
+        file, differs));
+  if (saved.history != now.history)
+    throw std::invalid_argument(fmt::format(
+        "the restart file holds contacts of {} history values each, the contact models here keep {}; use the "
+        "models of then, or give the fix another ID, which starts the wall anew",
+        saved.history, now.history));
+  if (saved.contacts > now.contacts)
+    throw std::invalid_argument(
+        fmt::format("the restart file holds up to {0} contacts of a particle, expected at most {1} with "
+                    "'contacts {1}'; use 'contacts {0}'",
+                    saved.contacts, now.contacts));
+}
+
+int restart_bytes(std::size_t numbers) {
+  constexpr std::size_t kMost = std::numeric_limits<int>::max();
+  if (numbers > kMost / sizeof(double))
+    throw std::invalid_argument(fmt::format(
+        "the wall's state has {} bytes, but LIGGGHTS' restart files hold at most {} of a fix; use "
+        "a coarser mesh, or no restart files",
+        numbers * sizeof(double), kMost));
+  return static_cast<int>(numbers * sizeof(double));
+}
+
+}  // namespace liggghts_pkg

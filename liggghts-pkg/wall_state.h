@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a wall leaves in a restart file, as numbers: minus the version of this format, then parts, each its
+// length and its numbers.  Files of older versions begin with the first part and hold two of them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/fingerprint.h"
+
+namespace liggghts_pkg {
+
+struct WallState {
+  std::vector<double> structure;  ///< StructureSolver::save
+  std::vector<double> fields;     ///< WallOutput::save; empty without output
+  /// Nothing in files of older versions.
+  struct Origin {
+    coupling::Fingerprint fingerprint;  ///< of the structure, with its units
+    int contacts;                       ///< slots of each particle's contact memory
+    int history;                        ///< values that the contact models keep in a slot
+  };
+  std::optional<Origin> origin;
+};
+
+std::vector<double> pack(const WallState& state);
+/// Of the bytes that LIGGGHTS read, whose number it does not tell.  Throws std::invalid_argument if a newer
+/// version wrote them.
+WallState unpack_wall_state(const char* bytes);
+
+/// Throws std::invalid_argument unless the state was saved by a wall like this one: what differs, and the way
+/// out.  `file`: of this wall, for the message.
+void check_origin(const WallState::Origin& saved, const WallState::Origin& now, const std::string& file);
+
+/// Bytes of so many numbers as LIGGGHTS counts them.  Throws std::invalid_argument if there are more than an
+/// int holds.
+int restart_bytes(std::size_t numbers);
+
+}  // namespace liggghts_pkg

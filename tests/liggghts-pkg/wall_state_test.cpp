@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "wall_state.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <stdexcept>
+
+namespace {
+
+using liggghts_pkg::WallState;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+const coupling::Fingerprint kPlate = {{"material", "E = 5", {5.0}}, coupling::word_part("units", "si")};
+
+WallState::Origin origin() { return {kPlate, 4, 3}; }
+
+const char* bytes(const std::vector<double>& numbers) {
+  return reinterpret_cast<const char*>(numbers.data());
+}
+
+std::string refusal(const WallState::Origin& saved, const WallState::Origin& now) {
+  try {
+    liggghts_pkg::check_origin(saved, now, "plate.yaml");
+  } catch (const std::invalid_argument& problem) {
+    return problem.what();
+  }
+  return "";
+}
+
+TEST(WallState, SurvivesPacking) {
+  const WallState back =
+      liggghts_pkg::unpack_wall_state(bytes(liggghts_pkg::pack({{1.0, 2.0}, {}, origin()})));
+  EXPECT_EQ(back.structure, (std::vector<double>{1.0, 2.0}));
+  EXPECT_TRUE(back.fields.empty());
+  ASSERT_TRUE(back.origin);
+  EXPECT_EQ(back.origin->contacts, 4);
+  EXPECT_EQ(back.origin->history, 3);
+  EXPECT_EQ(refusal(*back.origin, origin()), "");
+}
+
+TEST(WallState, OfAnOlderVersionHasNoOrigin) {
+  const WallState old = liggghts_pkg::unpack_wall_state(bytes({2.0, 10.0, 11.0, 1.0, 12.0}));
+  EXPECT_EQ(old.structure, (std::vector<double>{10.0, 11.0}));
+  EXPECT_EQ(old.fields, std::vector<double>{12.0});
+  EXPECT_FALSE(old.origin);
+  const WallState of_a_wall_at_rest = liggghts_pkg::unpack_wall_state(bytes({0.0, 0.0}));
+  EXPECT_TRUE(of_a_wall_at_rest.structure.empty());
+}
+
+TEST(WallState, OfANewerVersionIsRefused) {
+  EXPECT_THROW(liggghts_pkg::unpack_wall_state(bytes({-3.0, 0.0, 0.0})), std::invalid_argument);
+}
+
+TEST(WallState, OfAnotherWallIsRefusedWithWhatDiffers) {
+  WallState::Origin cgs = origin();
+  cgs.fingerprint[1] = coupling::word_part("units", "cgs");
+  EXPECT_THAT(refusal(origin(), cgs), AllOf(HasSubstr("plate.yaml"), HasSubstr("units: si then, cgs now"),
+                                            Not(HasSubstr("material:"))));
+}
+
+TEST(WallState, FitsIntoItsContactMemory) {
+  WallState::Origin other = origin();
+  other.history = 0;
+  EXPECT_THAT(refusal(origin(), other), AllOf(HasSubstr("3 history values"), HasSubstr("keep 0")));
+  other = origin();
+  other.contacts = 2;
+  EXPECT_THAT(refusal(origin(), other), HasSubstr("use 'contacts 4'"));
+  EXPECT_EQ(refusal(other, origin()), "") << "there is room for more";
+}
+
+TEST(WallState, ThatLiggghtsCannotCountIsRefused) {
+  constexpr std::size_t kMost = std::numeric_limits<int>::max() / sizeof(double);
+  EXPECT_EQ(liggghts_pkg::restart_bytes(kMost), static_cast<int>(kMost * sizeof(double)));
+  try {
+    liggghts_pkg::restart_bytes(kMost + 1);
+    FAIL() << "expected std::invalid_argument";
+  } catch (const std::invalid_argument& problem) {
+    EXPECT_THAT(problem.what(), AllOf(HasSubstr("2147483648 bytes"), HasSubstr("coarser mesh")));
+  }
+}
+
+}  // namespace
