@@ -26,6 +26,26 @@ grep -q 'dof          192, 0 of them fixed' out || fail "dof"
 grep -q 'mass         2$' out || fail "mass"
 grep -Eq 'time 2: kinetic 36(\.0+)?, strain [0-9.]+e-[0-9]+, work of the loads 36(\.0+)?, ' out || fail "energies"
 test -s fall.h5 || fail "histories"
+
+# What is printed belongs together: value WORD... is the number after these words.
+value() { sed -nE "s/.*$1 *([-+.e0-9]+).*/\\1/p" out; }
+holds() { awk "BEGIN { exit !($1) }"; }
+kinetic=$(value kinetic) strain=$(value strain) work=$(value 'work of the loads') balance=$(value balance)
+holds "($balance) - ($kinetic + $strain - $work) < 1e-6 && ($balance) - ($kinetic + $strain - $work) > -1e-6" ||
+  fail "balance"
+# Steps of 0.9 of the stable one at most, and no fewer than needed: the last ends at 2.
+stable=$(value 'stable step') step=$(value 'time step') steps=$(sed -nE 's/.*, ([0-9]+) steps$/\1/p' out)
+expect_steps() {
+  holds "$steps >= 2 / ($1) && $steps < 2 / ($1) + 1" || fail "$steps steps of at most $1"
+  holds "$step * $steps > 2 * (1 - 1e-5) && $step * $steps < 2 * (1 + 1e-5)" || fail "$steps steps of $step"
+}
+expect_steps "0.9 * $stable"
+sed "s/^time.*/time: {end: 2, step: 0.0625}/" fall.yaml > steps.yaml
+"$program" steps.yaml > out || fail "exit code with a step"
+step=$(value 'time step') steps=$(sed -nE 's/.*, ([0-9]+) steps$/\1/p' out)
+holds "$steps == 32 && $step == 0.0625" || fail "the model file's step"
+/usr/bin/python3 -c 'import h5py; print(*h5py.File("fall.h5")["time"][:])' > out
+grep -qx '0.0 0.5 1.0 1.5 2.0' out || fail "times of the history"
 "$program" fall.yaml --quiet > out 2> err || fail "exit code of a quiet run"
 test ! -s out || fail "a quiet run prints"
 

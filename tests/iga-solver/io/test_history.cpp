@@ -110,14 +110,27 @@ TEST_F(HistoryFile, HoldsTheClosedFormOfAFallingBlockAtEveryOutputTime) {
   }
 }
 
+// An erg is 1 g cm^2/s^2; 1 g mm^2/ms^2 = 1e-3 kg (1e-3 m)^2 / (1e-3 s)^2 = 1 mJ.
 TEST_F(HistoryFile, CarriesUnits) {
+  struct Names {
+    nurbs::Units units;
+    const char *system, *time, *length, *energy, *momentum, *angular_momentum;
+  };
   const io::ModelFile model = io::parse_model_file(kFalling, "falling.yaml");
-  for (const auto& [units, name, momentum] :
-       {std::tuple{nurbs::Units::si, "si", "kg m/s"}, std::tuple{nurbs::Units::cgs, "cgs", "g cm/s"},
-        std::tuple{nurbs::Units::mm_g_ms, "mm-g-ms", "g mm/ms"}}) {
-    const io::History history({1.0, base()}, units, model.probes);
-    EXPECT_EQ(read_attribute(history.path(), "/", "units"), name);
-    EXPECT_EQ(read_attribute(history.path(), "linear_momentum", "unit"), momentum);
+  for (const Names& expected :
+       {Names{nurbs::Units::si, "si", "s", "m", "J", "kg m/s", "kg m^2/s"},
+        Names{nurbs::Units::cgs, "cgs", "s", "cm", "erg", "g cm/s", "g cm^2/s"},
+        Names{nurbs::Units::mm_g_ms, "mm-g-ms", "ms", "mm", "mJ", "g mm/ms", "g mm^2/ms"}}) {
+    const io::History history({1.0, base()}, expected.units, model.probes);
+    const auto unit = [&](const char* series) { return read_attribute(history.path(), series, "unit"); };
+    EXPECT_EQ(read_attribute(history.path(), "/", "units"), expected.system);
+    EXPECT_EQ(unit("time"), expected.time);
+    for (const char* series : {"kinetic_energy", "strain_energy", "load_work"})
+      EXPECT_EQ(unit(series), expected.energy) << series;
+    EXPECT_EQ(unit("linear_momentum"), expected.momentum);
+    EXPECT_EQ(unit("angular_momentum"), expected.angular_momentum);
+    for (const char* series : {"largest_displacement", "probes/top"})
+      EXPECT_EQ(unit(series), expected.length) << series;
   }
 }
 

@@ -84,6 +84,31 @@ TEST_F(VtkSeries, GoesOnAfterARestart) {
   EXPECT_THAT(index, Not(HasSubstr("wall_20.vtu"))) << "of a future that is computed again";
 }
 
+// All digits, also through a restart, which writes what it has read.
+TEST_F(VtkSeries, TimesReadBackToTheLastBit) {
+  const double time = 1.0 / 3.0 + 1e-15;
+  vtk::Series((*this)("wall")).write<2>(7, time, {square()});
+  vtk::Series after((*this)("wall"));
+  after.resume(7);
+  after.write<2>(8, 2.0 * time, {square()});
+  const std::string index = text("wall.pvd"), key = "timestep=\"";
+  std::vector<double> times;
+  for (std::size_t at = index.find(key); at != std::string::npos; at = index.find(key, at + 1))
+    times.push_back(std::strtod(index.c_str() + at + key.size(), nullptr));
+  EXPECT_THAT(times, ElementsAre(time, 2.0 * time));
+}
+
+// Whoever looks while a state is written sees the former one: the new one takes its place in one moment.
+TEST_F(VtkSeries, TheFormerIndexIsNotTouched) {
+  vtk::Series series((*this)("wall"));
+  series.write<2>(0, 0.0, {square()});
+  std::filesystem::create_hard_link((*this)("wall.pvd"), (*this)("seen.pvd"));
+  const std::string former = text("wall.pvd");
+  series.write<2>(1, 0.1, {square()});
+  EXPECT_EQ(text("seen.pvd"), former);
+  EXPECT_NE(text("wall.pvd"), former);
+}
+
 TEST_F(VtkSeries, DoesNotContinueAnotherFile) {
   std::ofstream((*this)("wall.pvd")) << "not a series";
   vtk::Series series((*this)("wall"));
