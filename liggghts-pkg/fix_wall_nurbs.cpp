@@ -187,21 +187,19 @@ void FixWallNurbs::setup(int vflag) {
   structure_.begin_run();  // not in init: LIGGGHTS knows only now which computes its variables need
   import_surface();
   FixWallGran::setup(vflag);  // pre_neighbor, pre_force, post_force
-  if (structure_.moves()) structure_.initialise_forces(*nodal_forces_);
+  if (structure_.moves()) advance([this] { structure_.initialise_forces(*nodal_forces_); });
   if (output_ && output_->at_beginning()) end_of_step();
 }
 
 void FixWallNurbs::initial_integrate(int) {
   if (!structure_.moves()) return;
-  structure_.begin_step();
+  advance([this] { structure_.begin_step(); });
   import_surface();
   // The list is good until the wall has moved half a skin; it is then rebuilt before this step's forces.
   const double motion = candidates_.motion_since_build(exchange_.positions(), structure_.deforms(), frame_);
   if (!std::isfinite(motion))
-    fail(
-        fmt::format("the structure in '{}' has blown up: its positions are not finite at step {}; use a "
-                    "smaller timestep or look at the loads",
-                    options_.file, update->ntimestep));
+    fail_in_step(
+        "the solid has blown up: its positions are not finite; likely cause: the loads or the timestep");
   if (motion > 0.5 * neighbor->skin) rebuild_candidates_ = true;
   surface_motion_ = structure_.deforms() ? motion : 0.0;
 }
@@ -223,11 +221,21 @@ void FixWallNurbs::post_force(int vflag) {
 }
 
 void FixWallNurbs::final_integrate() {
+  advance([this] { structure_.end_step(*nodal_forces_); });
+}
+
+// What the structure complains of on the way is told with the step, on every rank.
+template <class Action>
+void FixWallNurbs::advance(Action action) {
   try {
-    structure_.end_step(*nodal_forces_);
+    action();
   } catch (const std::exception& problem) {
-    fail(problem.what());
+    fail_in_step(problem.what());
   }
+}
+
+void FixWallNurbs::fail_in_step(const std::string& problem) const {
+  fail(fmt::format("'{}': step {}: {}", options_.file, update->ntimestep, problem));
 }
 
 /* ----------------------------------------------------------------------

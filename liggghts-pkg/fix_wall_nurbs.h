@@ -86,6 +86,9 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   static const int kLocalColumns = 11;
 
   // fix_wall_nurbs.cpp
+  template <class Action>
+  void advance(Action action);  // of the structure
+  [[noreturn]] void fail_in_step(const std::string& problem) const;
   void weld_across_periodic_faces();
   void import_surface();
   void build_candidates();

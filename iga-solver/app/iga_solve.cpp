@@ -78,6 +78,19 @@ void print_energies(const ExplicitSolver& solver) {
       solver.time(), kinetic, strain, work, kinetic + strain - work);
 }
 
+// One step; of a solid that blows up, names the file and what is left of the run.
+void advance(ExplicitSolver& solver, const structure::NodalVectors& no_forces, long step,
+             const io::ModelFile& model, const std::optional<io::History>& history) {
+  try {
+    solver.begin_step();
+    solver.end_step(no_forces);
+  } catch (const structure::Diverged& problem) {
+    throw std::runtime_error(
+        fmt::format("{}: step {}: {}{}", model.file, step, problem.what(),
+                    history ? "; the histories before it are in " + history->path() : ""));
+  }
+}
+
 void run(const Options& options) {
   const io::ModelFile model = io::read_model_file(options.model);
   const double end = end_time(options, model);
@@ -97,8 +110,7 @@ void run(const Options& options) {
   if (history) history->record_if_due(solver);
   const bool progress = !options.quiet && isatty(STDOUT_FILENO);
   for (long step = 1; step <= steps; ++step) {
-    solver.begin_step();
-    solver.end_step(no_forces);
+    advance(solver, no_forces, step, model, history);
     if (history) history->record_if_due(solver);
     if (progress && (step % std::max(1L, steps / 100) == 0 || step == steps))
       print_progress(step, steps, solver.time());

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "structure/element_kernel.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
+#include <limits>
 
 namespace structure {
 
@@ -64,6 +67,16 @@ double element_energy(const Material& material, const ElementGeometry& element, 
   for (int q = 0; q < element.points; ++q)
     energy += element.wJ[q] * material.energy_density(displacement_gradient(u, element.dR_dX + 3 * n * q, n));
   return energy;
+}
+
+double smallest_volume_ratio(const ElementGeometry& element, const double* u) {
+  const int n = element.padded;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (int q = 0; q < element.points; ++q) {
+    const Matrix3 H = displacement_gradient(u, element.dR_dX + 3 * n * q, n);
+    smallest = std::min(smallest, (Matrix3::Identity() + H).determinant());
+  }
+  return smallest;
 }
 
 }  // namespace structure

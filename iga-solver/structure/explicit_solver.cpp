@@ -31,6 +31,7 @@ void ExplicitSolver::check_size(const NodalVectors& values, const char* what) co
 
 void ExplicitSolver::set_load(const NodalVectors& f_ext) {
   check_size(f_ext, "load");
+  budget_.reset();
   f_ext_ = f_ext;
 }
 
@@ -38,6 +39,7 @@ void ExplicitSolver::set_velocities(const NodalVectors& v) {
   check_size(v, "velocities");
   v_ = v;
   supports_.apply(v_);
+  budget_.reset();
 }
 
 void ExplicitSolver::set_time_step(double dt) {
@@ -49,6 +51,9 @@ void ExplicitSolver::set_time_step(double dt) {
 void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   check_size(F, "forces");
   update_accelerations(F);
+  power_ = (f_ext_ + F).cwiseProduct(v_).sum();
+  start_energy_budget();
+  check_divergence(F);
 }
 
 void ExplicitSolver::begin_step() {
@@ -63,6 +68,27 @@ void ExplicitSolver::end_step(const NodalVectors& F) {
   update_accelerations(F);
   v_ += 0.5 * dt_ * a_;
   time_ += dt_;
+  const double power = (f_ext_ + F).cwiseProduct(v_).sum();
+  if (budget_)
+    budget_->add(0.5 * dt_ * (power_ + power));
+  else
+    start_energy_budget();
+  power_ = power;
+  check_divergence(F);
+}
+
+void ExplicitSolver::start_energy_budget() {
+  constexpr double kNegligibleStrain = 1e-9;
+  const double kick = 0.125 * dt_ * dt_ * a_.colwise().squaredNorm().dot(mass_->nodal_mass());
+  budget_.emplace(
+      kinetic_energy() + strain_energy() + kick,
+      solid_.material().youngs_modulus() * solid_.volume() * kNegligibleStrain * kNegligibleStrain);
+}
+
+void ExplicitSolver::check_divergence(const NodalVectors& F) const {
+  const bool good =
+      budget_->allows(kinetic_energy()) && a_.allFinite() && u_.cwiseAbs().maxCoeff() <= kLargestDisplacement;
+  if (!good) throw Diverged(describe_divergence(*this, F, stable_time_step_, budget_->most()));
 }
 
 void ExplicitSolver::update_accelerations(const NodalVectors& F) {
@@ -118,6 +144,7 @@ void ExplicitSolver::load(const std::vector<double>& state) {
     next += size;
   }
   x_ = solid_.patch().control_points + u_;
+  budget_.reset();
 }
 
 }  // namespace structure

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "structure/divergence.h"
 #include "structure/mass.h"
 #include "structure/solid.h"
 #include "structure/supports.h"
@@ -30,11 +31,13 @@ class ExplicitSolver {
   void set_time_step(double dt);
 
   /// Accelerations for the current state under further nodal forces F [force]; advances nothing.  Call before
-  /// the first step and whenever state or loads were set.
+  /// the first step and whenever state or loads were set.  Throws Diverged as end_step does.
   void initialise_forces(const NodalVectors& F);
   /// Half kick and drift; throws std::logic_error before set_time_step.
   void begin_step();
-  /// Accelerations under further nodal forces F [force] and half kick.
+  /// Accelerations under further nodal forces F [force] and half kick.  Throws Diverged when the solid blows
+  /// up: values that are not finite, displacements beyond kLargestDisplacement, or more kinetic energy than
+  /// the EnergyBudget allows; a step later the state would mean nothing.
   void end_step(const NodalVectors& F);
 
   const Solid& solid() const { return solid_; }
@@ -67,12 +70,16 @@ class ExplicitSolver {
  private:
   void check_size(const NodalVectors& values, const char* what) const;
   void update_accelerations(const NodalVectors& F);
+  void start_energy_budget();
+  void check_divergence(const NodalVectors& F) const;
 
   Solid solid_;
   Supports supports_;
   std::unique_ptr<MassOperator> mass_;
   double dt_ = 0.0, time_ = 0.0;
   NodalVectors f_ext_, residual_, u_, x_, v_, a_;
+  double power_ = 0.0;                  // of f_ext and F [energy/time]
+  std::optional<EnergyBudget> budget_;  // since state or loads were set
   mutable std::optional<double> stable_time_step_;
 };
 

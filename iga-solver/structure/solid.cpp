@@ -107,6 +107,10 @@ void Solid::element_force(int element, const double* u, double* f) const {
   force_kernel_(*material_, geometry(element), u, f);
 }
 
+double Solid::smallest_volume_ratio(int element, const double* u) const {
+  return structure::smallest_volume_ratio(geometry(element), u);
+}
+
 void Solid::internal_force(const NodalVectors& u, NodalVectors& f) const {
   double u_element[kMaxElementValues], f_element[kMaxElementValues];
   f.setZero();

@@ -47,6 +47,9 @@ class Solid {
   int padded_functions() const { return padded_; }
   void gather(int element, const NodalVectors& nodal, double* values) const;
   void element_force(int element, const double* u, double* f) const;
+  /// Smallest current over reference volume det(I + H) [-] at the element's quadrature points: <= 0 if it is
+  /// folded.
+  double smallest_volume_ratio(int element, const double* u) const;
   /// Row-sum mass of one element's own volume [mass], [padded_functions()].
   const double* element_mass(int element) const { return &element_mass_[std::size_t(element) * padded_]; }
 

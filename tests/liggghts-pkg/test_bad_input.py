@@ -29,6 +29,8 @@ geometry:
 surfaces: {wall: all}
 """
 THREAD = re.sub(r"\[\d, \d, 0\]", "[0, 0, 1]", FLAT)  # all control points in one place, on the z axis
+# Loads that no solid bears.
+SOFT = BLOCK.replace("linear_elastic", "saint_venant_kirchhoff") + "loads: {tractions: [{face: zeta+, value: [0, 0, 1e15]}]}\n"
 MODELS = "model hertz tangential no_history"
 GOOD = f"{MODELS} type 2 structure block.yaml surface top"
 RIGID = f"{MODELS} type 2 geometry flat.yaml surface floor"
@@ -157,6 +159,10 @@ DECK_WORDS = {
 DECKS = {
     "timestep above the stable step": ("timestep 1e-6\n", "run 1\n", ["id plate", "1e-06", r"2\.\d+e-07"]),
     "timestep raised between runs": ("", "run 1\ntimestep 1e-6\nrun 1\n", ["id plate", "1e-06"]),
+    "a structure that blows up": (
+        f"fix w2 all wall/nurbs {GOOD.replace('block', 'soft')}\n", "run 100\n",
+        ["id w2", "'soft.yaml': step 1:", "blown up at time", "control node .* undeformed at", "likely cause: .*loads.*time step"],
+    ),
     "minimize": ("", "minimize 1e-4 1e-6 10 10\n", ["id plate", "minimize"]),
     "respa": ("run_style respa 2 2\n", "run 1\n", ["respa"]),
     "id in use": ("", f"fix plate all wall/nurbs {GOOD}\nrun 1\n", ["plate|style"]),
@@ -188,7 +194,7 @@ DECKS = {
 
 
 def attempt(deck: str, files: dict[str, str], ranks: int) -> decks.Run:
-    good_files = {"block.yaml": BLOCK, "flat.yaml": FLAT, "round.yaml": ROUND, "thread.yaml": THREAD}
+    good_files = {"block.yaml": BLOCK, "flat.yaml": FLAT, "round.yaml": ROUND, "thread.yaml": THREAD, "soft.yaml": SOFT}
     return decks.run(deck, files=good_files | files, ranks=ranks, timeout=60)
 
 

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/divergence.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <vector>
+
+#include "structure/explicit_solver.h"
+#include "structure/stable_time_step.h"
+
+namespace structure {
+
+namespace {
+
+std::string text(const Vector3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]); }
+
+std::string node_text(const ExplicitSolver& solver, int node) {
+  return fmt::format("control node {}, undeformed at {}", node,
+                     text(solver.solid().patch().control_points.col(node)));
+}
+
+/// The first node whose value is not finite; -1: none.
+int first_not_finite(const NodalVectors& values) {
+  for (int A = 0; A < values.cols(); ++A)
+    if (!values.col(A).allFinite()) return A;
+  return -1;
+}
+
+/// What is out of bounds, and at which node.
+std::string symptom(const ExplicitSolver& solver, double energy_given) {
+  for (const auto& [values, name] :
+       {std::pair{&solver.displacements(), "displacement"}, std::pair{&solver.velocities(), "velocity"},
+        std::pair{&solver.accelerations(), "acceleration"}})
+    if (const int node = first_not_finite(*values); node >= 0)
+      return fmt::format("the {} is not finite at {}", name, node_text(solver, node));
+  int node = 0;
+  const double largest = solver.displacements().colwise().norm().maxCoeff(&node);
+  if (largest > kLargestDisplacement)
+    return fmt::format("the displacement is {:.3g} at {}", largest, node_text(solver, node));
+  const Eigen::VectorXd energies =
+      solver.velocities().colwise().squaredNorm().transpose().cwiseProduct(solver.mass().nodal_mass());
+  energies.maxCoeff(&node);
+  return fmt::format(
+      "its kinetic energy {:.3g} is more than {} times the {:.3g} that it was given, most at {}",
+      solver.kinetic_energy(), EnergyBudget::kExcess, energy_given, node_text(solver, node));
+}
+
+/// The element that is squeezed most, if it is folded: nothing is said of displacements that are not finite.
+std::string folded_element(const ExplicitSolver& solver) {
+  const Solid& solid = solver.solid();
+  const nurbs::Space<3>& space = solid.patch().space;
+  std::vector<double> u(3 * solid.padded_functions());
+  int folded = -1;
+  double lowest = 0.0;
+  for (int e = 0; e < space.element_count(); ++e) {
+    solid.gather(e, solver.displacements(), u.data());
+    const double ratio = solid.smallest_volume_ratio(e, u.data());
+    if (ratio < lowest) lowest = ratio, folded = e;
+  }
+  if (folded < 0) return "";
+  const std::array<int, 3> spans = space.element_indices(folded);
+  return fmt::format(
+      "element {} (spans {}, {}, {} of xi, eta, zeta, undeformed about {}) is folded", folded, spans[0],
+      spans[1], spans[2],
+      text(nurbs::interpolate(space, solid.patch().control_points, space.element_centre(folded))));
+}
+
+std::string likely_cause(const ExplicitSolver& solver, const NodalVectors& F,
+                         const std::optional<double>& stable) {
+  if (const int node = first_not_finite(F); node >= 0)
+    return fmt::format("the contact force is not finite at {}", node_text(solver, node));
+  const double dt = solver.time_step();
+  const std::string known = stable ? fmt::format(" (the stable step was {:.6g} at the start)", *stable) : "";
+  if (stable && dt > kStableStepSafety * *stable)
+    return fmt::format("the time step {:.6g} is too long{}", dt, known);
+  const std::string folded = folded_element(solver);
+  if (!folded.empty())
+    return fmt::format(
+        "{}: the loads, contact forces or initial velocities are too large for it, or the time step {:.6g} "
+        "is too "
+        "long for what it is strained to{}",
+        folded, dt, known);
+  return fmt::format(
+      "too large loads, contact forces or initial velocities, or too long a time step, {:.6g}{}", dt, known);
+}
+
+}  // namespace
+
+std::string describe_divergence(const ExplicitSolver& solver, const NodalVectors& F,
+                                const std::optional<double>& stable_time_step, double energy_given) {
+  return fmt::format("the solid has blown up at time {:.6g}: {}; likely cause: {}", solver.time(),
+                     symptom(solver, energy_given), likely_cause(solver, F, stable_time_step));
+}
+
+}  // namespace structure

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A run that blows up: how every step notices it, and what is said of it.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "nurbs/types.h"
+
+namespace structure {
+
+class ExplicitSolver;
+using nurbs::NodalVectors;
+
+/// Displacements beyond it mean nothing, and their squares overflow [length].
+constexpr double kLargestDisplacement = 1e100;
+
+/// A solid has blown up; what() says in one line when, where and why, as far as that can be told.
+struct Diverged : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// The energy that a solid has been given.  Below the stable step a linear solid's kinetic energy never
+/// exceeds
+///   K(0) + S(0) + dt^2/8 a(0) . M a(0) + sum of dt/2 (P(n-1) + P(n)),
+/// P = F . v being the power of all forces that are not its own (sum the scheme over the steps, mode by mode:
+/// what is missing is a sum of squares).  A solid that has many times the most it was ever given is unstable.
+class EnergyBudget {
+ public:
+  /// `negligible`: an energy that round-off may give.
+  EnergyBudget(double energy, double negligible) : given_(energy), most_(std::max(energy, negligible)) {}
+
+  void add(double work) {
+    given_ += work;
+    most_ = std::max(most_, given_);
+  }
+  double most() const { return most_; }
+  /// False also for what is not a number.
+  bool allows(double kinetic_energy) const { return kinetic_energy <= kExcess * most_; }
+
+  static constexpr double kExcess = 10.0;
+
+ private:
+  double given_, most_;
+};
+
+/// What is wrong with a solver that has blown up: time, control node, and the likely cause among the forces F
+/// of the last step, a time step above the stable one (if that is known), and folded elements.
+std::string describe_divergence(const ExplicitSolver& solver, const NodalVectors& F,
+                                const std::optional<double>& stable_time_step, double energy_given);
+
+}  // namespace structure

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""iga-solve where something goes wrong: one line that starts with ERROR and says what and where, exit code 1, and nothing
+lost.  Good runs are in check_iga_solve.sh."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy
+
+PROGRAM = os.environ["IGA_SOLVE"]
+# A block of a law whose stable step gets shorter when it is stretched, held below.
+BLOCK = """units: si
+geometry:
+  box: {origin: [0, 0, 0], size: [1, 1, 0.2], elements: [4, 4, 2], degree: 2}
+material: {law: saint_venant_kirchhoff, youngs_modulus: 1e6, poissons_ratio: 0.3, density: 1000}
+boundary: [{fix: [x, y, z], faces: [zeta-]}]
+loads: {tractions: [{face: zeta+, value: [0, 0, -1e3]}]}
+output: {every: 1e-3, file: block}
+time: {end: 0.1}
+"""
+
+
+def changed(*replacements: tuple[str, str]) -> str:
+    text = BLOCK
+    for old, new in replacements:
+        assert old in text, old
+        text = text.replace(old, new)
+    return text
+
+
+class IgaSolve(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def run_model(self, text: str, *words: str, name: str = "block.yaml") -> subprocess.CompletedProcess:
+        (self.folder / name).write_text(text)
+        return self.solve(name, *words)
+
+    def solve(self, *words: str) -> subprocess.CompletedProcess:
+        return subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, timeout=60, check=False)
+
+    def assert_error(self, done: subprocess.CompletedProcess, *patterns: str):
+        self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+        lines = done.stderr.splitlines()
+        self.assertEqual(len(lines), 1, done.stderr)
+        self.assertTrue(lines[0].startswith("ERROR: "), done.stderr)
+        for pattern in patterns:
+            self.assertRegex(lines[0], pattern)
+
+
+class Divergence(IgaSolve):
+    # The load is harmless, too much in tension, too much in compression: x 1, 10,000, 1,000.
+    def test_a_diverged_run_says_when_and_where_and_why(self):
+        self.assertEqual(self.run_model(BLOCK).returncode, 0)
+        for load in ("1e7", "-1e6"):
+            with self.subTest(load=load):
+                done = self.run_model(changed(("-1e3", load)))
+                self.assert_error(
+                    done, r"block.yaml: step \d: the solid has blown up at time 0\.0\d+", "control node .*undeformed at",
+                    "likely cause: .*loads.*time step", r"stable step was 0\.00\d+", "histories before it are in block.h5")
+                self.assertNotIn("nan", done.stdout + done.stderr)
+
+    def test_histories_up_to_then_are_kept(self):
+        # Tension that the block bears for some steps.
+        done = self.run_model(changed(("-1e3", "3e5")))
+        self.assert_error(done, "blown up")
+        with h5py.File(self.folder / "block.h5") as file:
+            self.assertGreater(len(file["time"]), 2)
+            for name in ("time", "kinetic_energy", "strain_energy", "load_work", "linear_momentum", "largest_displacement"):
+                self.assertEqual(len(file[name]), len(file["time"]), name)
+                self.assertTrue(numpy.isfinite(file[name][()]).all(), name)
+
+
+if __name__ == "__main__":
+    unittest.main()
