@@ -65,14 +65,29 @@ def run(
     with tempfile.TemporaryDirectory() as folder:
         for name, content in (files or {}).items():
             (Path(folder) / name).write_bytes(content.encode() if isinstance(content, str) else content)
-        (Path(folder) / "in.deck").write_text(deck)
-        command = (launcher or []) + [program, "-in", "in.deck", "-log", LOG]
-        if ranks > 1:
-            command = ["mpirun", "-n", str(ranks)] + command
+        return run_in(Path(folder), deck, ranks, program, timeout, environment, launcher)
+
+
+def run_in(
+    folder: Path,
+    deck: str,
+    ranks: int = 1,
+    program: str = NURBS,
+    timeout: float = 120.0,
+    environment: dict[str, str] | None = None,
+    launcher: list[str] | None = None,
+) -> Run:
+    """Runs the deck's text in this folder, which keeps what the run writes."""
+    (folder / "in.deck").write_text(deck)
+    command = (launcher or []) + [program, "-in", "in.deck", "-log", LOG]
+    if ranks > 1:
+        command = ["mpirun", "-n", str(ranks)] + command
+    # a folder of its own for Open MPI: in a common one a run that ends may take away what another has just begun
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as scratch:
         done = subprocess.run(
             command,
             cwd=folder,
-            env=mpi_environment() | (environment or {}),
+            env=mpi_environment() | {"OMPI_MCA_orte_tmpdir_base": scratch} | (environment or {}),
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
@@ -81,9 +96,9 @@ def run(
             timeout=timeout,
             check=False,
         )
-        # not from the screen: other ranks may print into the middle of its lines
-        log = Path(folder) / LOG
-        tables = thermo_tables(log.read_text(errors="replace")) if log.exists() else []
+    # not from the screen: other ranks may print into the middle of its lines
+    log = folder / LOG
+    tables = thermo_tables(log.read_text(errors="replace")) if log.exists() else []
     return Run(done.returncode, done.stdout, tables)
 
 
