@@ -157,7 +157,7 @@ def first_failure(fault: Fault, seconds: dict[str, float]) -> str:
         path.write_text(fault.applied(sound))
         if words := build(fault.targets):
             raise ListError(f"{fault.where()} does not build:\n{words}")
-        tests = sorted(tests_of(fault), key=lambda test: seconds[test.name])
+        tests = sorted(tests_of(fault), key=lambda test: seconds.get(test.name, 0.0))
         return next((failure for test in tests if (failure := test.failure())), "")
     finally:
         path.write_text(sound)
