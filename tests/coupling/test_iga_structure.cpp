@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "coupling/force_distribution.h"
 #include "coupling/iga_structure.h"
 #include "nurbs/primitives.h"
@@ -91,6 +93,79 @@ TEST(IgaStructure, LoadContinuesASavedStateToTheLastBit) {
   EXPECT_EQ(first.positions(), second.positions());
   EXPECT_EQ(first.velocities(), second.velocities());
   EXPECT_THROW(second.load({1.0, 2.0}), std::invalid_argument);
+}
+
+std::shared_ptr<structure::LinearElastic> soft() {
+  return std::make_shared<structure::LinearElastic>(1.0, 0.3, 1.0);
+}
+
+coupling::IgaStructure whole_skin(nurbs::Volume volume) {
+  return coupling::IgaStructure(structure::ExplicitSolver({std::move(volume), soft()}, {}),
+                                {nurbs::Face::xi_minus, nurbs::Face::xi_plus, nurbs::Face::eta_minus,
+                                 nurbs::Face::eta_plus, nurbs::Face::zeta_minus, nurbs::Face::zeta_plus});
+}
+
+nurbs::KnotVector knots(int degree, int elements) { return nurbs::KnotVector::uniform(degree, elements); }
+
+// A block has twelve edges, at each of which two faces meet.
+TEST(IgaStructure, FacesOfABlockAreWeldedAtAllEdges) {
+  const coupling::IgaStructure solver =
+      whole_skin(nurbs::box({0, 0, 0}, {1, 2, 3}, {knots(2, 1), knots(2, 2), knots(3, 3)}));
+  const nurbs::MultiPatch& skin = solver.surface().topology;
+  for (int p = 0; p < 6; ++p)
+    for (int side = 0; side < nurbs::kSideCount; ++side) {
+      EXPECT_EQ(skin.border(p, side).kind, nurbs::Border::welded) << "face " << p << ", side " << side;
+      EXPECT_NE(skin.border(p, side).patch / 2, p / 2) << "opposite faces have no edge in common";
+    }
+}
+
+// A full ring is slit: the two faces of the slit touch, but none of their edges is that of the other.
+TEST(IgaStructure, EdgesOfASlitAreNotWelded) {
+  const coupling::IgaStructure solver = whole_skin(nurbs::tube(
+      nurbs::frame({0, 0, 0}, {0, 0, 1}), 1.0, 2.0, 3.0, nurbs::arc(0, 360), {knots(2, 2), knots(2, 1)}));
+  const nurbs::MultiPatch& skin = solver.surface().topology;
+  const int slit[] = {static_cast<int>(nurbs::Face::xi_minus), static_cast<int>(nurbs::Face::xi_plus)};
+  for (int p = 0; p < 6; ++p)
+    for (int side = 0; side < nurbs::kSideCount; ++side) {
+      const nurbs::Border& border = skin.border(p, side);
+      if (border.kind != nurbs::Border::welded) continue;
+      EXPECT_FALSE(p == border.patch) << "face " << p << " is welded to itself";
+      EXPECT_FALSE((p == slit[0] && border.patch == slit[1]) || (p == slit[1] && border.patch == slit[0]));
+    }
+}
+
+// On any face: the foot is the point of the solid, and the nodes feel force and moment of what acts there.
+TEST(IgaStructure, ForcesGoToTheNodesOfTheirFace) {
+  const coupling::IgaStructure solver =
+      whole_skin(nurbs::box({0, 0, 0}, {1, 2, 3}, {knots(2, 1), knots(2, 2), knots(3, 3)}));
+  const Vector3 F(1.0, -2.0, 0.7);
+  NodalVectors on_skin;
+  solver.surface().map.to_surface(solver.positions(), on_skin);
+  for (int p = 0; p < 6; ++p) {
+    const coupling::FootBasis foot(solver.surface().topology, {p, {0.3, 0.8}});
+    const int normal = p / 2, u = normal == 0 ? 1 : 0, v = normal == 2 ? 1 : 2;
+    Vector3 point;  // a block is parametrised by its relative coordinates
+    point[normal] = p % 2, point[u] = 0.3, point[v] = 0.8;
+    point = point.cwiseProduct(Vector3(1, 2, 3));
+    EXPECT_LE((foot.interpolate(on_skin) - point).norm(), 1e-14);
+
+    NodalVectors f = NodalVectors::Zero(3, on_skin.cols()),
+                 on_nodes = NodalVectors::Zero(3, solver.positions().cols());
+    foot.distribute(F, f);
+    solver.surface().map.add_to_nodes(f, on_nodes);
+    Vector3 moment = Vector3::Zero();
+    for (int a = 0; a < on_nodes.cols(); ++a)
+      moment += Vector3(solver.positions().col(a)).cross(Vector3(on_nodes.col(a)));
+    EXPECT_LE((on_nodes.rowwise().sum() - F).norm(), 1e-14 * F.norm());
+    EXPECT_LE((moment - point.cross(F)).norm(), 1e-13);
+  }
+}
+
+// 2 % below the stable step, which is found by an iteration, a step may be.
+TEST(IgaStructure, TheLimitLiesBelowTheStableStep) {
+  coupling::IgaStructure solver = block();
+  EXPECT_THROW(solver.set_time_step(0.99 * solver.stable_time_step()), std::invalid_argument);
+  EXPECT_NO_THROW(solver.set_time_step(0.97 * solver.stable_time_step()));
 }
 
 TEST(IgaStructure, StepAboveTheStableOneIsRefusedWithBothNumbers) {

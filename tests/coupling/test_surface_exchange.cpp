@@ -33,34 +33,36 @@ struct Ranks {
 
 /// Contact of particle `tag`: forces of very different size, so that the order of summation shows in the last
 /// bits.
-ContactForce contact(long tag) {
-  const double t = static_cast<double>(tag);
+ContactForce contact(long tag, int branch = 0) {
+  const double t = static_cast<double>(tag) + 0.3 * branch;
   return {tag,
-          0,
+          branch,
           0,
           {std::fmod(0.37 * t, 1.0), std::fmod(0.73 * t, 1.0)},
-          {std::sin(t), std::cos(3 * t), std::pow(10.0, tag % 7) * (1.0 + 0.1 * t)}};
+          {std::sin(t), std::cos(3 * t), std::pow(10.0, (tag + 2 * branch) % 7) * (1.0 + 0.1 * t)}};
 }
 
 TEST(SurfaceExchange, ForcesAreBitwiseTheSameOnAnyNumberOfRanks) {
   const Ranks ranks;
   coupling::RigidSurface rigid({test::wavy_surface()});
   coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
-  const int particles = 200;
+  const int particles = 200, branches = 3;
 
-  // Serial reference in the order of tags, straight from eq. 34.
+  // Serial reference in the order of tags and branches, straight from eq. 34.
   NodalVectors expected = NodalVectors::Zero(3, rigid.positions().cols());
   Vector3 total = Vector3::Zero();
-  for (long tag = 1; tag <= particles; ++tag) {
-    const ContactForce c = contact(tag);
-    coupling::FootBasis(rigid.surface().topology, {0, {c.xi[0], c.xi[1]}})
-        .distribute(Vector3::Map(c.F), expected);
-    total += Vector3::Map(c.F);
-  }
+  for (long tag = 1; tag <= particles; ++tag)
+    for (int branch = 0; branch < branches; ++branch) {
+      const ContactForce c = contact(tag, branch);
+      coupling::FootBasis(rigid.surface().topology, {0, {c.xi[0], c.xi[1]}})
+          .distribute(Vector3::Map(c.F), expected);
+      total += Vector3::Map(c.F);
+    }
 
   std::vector<ContactForce> mine;
   for (long tag = particles; tag >= 1; --tag)  // against the order, dealt to the ranks in turn
-    if (tag % ranks.count == ranks.me) mine.push_back(contact(tag));
+    for (int branch = branches - 1; branch >= 0; --branch)
+      if (tag % ranks.count == ranks.me) mine.push_back(contact(tag, branch));
   const NodalVectors forces = exchange.export_add(mine);
   EXPECT_EQ((forces - expected).cwiseAbs().maxCoeff(), 0.0);
   EXPECT_LE((forces.rowwise().sum() - total).norm(), 1e-13 * total.norm());
