@@ -76,6 +76,27 @@ run 0
             area = 0.5 * np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1).sum()
             np.testing.assert_allclose(area, 2 * 8 * np.sin(np.pi / 8) * RADIUS * LENGTH, rtol=1e-5)
 
+    def test_a_wall_that_has_moved(self):
+        """A quarter turn about a line beside the drum and a lift: the twin is where the wall is by then."""
+        steps, dt, lift = 100, 1e-7, 0.0004
+        turn = f"motion rotate origin 0.001 0 0 axis 0 0 1 period {4 * steps * dt!r}"
+        deck = SETUP + "create_box 2 box\n" + MATERIAL + BALL_FAR_AWAY + f"""
+timestep {dt!r}
+fix drum all wall/nurbs {MODELS} type 2 geometry drum.yaml surface wall twin 1 {turn} motion linear 0 0 {lift / steps / dt!r}
+thermo_style custom step f_drum[1]
+run {steps}
+fix twin all mesh/surface fix drum type 2
+dump twin all mesh/stl 1 {self.folder}/twin*.stl twin
+run 0
+"""
+        decks.good(deck, files={"drum.yaml": CYLINDER})
+        triangles = read_stl(self.folder / f"twin{steps}.stl")
+        # (x, y) -> (0.001 - y, x - 0.001): the axis from (0, -+LENGTH/2) lies along x now, at y = -0.001
+        distance = np.hypot(triangles[..., 1] + 0.001, triangles[..., 2] - 0.0025 - lift)
+        np.testing.assert_allclose(distance, RADIUS, rtol=5e-6)
+        np.testing.assert_allclose(triangles[..., 0].min(), 0.001 - LENGTH / 2, rtol=1e-5)
+        np.testing.assert_allclose(triangles[..., 0].max(), 0.001 + LENGTH / 2, rtol=1e-5)
+
     def test_elements_are_cut_in_four_by_default(self):
         self.assertEqual(len(self.twin_of_the_cylinder("")), 2 * (8 * 2) * (3 * 2))
 

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The columns of fix wall/nurbs that tell of the solid, all of them: a free block flies until it meets a ball."""
+
+import unittest
+
+import numpy as np
+
+import ball_on_block as bob
+import decks
+
+VELOCITY = np.array([0.3, -0.2, 0.5])
+SIZE, DENSITY = (4e-3, 4e-3, 2e-3), 1000.0
+CENTRE = np.array([0.0, 0.0, -1e-3])
+BALL = np.array([0.7e-3, -0.4e-3, 1.0005e-3])  # beside the block's middle, so that the hit turns it
+STEP = 1e-8
+# velocity Verlet keeps momentum and, for a law that is objective, angular momentum, to round-off
+ROUND_OFF = 1e-11
+
+MODEL = bob.block(SIZE, density=DENSITY, fixed=()).replace("linear_elastic", "saint_venant_kirchhoff")
+MODEL += f"initial: {{velocity: {list(VELOCITY)}}}\n"
+SPIN = "compute spin all property/atom omegax omegay omegaz\n"
+
+
+def vector(table: dict[str, np.ndarray], *names: str) -> np.ndarray:
+    return np.stack([table[name] for name in names], axis=-1)
+
+
+class StructureColumns(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        deck = (
+            bob.prelude(balls=(tuple(BALL),), velocity=(0, 0, 0), timestep=STEP) + bob.wall()
+            + bob.output(range(1, 22)) + "run 2500\n"
+        )  # fmt: skip
+        cls.table = decks.good(deck, files={"block.yaml": MODEL}).table
+        cls.touches = cls.table["plate7"] > 0
+
+    def columns(self, first: int) -> np.ndarray:
+        return vector(self.table, *(f"plate{first + k}" for k in range(3)))
+
+    def test_free_flight(self):
+        """m v, m c x v, m v^2/2, no strain, v t."""
+        before = np.arange(len(self.touches)) < np.argmax(self.touches)
+        self.assertGreater(before.sum(), 5)
+        mass = DENSITY * np.prod(SIZE)
+        time = STEP * self.table["Step"][before, None]
+        centre = CENTRE + VELOCITY * time
+        momentum = mass * VELOCITY
+        for name, found, expected in (
+            ("momentum", self.columns(9)[before], np.broadcast_to(momentum, centre.shape)),
+            ("angular momentum", self.columns(12)[before], np.cross(centre, momentum)),
+            ("kinetic energy", self.table["plate15"][before], np.full(before.sum(), 0.5 * momentum @ VELOCITY)),
+            ("probe", self.columns(18)[before], VELOCITY * time),
+        ):
+            with self.subTest(name):
+                self.assertLessEqual(abs(found - expected).max(), 1e-11 * abs(expected).max())
+        self.assertLessEqual(abs(self.table["plate16"][before]).max(), 1e-12 * 0.5 * momentum @ VELOCITY)
+
+    def test_nothing_is_lost_in_the_hit(self):
+        """Ball and block together: momentum, angular momentum, and energy but for the error of the time step."""
+        ball = bob.DENSITY * 4 / 3 * np.pi * bob.RADIUS**3
+        x, v = vector(self.table, "x", "y", "z"), vector(self.table, "vx", "vy", "vz")
+        momentum = ball * v + self.columns(9)
+        angular = ball * np.cross(x, v) + self.columns(12)
+        self.assertGreater(abs(v[-1]).max(), 0.2, "the ball is hit")
+        self.assertGreater(self.table["plate16"].max(), 1e-3 * self.table["plate15"][0], "and the block is strained")
+        for name, total, part in (("momentum", momentum, self.columns(9)), ("angular momentum", angular, self.columns(12))):
+            with self.subTest(name):
+                self.assertGreater(abs(part - part[0]).max(), 1e-3 * abs(part).max())
+                self.assertLessEqual(abs(total - total[0]).max(), ROUND_OFF * abs(part).max())
+        apart = ~self.touches  # no energy of the contact itself
+        energy = self.table["KinEng"] + self.table["plate15"] + self.table["plate16"]
+        self.assertTrue(apart[-1])
+        self.assertLessEqual(abs(energy[apart] - energy[0]).max(), 1e-7 * energy[0])
+
+
+if __name__ == "__main__":
+    unittest.main()
