@@ -37,14 +37,14 @@ ContactForce contact(long tag, int branch = 0) {
   const double t = static_cast<double>(tag) + 0.3 * branch;
   return {tag,
           branch,
-          0,
+          branch % 2,
           {std::fmod(0.37 * t, 1.0), std::fmod(0.73 * t, 1.0)},
           {std::sin(t), std::cos(3 * t), std::pow(10.0, (tag + 2 * branch) % 7) * (1.0 + 0.1 * t)}};
 }
 
 TEST(SurfaceExchange, ForcesAreBitwiseTheSameOnAnyNumberOfRanks) {
   const Ranks ranks;
-  coupling::RigidSurface rigid({test::wavy_surface()});
+  coupling::RigidSurface rigid({test::wavy_surface(), test::wavy_surface()});
   coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
   const int particles = 200, branches = 3;
 
@@ -54,7 +54,7 @@ TEST(SurfaceExchange, ForcesAreBitwiseTheSameOnAnyNumberOfRanks) {
   for (long tag = 1; tag <= particles; ++tag)
     for (int branch = 0; branch < branches; ++branch) {
       const ContactForce c = contact(tag, branch);
-      coupling::FootBasis(rigid.surface().topology, {0, {c.xi[0], c.xi[1]}})
+      coupling::FootBasis(rigid.surface().topology, {branch % 2, {c.xi[0], c.xi[1]}})
           .distribute(Vector3::Map(c.F), expected);
       total += Vector3::Map(c.F);
     }

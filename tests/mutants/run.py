@@ -201,6 +201,7 @@ def main() -> int:
     parser.add_argument("--fresh", action="store_true", help="try those again that were caught before")
     options = parser.parse_args()
     WORK.mkdir(parents=True, exist_ok=True)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # so that the fault is taken out of the copy
     with open(WORK / "lock", "w", encoding="ascii") as lock:
         fcntl.flock(lock, fcntl.LOCK_EX)  # one copy, one at a time
         try:
