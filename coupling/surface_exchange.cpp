@@ -8,8 +8,7 @@
 
 namespace coupling {
 
-SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver, int late_imports)
-    : comm_(comm), solver_(solver), late_imports_(late_imports) {
+SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver) : comm_(comm), solver_(solver) {
   int ranks = 1;
   MPI_Comm_size(comm_, &ranks);
   bytes_.resize(ranks);
@@ -22,13 +21,6 @@ SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver, int lat
 void SurfaceExchange::import_surface() {
   solver_.surface().map.to_surface(solver_.positions(), positions_);
   solver_.surface().map.to_surface(solver_.velocities(), velocities_);
-  if (late_imports_ > 0) delay();
-}
-
-void SurfaceExchange::delay() {
-  past_.emplace_back(positions_, velocities_);
-  if (past_.size() > late_imports_ + 1) past_.pop_front();
-  std::tie(positions_, velocities_) = past_.front();
 }
 
 const NodalVectors& SurfaceExchange::export_add(const std::vector<ContactForce>& local) {

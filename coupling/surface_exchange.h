@@ -6,9 +6,6 @@
 
 #include <mpi.h>
 
-#include <deque>
-#include <memory>
-#include <utility>
 #include <vector>
 
 #include "coupling/structure_solver.h"
@@ -26,9 +23,8 @@ struct ContactForce {
 
 class SurfaceExchange {
  public:
-  /// The solver must outlive the exchange.  `late_imports` is for tests alone: what is brought is the state
-  /// of so many imports ago, which must show as first order.
-  SurfaceExchange(MPI_Comm comm, StructureSolver& solver, int late_imports = 0);
+  /// The solver must outlive the exchange.
+  SurfaceExchange(MPI_Comm comm, StructureSolver& solver);
 
   /// Brings positions and velocities of the surface's control points to this rank; call after every change of
   /// the solver's state.
@@ -42,14 +38,11 @@ class SurfaceExchange {
   const NodalVectors& export_add(const std::vector<ContactForce>& local);
 
  private:
-  void delay();
   void gather(const std::vector<ContactForce>& local);
 
   MPI_Comm comm_;
   StructureSolver& solver_;
   NodalVectors positions_, velocities_;
-  const std::size_t late_imports_;
-  std::deque<std::pair<NodalVectors, NodalVectors>> past_;  ///< positions and velocities, the oldest first
   NodalVectors surface_forces_, nodal_forces_;
   std::vector<ContactForce> contacts_;  ///< of all ranks
   std::vector<int> bytes_, offset_;     ///< per rank

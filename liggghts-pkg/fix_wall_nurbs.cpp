@@ -29,7 +29,7 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
     : WallNurbsSetup(lmp, narg, arg),
       FixWallGran(lmp, static_cast<int>(stock_arg_.size()), stock_arg_.data()),
       structure_(*opened_.solver),
-      exchange_(world, structure_, late_steps()),
+      exchange_(world, structure_),
       surface_(structure_.surface().topology),
       projector_(surface_),
       regularity_(surface_),
@@ -55,17 +55,6 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
   can_create_mesh_ = true;
   refuse_second_solid();
   open_output();
-}
-
-int FixWallNurbs::late_steps() const {
-  const char* word = std::getenv("LIGGGHTS_NURBS_TEST_LATE_SURFACE");
-  if (!word) return 0;
-  char* end = nullptr;
-  const long steps = std::strtol(word, &end, 10);
-  if (*end != '\0' || steps < 1 || steps > 10000)
-    fail(fmt::format("LIGGGHTS_NURBS_TEST_LATE_SURFACE is '{}'; expected a number of steps, 1 to 10000",
-                     word));
-  return static_cast<int>(steps);
 }
 
 void FixWallNurbs::fail(const std::string& message) const {

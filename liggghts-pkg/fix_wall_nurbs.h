@@ -133,7 +133,6 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   [[noreturn]] void fail_on_this_rank(const std::string& message) const;
   void warn(const std::string& message) const;
   void print(const std::string& message) const;
-  int late_steps() const;  // of a deforming surface, for tests alone
 
   coupling::StructureSolver& structure_;
   coupling::SurfaceExchange exchange_;

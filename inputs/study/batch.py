@@ -45,15 +45,14 @@ class Batch:
             run_variables(case, self.defaults(case), self.user)
 
     def runs(self, scratch: Path) -> list[tuple[Run, list[Case]]]:
-        """One run for all cases that set the same variables and environment of the same deck."""
+        """One run for all cases that set the same variables of the same deck."""
         shared: dict[tuple, tuple[Run, list[Case]]] = {}
         for case in self.cases:
             variables = run_variables(case, self.defaults(case), self.user)
             files = partial(case.files, numbers(variables)) if case.files else dict
-            own = dict(ranks=case.ranks, environment=case.environment, leaves=case.leaves)
+            own = dict(ranks=case.ranks, leaves=case.leaves)
             run = Run(case.name, self.folder, case.deck, variables, scratch / case.name, files, **own)
-            settings = (tuple(words.items()) for words in (numbers(variables), case.environment))
-            same = (case.deck, *settings, case.after, case.ranks)
+            same = (case.deck, tuple(numbers(variables).items()), case.after, case.ranks)
             shared.setdefault(same, (run, []))[1].append(case)
         run_of = {case.name: run for run, cases in shared.values() for case in cases}
         for run, (case, *_) in shared.values():

@@ -32,7 +32,6 @@ class Case:
     after: str = ""  # a case that must have run; the files it leaves are put beside the deck
     leaves: Sequence[str] = ("*.restart",)  # patterns of files for the cases after this one
     ranks: int | None = None  # of MPI; None: as the user says
-    environment: Mapping[str, str] = field(default_factory=dict)  # of the solver
     keep: Sequence[str] = ()  # patterns of further files that are kept, in out/<deck>/<case>/
     on_request: bool = False  # runs only if --case names it
 

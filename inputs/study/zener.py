@@ -6,9 +6,6 @@ carry energy away.  With t = T tau and the overlap d = T V s,
 
     s'' + (1 + inelasticity d/dtau) s^(3/2) = 0,  s(0) = 0,  s'(0) = 1.
 
-A contact that sees the plate late by T epsilon overlaps more, by epsilon inelasticity s^(3/2) to first order: that is
-what a coupled code computes whose surface is one time step old.
-
 All quantities are SI.
 """
 
@@ -28,13 +25,12 @@ def plate_mobility(E: float, nu: float, rho: float, h: float) -> float:
     return 1.0 / (8.0 * np.sqrt(D * rho * h))
 
 
-def solve(inelasticity: float, epsilon: float = 0.0):
-    """(s, q) up to the end of contact; q = s' + inelasticity (1 - epsilon d/dtau) s^(3/2): the sphere's velocity / V."""
+def solve(inelasticity: float):
+    """(s, q) up to the end of contact; q = s' + inelasticity s^(3/2): the sphere's velocity / V."""
 
     def rate(_, y):
-        root = np.sqrt(max(y[0], 0.0))
-        f = root**3
-        return [(y[1] - inelasticity * f) / (1.0 - 1.5 * epsilon * inelasticity * root), -f]
+        f = max(y[0], 0.0) ** 1.5
+        return [y[1] - inelasticity * f, -f]
 
     def contact_ends(tau, y):
         return y[0] if tau > 1e-6 else 1.0
@@ -47,17 +43,16 @@ def solve(inelasticity: float, epsilon: float = 0.0):
 
 @dataclass(frozen=True)
 class ThinPlateImpact:
-    """A sphere, m [kg] and V [m/s], F = K d^(3/2) [N], on a plate of mobility alpha [m/(N s)], seen `lag` [s] late."""
+    """A sphere, m [kg] and V [m/s], F = K d^(3/2) [N], on a plate of mobility alpha [m/(N s)]."""
 
     m: float
     V: float
     K: float
     alpha: float
-    lag: float = 0.0
 
     @cached_property
     def _solution(self):
-        return solve(self.inelasticity, self.lag / self.time_scale)
+        return solve(self.inelasticity)
 
     @property
     def time_scale(self) -> float:

@@ -12,6 +12,7 @@
 #include "coupling/open_structure.h"
 #include "coupling/rigid_surface.h"
 #include "coupling/surface_exchange.h"
+#include "late_surface.h"
 #include "nurbs/primitives.h"
 #include "nurbs/yaml_map.h"
 #include "structure/linear_elastic.h"
@@ -86,17 +87,19 @@ TEST(SurfaceExchange, ImportBringsTheControlPoints) {
   EXPECT_EQ(exchange.velocities().cwiseAbs().maxCoeff(), 0.0);
 }
 
-TEST(SurfaceExchange, LateByTwoImports) {
+TEST(LateSurface, IsSeenAsItWasTwoStepsAgo) {
   const auto knots = nurbs::KnotVector::uniform(2, 1);
   nurbs::Volume cube = nurbs::box({0, 0, 0}, {1, 1, 1}, {knots, knots, knots});
   auto material = std::make_shared<structure::LinearElastic>(1.0, 0.0, 1.0);
-  coupling::IgaStructure solver(structure::ExplicitSolver({std::move(cube), material}, {}),
-                                {nurbs::Face::zeta_plus});
+  auto in_phase = std::make_unique<coupling::IgaStructure>(
+      structure::ExplicitSolver({std::move(cube), material}, {}), std::vector{nurbs::Face::zeta_plus});
+  const coupling::IgaStructure& now = *in_phase;
+  test::LateSurface solver(std::move(in_phase), 2);
   solver.set_time_step(0.1);
   const NodalVectors pull = NodalVectors::Ones(3, solver.positions().cols());
   solver.initialise_forces(pull);
 
-  coupling::SurfaceExchange exchange(MPI_COMM_WORLD, solver, 2);
+  coupling::SurfaceExchange exchange(MPI_COMM_WORLD, solver);
   std::vector<NodalVectors> positions(3, exchange.positions()), velocities(3, exchange.velocities());
   for (int step = 0; step < 4; ++step) {
     EXPECT_EQ(exchange.positions(), positions[step]);
@@ -104,8 +107,8 @@ TEST(SurfaceExchange, LateByTwoImports) {
     solver.begin_step();
     positions.emplace_back();
     velocities.emplace_back();
-    solver.surface().map.to_surface(solver.positions(), positions.back());
-    solver.surface().map.to_surface(solver.velocities(), velocities.back());
+    now.surface().map.to_surface(now.positions(), positions.back());
+    now.surface().map.to_surface(now.velocities(), velocities.back());
     EXPECT_NE(positions.back(), *(positions.end() - 2));
     exchange.import_surface();
     solver.end_step(pull);
