@@ -8,7 +8,7 @@ import shutil
 import sys
 import tempfile
 from contextlib import closing
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import Mapping, Sequence
@@ -17,7 +17,7 @@ from study.case import Case, Result, Study, index_variables, numbers, run_variab
 from study.progress import Progress
 from study.pulse import NoPulse
 from study.solver import LOG, Run, Solver, run_all
-from study.summary import Row, table, write_json
+from study.summary import Row, read_json, table, write_json
 from study.usage import one_of
 
 
@@ -62,8 +62,8 @@ class Batch:
     def run(self, solver: Solver, jobs: int | None, keep_going: bool, out: Path) -> bool:
         """Runs everything and writes `out`; whether every run and every row went well."""
         out.mkdir(parents=True, exist_ok=True)
-        for stale in [out / "summary.json", *(out / figure.file for figure in self.study.figures)]:
-            stale.unlink(missing_ok=True)
+        others = self.rows_of_other_cases(out)
+        self.remove_stale(out, others)
         with tempfile.TemporaryDirectory(prefix=".run-", dir=out) as scratch:
             self.run_cases(self.runs(Path(scratch)), solver, jobs, keep_going, out)
             if not self.complete and not keep_going:
@@ -74,10 +74,33 @@ class Batch:
             rows = [row for case in self.cases for row in self.rows[case.name]]
             for comparison in self.study.comparisons:
                 if set(comparison.cases) <= self.results.keys():
-                    rows += comparison.rows(self.results)
-        write_json(out / "summary.json", self.folder.name, rows)
+                    rows += [replace(row, of=tuple(comparison.cases)) for row in comparison.rows(self.results)]
+        write_json(out / "summary.json", self.folder.name, self.in_order([*rows, *others]))
         print(table(rows))
         return self.complete and all(row.passes is not False for row in rows)
+
+    def rows_of_other_cases(self, out: Path) -> list[dict]:
+        """Of the summary that is there, the rows whose cases are not run again and whose files are there, too."""
+        again = {case.name for case in self.cases}
+        rows = read_json(out / "summary.json")
+        return [row for row in rows if not again & set(row["of"]) and all((out / f"log_{c}.txt").exists() for c in row["of"])]
+
+    def remove_stale(self, out: Path, others: Sequence[dict]) -> None:
+        """What earlier runs of these cases left in summary and figures; a failure leaves the others' rows."""
+        again = {case.name for case in self.cases}
+        for figure in self.study.figures:
+            if again & set(figure.cases):
+                (out / figure.file).unlink(missing_ok=True)
+        if others:
+            write_json(out / "summary.json", self.folder.name, others)
+        else:
+            (out / "summary.json").unlink(missing_ok=True)
+
+    def in_order(self, rows: Sequence[Row | dict]) -> list[dict]:
+        """Rows of single cases in the order of the study, then comparisons."""
+        place = {case.name: i for i, case in enumerate(self.study.cases)}
+        dicts = [row if isinstance(row, dict) else row.as_dict() for row in rows]
+        return sorted(dicts, key=lambda row: place.get(row["of"][0], 0) if len(row["of"]) == 1 else len(place))
 
     def run_cases(
         self,
@@ -119,6 +142,8 @@ class Batch:
             if failure:
                 self.complete = False
                 self.rows[case.name] = [Row(case.name, "completed", 0.0, "1", 1.0, 0.0)]
+                (out / f"contact_force_{case.name}.csv").unlink(missing_ok=True)  # an earlier run's
+                shutil.rmtree(out / case.name, ignore_errors=True)
             else:
                 forces = [path.name for path in run.folder.glob("contact_force.csv")]  # a packing has none
                 for name in [*forces, *run.written]:

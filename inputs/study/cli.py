@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import argparse
+import errno
 import os
 import subprocess
 import sys
@@ -25,7 +26,8 @@ def parse(arguments: Sequence[str]) -> argparse.Namespace:
         prog="inputs/run",
         description="Runs the study of a deck, prints a table and writes out/DECK/ "
         "(summary.json, contact_force_CASE.csv, log_CASE.txt, figures).",
-        epilog="Exit code: 0 if every row with a reference passes, 1 if not, 2 if misused.",
+        epilog="Exit code: 0 if every row with a reference passes, 1 if not, 2 if misused or "
+        "if results or build cannot be written.",
         allow_abbrev=False,
     )
     add = parser.add_argument
@@ -77,9 +79,17 @@ def chosen(cases: Sequence, wanted: Sequence[str]) -> list:
 
 
 def set_up(*arguments: str) -> None:
-    """inputs/setup explains what went wrong by itself."""
-    if subprocess.run([INPUTS / "setup", *arguments], check=False).returncode:
-        raise SystemExit(EXIT_FAIL)
+    """inputs/setup explains what went wrong by itself; it ends with 2 where nothing can be written."""
+    code = subprocess.run([INPUTS / "setup", *arguments], check=False).returncode
+    if code:
+        raise SystemExit(EXIT_USAGE if code == EXIT_USAGE else EXIT_FAIL)
+
+
+def why_not(error: OSError) -> str:
+    """One line about a file or folder that cannot be used."""
+    where = f"{error.filename}: " if error.filename else ""
+    way_out = "free some space, or name a folder elsewhere" if error.errno == errno.ENOSPC else "name a folder that can be written to"
+    return f"{where}{error.strerror or error}; {way_out} with --out DIR"
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -88,6 +98,9 @@ def main(arguments: Sequence[str]) -> int:
         return dispatch(args)
     except UsageError as error:
         print(f"inputs/run: {error}", file=sys.stderr)
+        return EXIT_USAGE
+    except OSError as error:
+        print(f"inputs/run: {why_not(error)}", file=sys.stderr)
         return EXIT_USAGE
     except KeyboardInterrupt:
         print("\ninputs/run: interrupted", file=sys.stderr)

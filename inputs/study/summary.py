@@ -21,6 +21,7 @@ class Row:
     reference: float | None = None
     tolerance: float | None = None
     note: str = ""  # for the printed table
+    of: Sequence[str] = ()  # the cases whose runs it was worked out from; (): `case` alone
 
     @property
     def error(self) -> float | None:
@@ -44,6 +45,7 @@ class Row:
             "error": finite(self.error),
             "tolerance": None if self.reference is None else self.tolerance,
             "pass": self.passes,
+            "of": list(self.of or [self.case]),
         }
 
 
@@ -52,9 +54,18 @@ def finite(x: float | None) -> float | None:
     return None if x is None or x - x != 0.0 else float(x)
 
 
-def write_json(path: Path, deck: str, rows: Sequence[Row]) -> None:
-    """Writes summary.json as a whole or not at all."""
-    summary = {"deck": deck, "rows": [row.as_dict() for row in rows]}
+def read_json(path: Path) -> list[dict]:
+    """The rows of a summary.json; none of a file that is missing, or is none of ours."""
+    try:
+        rows = json.loads(path.read_text(encoding="utf-8"))["rows"]
+        return [row for row in rows if isinstance(row["case"], str) and isinstance(row["of"], list)]
+    except (FileNotFoundError, ValueError, KeyError, TypeError):
+        return []
+
+
+def write_json(path: Path, deck: str, rows: Sequence[Row | dict]) -> None:
+    """Writes summary.json as a whole or not at all; rows of an earlier one are dicts."""
+    summary = {"deck": deck, "rows": [row if isinstance(row, dict) else row.as_dict() for row in rows]}
     text = json.dumps(summary, indent=1, allow_nan=False)
     partial = path.with_name(path.name + ".partial")
     partial.write_text(text + "\n", encoding="utf-8")

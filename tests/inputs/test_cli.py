@@ -2,6 +2,7 @@
 """inputs/run as a user meets it, with a stand-in for the solver."""
 
 import contextlib
+import errno
 import io
 import json
 import os
@@ -167,6 +168,23 @@ class CommandLine(unittest.TestCase):
                 self.assertRegex(done.stderr, expected)
                 self.assertNotIn("Traceback", done.stderr)
                 self.assertEqual(self.left_behind(), [])
+
+    def test_results_that_cannot_be_written(self):
+        file = self.out / "file"
+        file.touch()
+        self.out = file / "out"  # no folder can be made here, not even by root
+        done = self.run_study("ball_plate", "--case", "hertz_lambda_0.8")
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, r"^inputs/run: .*file/out: Not a directory; .* --out DIR\n$")
+
+    def test_a_full_disk(self):
+        full = OSError(errno.ENOSPC, "No space left on device", str(self.out / "summary.json"))
+        with mock.patch("study.batch.write_json", side_effect=full):
+            done = self.run_study("ball_plate", "--case", "hertz_lambda_0.8")
+        self.assertEqual(done.returncode, 2)
+        said = done.stderr.splitlines()[-1]
+        self.assertRegex(said, "^inputs/run: .*summary.json: No space left on device; free some space, or .* --out DIR$")
+        self.assertNotIn("Traceback", done.stderr)
 
     def test_no_executable(self):
         command = [RUN, "thin_plate", "--solver", "/no/such"]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """inputs/setup --packages with stand-ins for Debian's tools."""
 
+import os
 import shutil
 import subprocess
 import tempfile
@@ -73,6 +74,18 @@ class Packages(unittest.TestCase):
                 self.assertEqual(done.returncode, 1)
                 self.assertIn("E: no network", done.stderr)
                 self.assertIn(f"inputs/setup: apt-get {step} failed", done.stderr)
+
+    def test_a_tree_that_cannot_be_written_to(self):
+        inputs = self.folder / "tree/inputs"
+        shutil.copytree(SETUP.parent, inputs, ignore=shutil.ignore_patterns("*.png"))
+        (self.folder / "tree/build").touch()  # no folder can be made here, not even by root
+        expected = "inputs/setup: cannot write to .*tree/build: build in a copy .* --solver FILE\n"
+        for command in ([inputs / "setup", "--packages"], [inputs / "run", "ball_plate"]):
+            with self.subTest(command=command):
+                settings = dict(os.environ, PATH=f"{self.bin}:{os.environ['PATH']}", MISSING="")
+                done = subprocess.run(command, env=settings, capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 2, done.stderr)
+                self.assertRegex(done.stderr, f"^{expected}$")
 
     def test_no_debian(self):
         (self.bin / "apt-get").unlink()

@@ -6,9 +6,9 @@ import tempfile
 import unittest
 from pathlib import Path
 
-from study.summary import Row, table, write_json
+from study.summary import Row, read_json, table, write_json
 
-KEYS = ["case", "quantity", "value", "unit", "reference", "error", "tolerance", "pass"]
+KEYS = ["case", "quantity", "value", "unit", "reference", "error", "tolerance", "pass", "of"]
 
 
 class Rule(unittest.TestCase):
@@ -60,8 +60,19 @@ class Json(unittest.TestCase):
         self.assertEqual(list(summary), ["deck", "rows"])
         self.assertEqual([list(row) for row in summary["rows"]], [KEYS, KEYS])
         first, second = (list(row.values()) for row in summary["rows"])
-        self.assertEqual(first, ["a", "x", 1.25, "N", 1.0, 0.25, 0.3, True])
-        self.assertEqual(second, ["b", "y", 2.0, "1", None, None, None, None])
+        self.assertEqual(first, ["a", "x", 1.25, "N", 1.0, 0.25, 0.3, True, ["a"]])
+        self.assertEqual(second, ["b", "y", 2.0, "1", None, None, None, None, ["b"]])
+
+    def test_a_row_of_several_cases(self):
+        rows = self.written([Row("both", "ratio", 2.0, "1", of=("a", "b"))])["rows"]
+        self.assertEqual(rows[0]["of"], ["a", "b"])
+        self.assertEqual(read_json(self.path), rows)
+
+    def test_no_summary_has_no_rows(self):
+        self.assertEqual(read_json(self.path), [])
+        for text in ("", "{", "[]", '{"rows": [{"case": "of an older version"}]}'):
+            self.path.write_text(text)
+            self.assertEqual(read_json(self.path), [], text)
 
     def test_all_digits(self):
         value = 6.6865933000000001e-5 / 3.0
