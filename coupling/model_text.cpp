@@ -1,39 +1,33 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/model_text.h"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <limits>
-#include <sstream>
+#include <system_error>
 
-#include "nurbs/yaml_map.h"
+#include "nurbs/input_error.h"
+#include "nurbs/regular_file.h"
 
 namespace coupling {
+namespace {
+
+void broadcast(MPI_Comm comm, std::string& text) {
+  int length = static_cast<int>(text.size());
+  MPI_Bcast(&length, 1, MPI_INT, 0, comm);
+  text.resize(length);
+  MPI_Bcast(text.data(), length, MPI_CHAR, 0, comm);
+}
+
+}  // namespace
 
 std::string read_text_on_all_ranks(MPI_Comm comm, const std::string& path) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  std::string text;
-  long length_or_error = 0;  // >= 0: length of the text; < 0: minus errno
-  if (rank == 0) {
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream content;
-    if (file) content << file.rdbuf();
-    text = content.str();
-    bool failed = !file || (text.empty() && errno != 0);
-    if (text.size() > std::numeric_limits<int>::max()) failed = true, errno = EFBIG;  // MPI counts in int
-    length_or_error = failed ? -(errno != 0 ? errno : EIO) : static_cast<long>(text.size());
-  }
-  MPI_Bcast(&length_or_error, 1, MPI_LONG, 0, comm);
-  if (length_or_error < 0)
-    throw nurbs::InputError("cannot read '" + path +
-                            "': " + std::strerror(static_cast<int>(-length_or_error)));
-  text.resize(length_or_error);
-  MPI_Bcast(text.data(), static_cast<int>(length_or_error), MPI_CHAR, 0, comm);
-  return text;
+  nurbs::FileContent content;
+  if (rank == 0) content = nurbs::read_regular_file(path);
+  broadcast(comm, content.problem);
+  if (!content.problem.empty()) throw nurbs::InputError("cannot read '" + path + "': " + content.problem);
+  broadcast(comm, content.bytes);
+  return std::move(content.bytes);
 }
 
 bool is_same_file(MPI_Comm comm, const std::string& path, const std::string& other) {

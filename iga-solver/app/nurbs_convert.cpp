@@ -9,6 +9,7 @@
 #include "command.h"
 #include "geometry_io/geometry_io.h"
 #include "geometry_summary.h"
+#include "nurbs/regular_file.h"
 
 namespace {
 
@@ -39,6 +40,8 @@ void write(const GeometryFile& geometry, const std::string& path) {
   } catch (const std::exception& error) {
     throw std::runtime_error(fmt::format("{}: {}", path, error.what()));
   }
+  const std::string problem = nurbs::problem_as_output(path);
+  if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
   std::ofstream file(path, std::ios::binary);
   if (!file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
     throw std::runtime_error(fmt::format("{}: cannot write this file", path));

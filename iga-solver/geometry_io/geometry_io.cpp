@@ -3,13 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "geometry_io/formats.h"
+#include "nurbs/regular_file.h"
 
 namespace geometry_io {
 namespace {
@@ -57,14 +54,10 @@ std::optional<Format> format_of_path(const std::string& path) {
 }
 
 std::string read_file(const std::string& path) {
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream content;
-  if (file) content << file.rdbuf();
-  if (!file || (content.str().empty() && errno != 0))
-    throw nurbs::InputError(
-        fmt::format("{}: cannot read this file: {}", path, std::strerror(errno != 0 ? errno : EIO)));
-  return content.str();
+  nurbs::FileContent content = nurbs::read_regular_file(path);
+  if (!content.problem.empty())
+    throw nurbs::InputError(fmt::format("{}: cannot read this file: {}", path, content.problem));
+  return std::move(content.bytes);
 }
 
 GeometryFile read_geometry(const std::string& path, const ReadFile& read, nurbs::Units units) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "geometry_io/hdf5_file.h"
+#include "nurbs/file_kind.h"
 #include "nurbs/input_error.h"
 
 namespace geometry_io {
@@ -39,7 +40,6 @@ struct Hdf5Input::Source {
 namespace {
 
 constexpr hsize_t kMaxValues = std::numeric_limits<int>::max();
-constexpr const char* kSignature = "\x89HDF\r\n\x1a\n";
 
 // The file lives in memory: HDF5's "core" driver on a copy of the bytes.
 hid_t open_image(const std::string& bytes) {
@@ -73,7 +73,10 @@ std::string shape_text(const std::vector<hsize_t>& shape) {
 Hdf5Input::Hdf5Input(const std::string& bytes, std::string file)
     : file_name_(std::move(file)), file_(open_image(bytes), H5Fclose) {
   if (file_ >= 0) return;
-  throw nurbs::InputError(file_name_ + (bytes.compare(0, 8, kSignature) == 0
+  const nurbs::FileKind kind = nurbs::kind_of_file(file_name_, bytes);
+  if (kind != nurbs::FileKind::xml && kind != nurbs::FileKind::binary)
+    nurbs::expect_kind(nurbs::FileKind::hdf5, file_name_, bytes);
+  throw nurbs::InputError(file_name_ + (kind == nurbs::FileKind::hdf5
                                             ? ": damaged or incomplete, HDF5 cannot open it"
                                             : ": is no HDF5 file, expected one by its name"));
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "nurbs/file_kind.h"
 #include "nurbs/input_error.h"
 #include "nurbs/parse_number.h"
 
@@ -28,6 +29,7 @@ bool parse_value(std::string_view word, double& value) {
 }  // namespace
 
 XmlInput::XmlInput(const std::string& text, std::string file) : text_(text), file_(std::move(file)) {
+  nurbs::expect_kind(nurbs::FileKind::xml, file_, text);
   const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size());
   if (!result) fail_at(result.offset, fmt::format("broken XML: {}", result.description()));
 }

@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "nurbs/regular_file.h"
+
 namespace io {
 
 namespace {
@@ -14,6 +16,8 @@ constexpr hsize_t kRowsPerChunk = 256;
 using SilentErrors = geometry_io::SilentHdf5Errors;
 
 hid_t create_file(const std::string& path) {
+  const std::string problem = nurbs::problem_as_output(path);
+  if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
   const SilentErrors silent;
   return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
 }

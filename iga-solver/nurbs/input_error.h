@@ -26,4 +26,9 @@ inline std::string shown(const std::string& text) {
   return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
 }
 
+/// Throws the InputError "file:line: message"; lines count from 1.
+[[noreturn]] inline void fail_at_line(const std::string& file, int line, const std::string& message) {
+  throw InputError(file + ":" + std::to_string(line) + ": " + one_line(message));
+}
+
 }  // namespace nurbs

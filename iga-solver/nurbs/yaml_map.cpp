@@ -8,16 +8,18 @@
 #include <cmath>
 #include <limits>
 
+#include "nurbs/file_kind.h"
 #include "nurbs/parse_number.h"
 
 namespace nurbs {
 namespace {
 
-std::string described(const YAML::Node& node) {
-  if (node.IsSequence()) return fmt::format("a list of {}", node.size());
-  if (node.IsMap()) return "a mapping";
-  if (node.IsNull() || node.Scalar().empty()) return "empty";
-  return shown(node.Scalar());
+using Kind = YamlNode::Kind;
+
+std::string described(const YamlNode& node) {
+  if (node.kind == Kind::list) return fmt::format("a list of {}", node.children.size());
+  if (node.kind == Kind::map) return "a mapping";
+  return node.scalar.empty() ? "empty" : shown(node.scalar);
 }
 
 std::string described(Range range) {
@@ -36,12 +38,6 @@ bool contains(Range range, double x) {
   return (range.low_included ? x >= range.low : x > range.low) &&
          (range.high_included ? x <= range.high : x < range.high);
 }
-
-[[noreturn]] void fail_in(const std::string& file, int line, const std::string& message) {
-  throw InputError(fmt::format("{}:{}: {}", file, line, one_line(message)));
-}
-
-int line_of_mark(const YAML::Mark& mark) { return std::max(mark.line, 0) + 1; }
 
 std::string one_of(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
@@ -76,64 +72,68 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 }
 
 YamlMap YamlMap::parse(const std::string& text, const std::string& file) {
-  try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.empty()) fail_in(file, 1, "file is empty, expected a mapping (key: value)");
-    if (documents.size() > 1)
-      fail_in(file, line_of_mark(documents[1].Mark()),
-              fmt::format("{} documents given, expected one", documents.size()));
-    return YamlMap(documents.front(), file, "");
-  } catch (const YAML::Exception& error) {
-    fail_in(file, line_of_mark(error.mark), "broken YAML: " + shown(error.msg));
-  }
+  expect_kind(FileKind::text, file, text);
+  const auto tree = std::make_shared<const YamlTree>(text, file);
+  return YamlMap(tree, tree->root(), file, "");
 }
 
-YamlMap::YamlMap(YAML::Node node, std::string file, std::string where)
-    : node_(std::move(node)), file_(std::move(file)), where_(std::move(where)) {
-  if (!node_.IsMap())
-    fail_at(node_, fmt::format("{} is {}, expected a mapping (key: value)", where_.empty() ? "file" : where_,
-                               described(node_)));
+YamlMap::YamlMap(std::shared_ptr<const YamlTree> tree, const YamlNode& node, std::string file,
+                 std::string where)
+    : tree_(std::move(tree)), node_(&node), file_(std::move(file)), where_(std::move(where)) {
+  if (node.kind != Kind::map)
+    fail_at(node, fmt::format("{} is {}, expected a mapping (key: value)", where_.empty() ? "file" : where_,
+                              described(node)));
+}
+
+const YamlNode* YamlMap::find(const std::string& key) const {
+  const std::vector<const YamlNode*>& entries = node_->children;
+  for (size_t i = 0; i < entries.size(); i += 2)
+    if (entries[i]->kind == Kind::scalar && entries[i]->scalar == key) return entries[i + 1];
+  return nullptr;
 }
 
 void YamlMap::allow_only(std::initializer_list<const char*> keys) const {
   const std::vector<std::string> allowed(keys.begin(), keys.end());
   std::vector<std::string> seen;
-  for (const auto& entry : node_) {
-    const std::string key = read_word(entry.first, "key");
+  for (size_t i = 0; i < node_->children.size(); i += 2) {
+    const YamlNode& entry = *node_->children[i];
+    const std::string key = read_word(entry, "key");
     if (std::find(seen.begin(), seen.end(), key) != seen.end())
-      fail_at(entry.first, fmt::format("{} is given twice, expected once", name_of(key)));
+      fail_at(entry, fmt::format("{} is given twice, expected once", name_of(key)));
     seen.push_back(key);
     if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
     const std::string nearest = nearest_word(key, allowed);
     const std::string hint = nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest);
-    fail_at(entry.first, fmt::format("unknown key '{}'{}, {}expected one of: {}", shown(key),
-                                     where_.empty() ? "" : " in " + where_, hint, one_of(allowed)));
+    fail_at(entry, fmt::format("unknown key '{}'{}, {}expected one of: {}", shown(key),
+                               where_.empty() ? "" : " in " + where_, hint, one_of(allowed)));
   }
 }
 
-bool YamlMap::has(const std::string& key) const { return node_[key].IsDefined(); }
-bool YamlMap::is_list(const std::string& key) const { return value(key).IsSequence(); }
+bool YamlMap::has(const std::string& key) const { return find(key) != nullptr; }
+bool YamlMap::is_list(const std::string& key) const { return value(key).kind == Kind::list; }
 
 std::vector<std::string> YamlMap::keys() const {
   std::vector<std::string> keys;
-  for (const auto& entry : node_) keys.push_back(read_word(entry.first, "key"));
+  for (size_t i = 0; i < node_->children.size(); i += 2)
+    keys.push_back(read_word(*node_->children[i], "key"));
   return keys;
 }
 
-int YamlMap::line() const { return line_of_mark(node_.Mark()); }
+int YamlMap::line() const { return node_->line; }
 
 int YamlMap::line_of(const std::string& key) const {
-  for (const auto& entry : node_)
-    if (entry.first.IsScalar() && entry.first.Scalar() == key) return line_of_mark(entry.first.Mark());
+  for (size_t i = 0; i < node_->children.size(); i += 2)
+    if (node_->children[i]->kind == Kind::scalar && node_->children[i]->scalar == key)
+      return node_->children[i]->line;
   return line();
 }
 
-YamlMap YamlMap::map(const std::string& key) const { return YamlMap(value(key), file_, name_of(key)); }
+YamlMap YamlMap::map(const std::string& key) const { return YamlMap(tree_, value(key), file_, name_of(key)); }
 
 std::vector<YamlMap> YamlMap::list_of_maps(const std::string& key) const {
   std::vector<YamlMap> maps;
-  for (const YAML::Node& item : list(key, "mappings"))
-    maps.emplace_back(item, file_, fmt::format("{}[{}]", name_of(key), maps.size()));
+  for (const YamlNode* item : list(key, "mappings"))
+    maps.push_back(YamlMap(tree_, *item, file_, fmt::format("{}[{}]", name_of(key), maps.size())));
   return maps;
 }
 
@@ -150,7 +150,7 @@ std::string YamlMap::word_of(const std::string& key, std::initializer_list<const
 
 std::vector<std::string> YamlMap::words(const std::string& key) const {
   std::vector<std::string> words;
-  for (const YAML::Node& item : list(key, "words")) words.push_back(read_word(item, name_of(key)));
+  for (const YamlNode* item : list(key, "words")) words.push_back(read_word(*item, name_of(key)));
   return words;
 }
 
@@ -175,65 +175,66 @@ std::vector<double> YamlMap::numbers(const std::string& key) const {
 
 std::vector<int> YamlMap::integers(const std::string& key, int low, int high) const {
   std::vector<int> integers;
-  for (const YAML::Node& item : list(key, "whole numbers"))
-    integers.push_back(read_integer(item, name_of(key), low, high));
+  for (const YamlNode* item : list(key, "whole numbers"))
+    integers.push_back(read_integer(*item, name_of(key), low, high));
   return integers;
 }
 
 std::vector<std::vector<double>> YamlMap::table(const std::string& key) const {
   std::vector<std::vector<double>> rows;
-  for (const YAML::Node& row : list(key, "lists of numbers")) {
+  for (const YamlNode* row : list(key, "lists of numbers")) {
     const std::string name = fmt::format("{}[{}]", name_of(key), rows.size());
-    if (!row.IsSequence())
-      fail_at(row, fmt::format("{} is {}, expected a list of numbers", name, described(row)));
-    rows.push_back(read_numbers(row, name));
+    if (row->kind != Kind::list)
+      fail_at(*row, fmt::format("{} is {}, expected a list of numbers", name, described(*row)));
+    rows.push_back(read_numbers(row->children, name));
   }
   return rows;
 }
 
 void YamlMap::fail(const std::string& key, const std::string& message) const {
-  fail_in(file_, line_of(key), message);
+  fail_at_line(file_, line_of(key), message);
 }
 
-YAML::Node YamlMap::value(const std::string& key) const {
-  const YAML::Node found = node_[key];
-  if (!found.IsDefined()) fail_at(node_, fmt::format("{} is missing", name_of(key)));
+const YamlNode& YamlMap::value(const std::string& key) const {
+  const YamlNode* const found = find(key);
+  if (found == nullptr) fail_at(*node_, fmt::format("{} is missing", name_of(key)));
   // An empty node stands where the parser noticed, often a line late: complain here, at the key.
-  if (found.IsNull()) fail(key, fmt::format("{} is empty, expected a value", name_of(key)));
-  return found;
+  if (found->kind == Kind::empty) fail(key, fmt::format("{} is empty, expected a value", name_of(key)));
+  return *found;
 }
 
-YAML::Node YamlMap::list(const std::string& key, const std::string& of) const {
-  const YAML::Node found = value(key);
-  if (!found.IsSequence())
+const std::vector<const YamlNode*>& YamlMap::list(const std::string& key, const std::string& of) const {
+  const YamlNode& found = value(key);
+  if (found.kind != Kind::list)
     fail(key, fmt::format("{} is {}, expected a list of {}", name_of(key), described(found), of));
-  return found;
+  return found.children;
 }
 
-double YamlMap::read_number(const YAML::Node& node, const std::string& name, Range range) const {
+double YamlMap::read_number(const YamlNode& node, const std::string& name, Range range) const {
   double x = 0.0;
-  if (!node.IsScalar() || !parse_number(node.Scalar(), x) || !contains(range, x))
+  if (node.kind != Kind::scalar || !parse_number(node.scalar, x) || !contains(range, x))
     fail_at(node, fmt::format("{} is {}, expected {}", name, described(node), described(range)));
   return x;
 }
 
-int YamlMap::read_integer(const YAML::Node& node, const std::string& name, int low, int high) const {
+int YamlMap::read_integer(const YamlNode& node, const std::string& name, int low, int high) const {
   int i = 0;
-  if (!node.IsScalar() || !parse_number(node.Scalar(), i) || i < low || i > high)
+  if (node.kind != Kind::scalar || !parse_number(node.scalar, i) || i < low || i > high)
     fail_at(node,
             fmt::format("{} is {}, expected a whole number from {} to {}", name, described(node), low, high));
   return i;
 }
 
-std::string YamlMap::read_word(const YAML::Node& node, const std::string& name) const {
-  if (!node.IsScalar() || node.Scalar().empty())
+std::string YamlMap::read_word(const YamlNode& node, const std::string& name) const {
+  if (node.kind != Kind::scalar || node.scalar.empty())
     fail_at(node, fmt::format("{} is {}, expected a word", name, described(node)));
-  return node.Scalar();
+  return node.scalar;
 }
 
-std::vector<double> YamlMap::read_numbers(const YAML::Node& list, const std::string& name) const {
+std::vector<double> YamlMap::read_numbers(const std::vector<const YamlNode*>& list,
+                                          const std::string& name) const {
   std::vector<double> numbers;
-  for (const YAML::Node& item : list) numbers.push_back(read_number(item, name, {}));
+  for (const YamlNode* item : list) numbers.push_back(read_number(*item, name, {}));
   return numbers;
 }
 
@@ -241,8 +242,8 @@ std::string YamlMap::name_of(const std::string& key) const {
   return where_.empty() ? key : where_ + "." + key;
 }
 
-void YamlMap::fail_at(const YAML::Node& node, const std::string& message) const {
-  fail_in(file_, line_of_mark(node.Mark()), message);
+void YamlMap::fail_at(const YamlNode& node, const std::string& message) const {
+  fail_at_line(file_, node.line, message);
 }
 
 }  // namespace nurbs

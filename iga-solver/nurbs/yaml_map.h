@@ -3,15 +3,15 @@
 // out.
 #pragma once
 
-#include <yaml-cpp/yaml.h>
-
 #include <initializer_list>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "nurbs/input_error.h"
 #include "nurbs/types.h"
+#include "nurbs/yaml_tree.h"
 
 namespace nurbs {
 
@@ -27,11 +27,8 @@ inline Range non_negative() { return {0.0, std::numeric_limits<double>::infinity
 class YamlMap {
  public:
   /// Parses a text that holds one document; InputError with file and line on a syntax error or if the top
-  /// level is no mapping.
+  /// level is no mapping, and if it is another program's file (file_kind.h).
   static YamlMap parse(const std::string& text, const std::string& file);
-  /// `where` is the dotted path used in messages ("geometry.box"), "" at the top; InputError if node is no
-  /// mapping.
-  YamlMap(YAML::Node node, std::string file, std::string where);
 
   /// InputError at the first key not listed, with the nearest listed key ("did you mean 'density'?"); also if
   /// a key is given twice.
@@ -62,16 +59,21 @@ class YamlMap {
   const std::string& file() const { return file_; }
 
  private:
-  YAML::Node value(const std::string& key) const;
-  YAML::Node list(const std::string& key, const std::string& of) const;
-  double read_number(const YAML::Node& node, const std::string& name, Range range) const;
-  int read_integer(const YAML::Node& node, const std::string& name, int low, int high) const;
-  std::string read_word(const YAML::Node& node, const std::string& name) const;
-  std::vector<double> read_numbers(const YAML::Node& list, const std::string& name) const;
+  /// `where` is the dotted path used in messages ("geometry.box"), "" at the top; InputError if `node`, which
+  /// is one of `tree`, is no mapping.
+  YamlMap(std::shared_ptr<const YamlTree> tree, const YamlNode& node, std::string file, std::string where);
+  const YamlNode* find(const std::string& key) const;  // or null
+  const YamlNode& value(const std::string& key) const;
+  const std::vector<const YamlNode*>& list(const std::string& key, const std::string& of) const;
+  double read_number(const YamlNode& node, const std::string& name, Range range) const;
+  int read_integer(const YamlNode& node, const std::string& name, int low, int high) const;
+  std::string read_word(const YamlNode& node, const std::string& name) const;
+  std::vector<double> read_numbers(const std::vector<const YamlNode*>& list, const std::string& name) const;
   std::string name_of(const std::string& key) const;
-  [[noreturn]] void fail_at(const YAML::Node& node, const std::string& message) const;
+  [[noreturn]] void fail_at(const YamlNode& node, const std::string& message) const;
 
-  YAML::Node node_;
+  std::shared_ptr<const YamlTree> tree_;
+  const YamlNode* node_;
   std::string file_, where_;
 };
 

@@ -31,6 +31,7 @@ surfaces: {wall: all}
 THREAD = re.sub(r"\[\d, \d, 0\]", "[0, 0, 1]", FLAT)  # all control points in one place, on the z axis
 # Loads that no solid bears.
 SOFT = BLOCK.replace("linear_elastic", "saint_venant_kirchhoff") + "loads: {tractions: [{face: zeta+, value: [0, 0, 1e15]}]}\n"
+STEP = "ISO-10303-21;\nHEADER;\n"
 MODELS = "model hertz tangential no_history"
 GOOD = f"{MODELS} type 2 structure block.yaml surface top"
 RIGID = f"{MODELS} type 2 geometry flat.yaml surface floor"
@@ -66,6 +67,13 @@ def in_xml(old: str, new: str) -> dict[str, str]:
 MODEL_FILES = {
     "missing model file": (GOOD.replace("block", "nowhere"), {}, ["nowhere.yaml", "No such file"]),
     "folder as model file": (f"{MODELS} type 2 structure . surface top", {}, ["'.'", "directory"]),
+    "device as model file": (f"{MODELS} type 2 structure /dev/zero surface top", {}, ["'/dev/zero'", "Is a device"]),
+    "device as geometry file": (f"{MODELS} type 2 geometry /dev/zero surface top", {}, ["'/dev/zero'", "Is a device"]),
+    "STEP file as model file": (GOOD, {"block.yaml": STEP}, ["block.yaml: is a STEP file, expected"]),
+    "STEP file as geometry file": (RIGID, {"flat.yaml": STEP}, ["flat.yaml: is a STEP file, expected"]),
+    "STL file as geometry file": (RIGID, {"flat.yaml": "solid a\nfacet normal 0 0 1\n"}, ["is an STL file", "fix mesh/surface"]),
+    "comma as model file": (GOOD, {"block.yaml": ","}, ["block.yaml:1: broken YAML"]),
+    "comma behind a geometry file": (RIGID, {"flat.yaml": "{units: si},"}, ["flat.yaml:1: broken YAML"]),
     "empty model file": (GOOD, {"block.yaml": ""}, ["block.yaml:1"]),
     "broken YAML": (GOOD, in_block("{top: zeta+}", "{top: zeta+"), [r"block.yaml:\d+"]),
     "no mapping": (GOOD, {"block.yaml": "- 1\n- 2\n"}, ["block.yaml:1"]),

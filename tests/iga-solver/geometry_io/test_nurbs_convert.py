@@ -5,6 +5,8 @@ side.  Every number survives to the last bit; what is printed is known from geom
 import math
 import os
 import re
+import resource
+import struct
 import subprocess
 import tempfile
 import unittest
@@ -17,6 +19,13 @@ import yaml
 
 PROGRAM = os.environ["NURBS_CONVERT"]
 FACES = ["xi-", "xi+", "eta-", "eta+", "zeta-", "zeta+"]
+SANITIZED = b"__asan_init" in Path(PROGRAM).read_bytes()  # whose shadow memory needs terabytes of addresses
+
+
+def limit_memory() -> None:
+    """A reader that fills the memory shall fail, and not take the machine with it."""
+    if not SANITIZED:
+        resource.setrlimit(resource.RLIMIT_AS, (2 << 30, 2 << 30))
 
 
 class Patch:
@@ -92,7 +101,9 @@ class NurbsConvert(unittest.TestCase):
         return done.stdout
 
     def refused(self, *words: str) -> str:
-        done = subprocess.run([PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, check=False)
+        done = subprocess.run(
+            [PROGRAM, *words], cwd=self.folder, capture_output=True, text=True, check=False, timeout=60,
+            stdin=subprocess.PIPE, preexec_fn=limit_memory)
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertRegex(done.stderr, r"\AERROR: [^\n]+\n\Z")
         return done.stderr
@@ -253,6 +264,47 @@ class NurbsConvert(unittest.TestCase):
         self.write("wall.yaml", "units: cgs\ngeometry: {file: parts/in.xml}\nsurfaces: {shell: [0, 2]}\n")
         self.convert("wall.yaml", "out.h5")
         self.check_hdf5("out.h5", SURFACES, {"all": [b"all"], "shell": [b"0", b"2"]})
+
+    def test_files_of_other_programs_are_refused(self):
+        triangle = struct.pack("<12fH", *range(12), 0)
+        foreign = {
+            "STEP": b"ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION(('plate'),'2;1');\nENDSEC;\nDATA;\n#1=POINT('',(0.,0.));\n",
+            "IGES": b"plate".ljust(72) + b"S      1\n" + b"1H,,1H;".ljust(72) + b"G      1\n",
+            "STL": b"solid plate\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n",
+            "an STL": b"binary".ljust(80) + struct.pack("<I", 2) + 2 * triangle,
+            "binary": bytes(range(256)),
+        }
+        for kind, content in foreign.items():
+            for name in ("wall.yaml", "wall.h5", "wall.xml", "wall." + kind.split()[-1].lower()):
+                (self.folder / name).write_bytes(content)
+                self.write("model.yaml", f"units: si\ngeometry: {{file: {name}}}\n")
+                for path in (name, "model.yaml"):
+                    with self.subTest(kind, name=name, path=path):
+                        expected = "no HDF5" if (kind, name) == ("binary", "wall.h5") else f"an? .*{kind.split()[-1]}"
+                        self.assertRegex(self.refused(path), f"{name}: is {expected} file, expected")
+        write_hdf5(self.folder / "good.h5", SURFACES, {})
+        (self.folder / "wall.yaml").write_bytes((self.folder / "good.h5").read_bytes())
+        self.assertRegex(self.refused("wall.yaml"), "wall.yaml: is an HDF5 file, expected text: .* called .h5")
+
+    def test_texts_that_yaml_cpp_does_not_end_on(self):
+        for text in (",", ", units: si", "{units: si},", "units: si\n...\n,\n", "[" * 100000, "- " * 100000):
+            with self.subTest(text[:30]):
+                self.assertRegex(self.refused(self.write("wall.yaml", text)), r"wall.yaml:\d: (broken YAML|lists or)")
+
+    def test_pipes_and_devices_are_no_files(self):
+        os.mkfifo(self.folder / "pipe")
+        os.mkfifo(self.folder / "pipe.h5")
+        self.write("model.yaml", "units: si\ngeometry: {file: pipe.h5}\n")
+        self.write("box.yaml", "units: si\ngeometry:\n  box: {origin: [0, 0, 0], size: [1, 2, 3], degree: 1, elements: [1, 1, 1]}\n")
+        for words, what in {
+            ("pipe",): "pipe: cannot read this file: Is a named pipe",
+            ("model.yaml",): "pipe.h5: cannot read this file: Is a named pipe",
+            ("/dev/zero",): "Is a device",
+            ("/dev/stdin",): "Is a named pipe",
+            ("box.yaml", "pipe.h5"): "pipe.h5: cannot write here: Is a named pipe",
+        }.items():
+            with self.subTest(words=words):
+                self.assertRegex(self.refused(*words), what)
 
     def test_wrong_input_ends_in_one_line(self):
         write_hdf5(self.folder / "good.h5", SURFACES, {})

@@ -54,7 +54,7 @@ expect_error() {
   words=$1
   shift
   code=0
-  "$program" "$@" > out 2> err || code=$?
+  timeout 60 "$program" "$@" > out 2> err || code=$?
   test "$code" -eq 1 || fail "exit code $code of: $*"
   test "$(wc -l < err)" -eq 1 || fail "lines of: $*"
   grep -q '^ERROR: ' err || fail "start of: $*"
@@ -71,3 +71,11 @@ sed 's/density: 2/density: -2/' fall.yaml > negative.yaml
 expect_error 'negative.yaml:4:.*density.*-2.*> 0' negative.yaml
 sed 's/file: fall/file: none\/fall/' fall.yaml > nowhere.yaml
 expect_error 'none/fall.h5' nowhere.yaml
+mkfifo pipe.yaml pipe.h5
+expect_error 'pipe.yaml: cannot read.*named pipe' pipe.yaml
+sed 's/file: fall/file: pipe/' fall.yaml > to_pipe.yaml
+expect_error 'pipe.h5: cannot write here.*named pipe' to_pipe.yaml
+printf 'ISO-10303-21;\nHEADER;\n' > plate.step
+expect_error 'plate.step: is a STEP file, expected' plate.step
+printf '%s' '{"units": "si"},' > comma.json
+expect_error 'comma.json:1: broken YAML' comma.json

@@ -35,6 +35,23 @@ TEST(YamlMap, ReadsEveryKind) {
   EXPECT_EQ(map.list_of_maps("list")[1].line(), 12);
 }
 
+// Ten aliases of ten aliases of ... ten words.
+std::string billion_laughs() {
+  std::string text = "l0: &l0 [a, a, a, a, a, a, a, a, a, a]\n";
+  for (char level = '1'; level <= '9'; ++level) {
+    text += std::string("l") + level + ": &l" + level + " [";
+    for (int i = 0; i < 10; ++i) text += std::string("*l") + static_cast<char>(level - 1) + ", ";
+    text += "]\n";
+  }
+  return text;
+}
+
+TEST(YamlMap, AnAliasIsWhatItsAnchorNames) {
+  const YamlMap map = parsed("a: &mesh {degree: 2}\nb: *mesh\nc: [&x 1.5, 2, *x]\n");
+  EXPECT_EQ(map.map("b").integer("degree", 0, 9), 2);
+  EXPECT_THAT(map.numbers("c"), ElementsAre(1.5, 2, 1.5));
+}
+
 struct BadInput {
   std::string text;
   std::function<void(const YamlMap&)> read;
@@ -51,6 +68,14 @@ TEST(YamlMap, SaysWhatWasGivenAndWhatWasExpected) {
       {"just words", nothing, "f.yaml:1: file is just words, expected a mapping (key: value)"},
       {"- 1\n- 2\n", nothing, "f.yaml:1: file is a list of 2, expected a mapping (key: value)"},
       {"a: 1\n---\nb: 2\n", nothing, "f.yaml:3: 2 documents given, expected one"},
+      {",", nothing, "f.yaml:1: broken YAML: ',' where a key or the end is expected"},
+      {"{a: 1},\n", nothing, "f.yaml:1: broken YAML: ',' where a key or the end is expected"},
+      {"a: 1\n...\n, b\n", nothing, "f.yaml:3: broken YAML: ',' where a key or the end is expected"},
+      {std::string(1000000, '['), nothing,
+       "f.yaml:1: lists or mappings nested too deeply, expected 500 levels at most"},
+      {"a: &a [1, *a]\n", nothing, "f.yaml:1: broken YAML: an alias stands inside of what it is an alias of"},
+      {"a: *b\n", nothing, "f.yaml:1: broken YAML: the referenced anchor is not defined"},
+      {billion_laughs(), nothing, "f.yaml:6: aliases stand for more than 1000000 values, expected fewer"},
       {"a: [1, 2\nb: 3\n", nothing, "f.yaml:2: broken YAML: end of sequence flow not found"},
       {"E: 1\n\ndensty: 2\n", only,
        "f.yaml:3: unknown key 'densty', did you mean 'density'? expected one of: density, E, n"},

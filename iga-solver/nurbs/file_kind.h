@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a file is, by its first bytes and by its name: files of other programs are refused before a parser
+// makes nonsense of them.
+#pragma once
+
+#include <string>
+
+namespace nurbs {
+
+enum class FileKind { text, hdf5, xml, step, iges, stl, binary };
+
+/// By the first bytes, else, for the foreign ones, by the extension; `text` is what shows no other sign.
+FileKind kind_of_file(const std::string& path, const std::string& bytes);
+
+/// Throws InputError "x.step: is a STEP file, expected ..., ..." with the way out, unless `bytes` may be what
+/// a reader of `expected` (text: YAML) can read.
+void expect_kind(FileKind expected, const std::string& path, const std::string& bytes);
+
+}  // namespace nurbs

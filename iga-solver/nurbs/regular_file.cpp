@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "nurbs/regular_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace nurbs {
+namespace {
+
+using std::filesystem::file_type;
+
+// What stands at a path that is no regular file.
+std::string described(file_type type) {
+  switch (type) {
+    case file_type::directory:
+      return std::strerror(EISDIR);
+    case file_type::fifo:
+      return "Is a named pipe, expected a file";
+    case file_type::character:
+    case file_type::block:
+      return "Is a device, expected a file";
+    case file_type::socket:
+      return "Is a socket, expected a file";
+    default:
+      return "Is no regular file, expected one";
+  }
+}
+
+}  // namespace
+
+FileContent read_regular_file(const std::string& path) {
+  std::error_code error;
+  const file_type type = std::filesystem::status(path, error).type();
+  if (type == file_type::not_found || type == file_type::none)
+    return {{}, std::strerror(type == file_type::not_found ? ENOENT : error.value())};
+  if (type != file_type::regular) return {{}, described(type)};
+
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  const auto size = file ? std::filesystem::file_size(path, error) : 0;
+  if (!file || error) return {{}, std::strerror(errno != 0 ? errno : EIO)};
+  if (size > std::numeric_limits<int>::max()) return {{}, std::strerror(EFBIG)};
+  FileContent content{std::string(size, '\0'), {}};
+  file.read(content.bytes.data(), static_cast<std::streamsize>(size));
+  if (file.bad()) return {{}, std::strerror(errno != 0 ? errno : EIO)};
+  content.bytes.resize(file.gcount());
+  return content;
+}
+
+std::string problem_as_output(const std::string& path) {
+  std::error_code error;
+  const file_type type = std::filesystem::status(path, error).type();
+  const bool fine = type == file_type::regular || type == file_type::not_found || type == file_type::none;
+  return fine ? std::string() : described(type);
+}
+
+}  // namespace nurbs
