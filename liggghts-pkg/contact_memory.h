@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Memory of a particle's contacts with the wall: one slot per contact, each a row of its own `fix
 // property/atom`, which carries it through sorting, migration between ranks and restart:
-//   [patch, xi, eta, history of LIGGGHTS' contact models ...]
+//   [patch + side, xi, eta, history of LIGGGHTS' contact models ...]
 // A slot belongs to a branch, that is to one local minimum of the distance for as long as it moves without a
 // jump; the foot is where the branch was last.  Patch < 0 marks an empty slot, so a fresh row must hold -1
-// there.
+// there.  The side of the surface that the particle's centre is on is the fraction behind the patch's number:
+// 1/4 where dS/dxi x dS/deta points, 1/2 on the other side, 0 if nobody has looked yet.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "nurbs/multi_patch.h"
@@ -23,8 +25,14 @@ class ContactSlot {
 
   bool empty() const { return values_[0] < 0.0; }
   nurbs::SurfacePoint foot() const { return {static_cast<int>(values_[0]), {values_[1], values_[2]}}; }
-  void set_foot(const nurbs::SurfacePoint& foot) {
-    values_[0] = foot.patch;
+  /// +1 or -1: of the normal of that patch; 0: not known.
+  int side() const {
+    const double fraction = values_[0] - std::floor(values_[0]);
+    return fraction == 0.0 ? 0 : fraction < 0.4 ? 1 : -1;
+  }
+  void set_foot(const nurbs::SurfacePoint& foot, int side) {
+    constexpr double kFraction[] = {0.5, 0.0, 0.25};
+    values_[0] = foot.patch + kFraction[1 + side];
     values_[1] = foot.xi[0];
     values_[2] = foot.xi[1];
   }

@@ -2,6 +2,7 @@
 #include "contact_tracker.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace liggghts_pkg {
 
@@ -56,9 +57,10 @@ FeetRange ContactTracker::find_feet(const Query& query, const ContactMemory& mem
       feet.first = feet_.data() + state.first;
     }
   }
-  const double quiet = nearest_distance(feet, query) - query.touch_reach;
-  keep_quiet(query, state.touched && !state.regular ? 0.0 : quiet, state);
-  state.touched = quiet < 0.0;
+  // A search within touch_reach does not tell how far the surface is.
+  const double clearance = nearest_distance(feet, query);
+  keep_clearance(query, state.touched && !state.regular ? 0.0 : clearance, state);
+  state.touched = clearance < query.touch_reach;
   return feet;
 }
 
@@ -81,9 +83,29 @@ void ContactTracker::find_all(const Candidate& candidate, const Query& query, do
     search_.add_minima(query.centre, candidates_.images()[images[k].image], reach,
                        kSameFoot * query.touch_reach, candidates_.elements(images[k]), images[k].count,
                        found_);
+  keep_one_of_each_valley(query);
   out.clear();
   for (const SurfaceFoot& foot : found_) out.push_back({foot, -1});
   match_slots(candidate, query, memory, out.data(), static_cast<int>(out.size()));
+}
+
+// On a centre of curvature (the axis of a tube) feet are not isolated and the search finds some of a row of
+// them, all equally far: they are one contact.
+void ContactTracker::keep_one_of_each_valley(const Query& query) {
+  constexpr double kEqual = 1e-9;
+  if (found_.size() < 2) return;
+  const auto in_valley = [&](const SurfaceFoot& foot) {
+    return regularity_.in_valley(query.centre - foot.image, foot.at(), foot.distance);
+  };
+  const auto repeats = [&](const SurfaceFoot& foot, const SurfaceFoot& kept) {
+    return std::abs(foot.distance - kept.distance) <= kEqual * foot.distance && in_valley(kept) &&
+           in_valley(foot);
+  };
+  auto end = found_.begin() + 1;
+  for (auto foot = end; foot != found_.end(); ++foot)
+    if (std::none_of(found_.begin(), end, [&](const SurfaceFoot& kept) { return repeats(*foot, kept); }))
+      *end++ = *foot;
+  found_.erase(end, found_.end());
 }
 
 // A slot goes with its branch: to the foot that is reached from where the branch was last.

@@ -47,10 +47,11 @@ class ContactTracker {
     double touch_reach;     ///< feet nearer than this may touch
     double list_reach;      ///< feet nearer than this may do so before the next rebuild
   };
-  /// Whether nothing can touch a candidate: too little has moved since its feet were found last.
-  bool is_quiet(int candidate, const nurbs::Vector3& centre) const {
+  /// Whether nothing within `touch_reach` can touch a candidate: too little has moved or grown since its feet
+  /// were found last.
+  bool is_quiet(int candidate, const nurbs::Vector3& centre, double touch_reach) const {
     const State& state = states_[candidate];
-    const double allowance = state.quiet - (surface_motion_ + state.surface_motion);
+    const double allowance = state.clearance - touch_reach - (surface_motion_ + state.surface_motion);
     return allowance > 0.0 && (centre - state.centre).squaredNorm() < allowance * allowance;
   }
   /// Takes the branches of these candidates to where they are now, as far as they are followed.
@@ -61,7 +62,7 @@ class ContactTracker {
     State& state = states_[query.candidate];
     if (!state.regular) return find_feet(query, memory);
     const FeetRange feet{feet_.data() + state.first, state.count};
-    keep_quiet(query, nearest_distance(feet, query) - query.touch_reach, state);
+    keep_clearance(query, nearest_distance(feet, query), state);
     return feet;
   }
 
@@ -70,8 +71,7 @@ class ContactTracker {
     int first = 0, count = 0;  // range in feet_
     bool is_new = true, regular = false, touched = false;
     nurbs::Vector3 centre = nurbs::Vector3::Zero();  // at the last search
-    double quiet =
-        0.0;  // nothing touches before centre and surface have moved this far relative to each other
+    double clearance = 0.0;                          // no point of the surface was nearer then
     double surface_motion = 0.0;
   };
   static double nearest_distance(const FeetRange& feet, const Query& query) {
@@ -79,9 +79,9 @@ class ContactTracker {
     for (const TrackedFoot& f : feet) nearest = std::min(nearest, f.foot.distance);
     return nearest;
   }
-  void keep_quiet(const Query& query, double quiet, State& state) const {
-    state.quiet = quiet;
-    if (quiet <= 0.0) return;
+  void keep_clearance(const Query& query, double clearance, State& state) const {
+    state.clearance = clearance;
+    if (clearance <= query.touch_reach) return;
     state.centre = query.centre;
     state.surface_motion = surface_motion_;
   }
@@ -89,6 +89,7 @@ class ContactTracker {
   bool is_regular(const Candidate& candidate, const Query& query) const;
   void find_all(const Candidate& candidate, const Query& query, double reach, const ContactMemory& memory,
                 std::vector<TrackedFoot>& out);
+  void keep_one_of_each_valley(const Query& query);
   void match_slots(const Candidate& candidate, const Query& query, const ContactMemory& memory,
                    TrackedFoot* feet, int count);
   nurbs::Vector3 nearest_image(const Candidate& candidate, const nurbs::SurfacePoint& at,

@@ -37,8 +37,7 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
       tracker_(search_, regularity_, candidates_),
       outward_sign_(structure_.surface().outward_sign),
       no_forces_(coupling::NodalVectors::Zero(3, structure_.surface().map.node_count())),
-      totals_(),
-      all_totals_() {
+      totals_() {
   delete primitiveWall_;
   primitiveWall_ = nullptr;
   if (store_force_contact_stress_)
@@ -101,23 +100,48 @@ void FixWallNurbs::post_create() {
     std::vector<char*> arg;
     for (std::string& word : words) arg.push_back(word.data());
     modify->add_fix(static_cast<int>(arg.size()), arg.data());
-    return static_cast<FixPropertyAtom*>(modify->find_fix_property(
-        name.c_str(), "property/atom", "vector", static_cast<int>(initial.size()), 0, style));
   };
 
   // One fix for each slot: LIGGGHTS warns of rows longer than 20.
   std::vector<std::string> empty_slot(liggghts_pkg::ContactSlot::kFootValues + dnum_, "0.");
   empty_slot[0] = fmt::format("{}", liggghts_pkg::ContactSlot::kEmpty);
-  for (int s = 0; s < options_.slots; ++s)
-    fix_slots_.push_back(add_property(fmt::format("contact{}_{}", s + 1, id), "yes", empty_slot));
-  slots_.resize(fix_slots_.size());
+  for (int s = 0; s < options_.slots; ++s) {
+    slot_ids_.push_back(fmt::format("contact{}_{}", s + 1, id));
+    add_property(slot_ids_.back(), "yes", empty_slot);
+  }
+  if (store_force_) add_property(wall_force_id(), "no", {"0.", "0.", "0."});
+  find_properties();
   note_restart_data();
-  if (store_force_) fix_wallforce_ = add_property(fmt::format("force_{}", id), "no", {"0.", "0.", "0."});
+}
+
+std::string FixWallNurbs::wall_force_id() const { return fmt::format("force_{}", id); }
+
+// LIGGGHTS lets a user unfix what another fix holds, so nothing is held from one run to the next.
+void FixWallNurbs::find_properties() {
+  const auto find = [this](const std::string& name) {
+    const int place = modify->find_fix(name.c_str());
+    auto* const property = place < 0 ? nullptr : dynamic_cast<FixPropertyAtom*>(modify->fix[place]);
+    if (!property)
+      fail(
+          fmt::format("its fix '{0}', where particles keep what belongs to this wall, is gone; do not unfix "
+                      "'{0}', or 'unfix {1}' and define the wall anew",
+                      name, id));
+    return property;
+  };
+  fix_slots_.clear();
+  for (const std::string& slot : slot_ids_) fix_slots_.push_back(find(slot));
+  slots_.resize(fix_slots_.size());
+  if (store_force_) fix_wallforce_ = find(wall_force_id());
 }
 
 void FixWallNurbs::pre_delete(bool unfixflag) {
-  for (const FixPropertyAtom* slot : fix_slots_)
-    if (unfixflag) modify->delete_fix(slot->id);
+  if (unfixflag) {
+    std::vector<std::string> names = slot_ids_;
+    if (store_force_) names.push_back(wall_force_id());
+    for (const std::string& name : names)
+      if (modify->find_fix(name.c_str()) >= 0) modify->delete_fix(name.c_str());
+  }
+  store_force_ = false;  // what the base class would delete is gone
   FixWallGran::pre_delete(unfixflag);
 }
 
@@ -127,6 +151,7 @@ void FixWallNurbs::init() {
   warn_of_state_not_taken();
   try {
     liggghts_pkg::check_run_style(*update);
+    find_properties();
     FixWallGran::init();
     if (!options_.material_independent)
       liggghts_pkg::check_wall_material(*modify, atom_type_wall_, structure_.material(), options_.file);
@@ -147,6 +172,7 @@ void FixWallNurbs::weld_across_periodic_faces() {
   constexpr double kTolerance = 1e-9;
   surface_.set_borders(
       nurbs::find_borders(nurbs::split(surface_, exchange_.positions()), kTolerance, in_frame));
+  regularity_.set_control_points(exchange_.positions());  // it depends on the borders
 }
 
 void FixWallNurbs::reset_dt() {
@@ -197,8 +223,10 @@ void FixWallNurbs::pre_neighbor() { rebuild_candidates_ = true; }
 
 void FixWallNurbs::pre_force(int) {
   cutneighmax_ = neighbor->cutneighmax;
-  if (rebuild_candidates_) build_candidates();
+  if (!rebuild_candidates_) return;
   rebuild_candidates_ = false;
+  build_candidates();
+  count_near_particles();
 }
 
 void FixWallNurbs::post_force(int vflag) {
@@ -228,18 +256,21 @@ void FixWallNurbs::fail_in_step(const std::string& problem) const {
 }
 
 /* ----------------------------------------------------------------------
-   global search: since LIGGGHTS built its lists a particle may be half a skin to either side, and the wall
-   may move half a skin more; what is faster than that must not slip through unseen
+   global search: since LIGGGHTS built its lists a particle may be half a skin to either side, the wall may
+   move half a skin more, and the particle grow by half a skin; what is faster than that must not slip through
+   unseen
 ------------------------------------------------------------------------- */
 
 void FixWallNurbs::build_candidates() {
   find_slots();
   list_reach_.resize(atom->nlocal);
+  radius_limit_.resize(atom->nlocal);
   double largest = 0.0;
   const double touch_factor = neighbor->contactDistanceFactor;
   for (int i = 0; i < atom->nlocal; ++i) {
     const double travel = Vector3::Map(atom->v[i]).norm() * dt_;
     list_reach_[i] = atom->radius[i] * touch_factor + 1.5 * neighbor->skin + travel;
+    radius_limit_[i] = atom->radius[i] + 0.5 * neighbor->skin / touch_factor;
     largest = std::max(largest, list_reach_[i]);
   }
   if (structure_.deforms() || !candidates_.has_surface()) {
@@ -250,13 +281,26 @@ void FixWallNurbs::build_candidates() {
       liggghts_pkg::wall_images(*domain, candidates_.wall_bounds(), frame_, largest);
   check_images(images);
   candidates_.build(frame_, images, {atom->nlocal, atom->x, list_reach_.data()});
+  constexpr double kResolution = 1e-10;  // of the wall's coordinates, which feet know to about 1e-16
+  const nurbs::Box& bounds = candidates_.wall_bounds();
+  resolution_ = kResolution * bounds.low.cwiseAbs().cwiseMax(bounds.high.cwiseAbs()).maxCoeff();
   tracker_.list_is_new();
   surface_motion_ = 0.0;
   forget_lost_contacts();
-  if (options_.drive.servo) {
-    const long near = static_cast<long>(candidates_.candidates().size());
-    MPI_Allreduce(&near, &near_particles_, 1, MPI_LONG, MPI_SUM, world);
-  }
+}
+
+// Collective, so not in build_candidates, which a single rank may need.
+void FixWallNurbs::count_near_particles() {
+  if (!options_.drive.servo) return;
+  const long near = static_cast<long>(candidates_.candidates().size());
+  MPI_Allreduce(&near, &near_particles_, 1, MPI_LONG, MPI_SUM, world);
+}
+
+// The list leaves half a skin for growth.  Other fixes may change radii as late as in pre_force.
+bool FixWallNurbs::has_outgrown_list() const {
+  bool outgrown = false;  // no way out of the loop, so that it is vectorised
+  for (int i = 0; i < atom->nlocal; ++i) outgrown |= atom->radius[i] > radius_limit_[i];
+  return outgrown;
 }
 
 // Feet keep their image while the wall turns.
@@ -285,10 +329,10 @@ void FixWallNurbs::find_slots() {
 /* ---------------------------------------------------------------------- */
 
 void FixWallNurbs::post_force_primitive(int) {
+  if (has_outgrown_list()) build_candidates();
   find_slots();
   contacts_.clear();
   local_rows_.clear();
-  totals_ = Totals();
   now_.deforms = structure_.deforms();
   now_.slides = structure_.slides();
   now_.stands =
@@ -314,9 +358,10 @@ void FixWallNurbs::post_force_primitive(int) {
       ContactTracker::Query& query = queries[n];
       query.centre = Vector3::Map(x[i]) - frame_.origin;
       if (now_.is_turned) query.centre = frame_.rotation.transpose() * query.centre;
-      if (tracker_.is_quiet(c, query.centre)) continue;
+      const double touch_reach = radius[i] * touch_factor;
+      if (tracker_.is_quiet(c, query.centre, touch_reach)) continue;
       query.candidate = c;
-      query.touch_reach = radius[i] * touch_factor;
+      query.touch_reach = touch_reach;
       query.list_reach = list_reach_[i];
       ++n;
     }

@@ -64,7 +64,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   void post_force_primitive(int vflag);
 
  private:
-  /// Sums over this rank's particles, then over all ranks.
+  /// Sums over the particles of all ranks.
   struct Totals {
     double force[3];   // on the wall
     double torque[3];  // on the wall, about the origin
@@ -75,13 +75,16 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   static const int kTotalColumns = 8;  // of them, the first in the vector; power is the last
   static const int kStructureColumns = 9;
 
-  /// One row of the local array.
+  /// A contact: one row of the local array, and what else the totals need.
   struct LocalRow {
     LocalRow() {}  // not set to zero first
     double tag, patch, xi[2];
     double point[3];  // foot
     double force[3];  // on the wall
     double overlap;
+    double torque[3];  // on the wall, about the origin; the first that dump local does not see
+    double power;
+    double slot;
   };
   static const int kLocalColumns = 11;
 
@@ -92,7 +95,11 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   void weld_across_periodic_faces();
   void import_surface();
   void build_candidates();
+  void count_near_particles();
+  bool has_outgrown_list() const;
   void forget_lost_contacts();
+  void find_properties();
+  std::string wall_force_id() const;
   void find_slots();
   liggghts_pkg::ContactMemory memory(int particle) { return {slots_, particle, dnum_}; }
   void check_images(const std::vector<nurbs::Vector3>& images) const;
@@ -105,7 +112,12 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
                      const nurbs::Vector3& v_wall);
   void call_contact_model(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta,
                           liggghts_pkg::ContactSlot slot, nurbs::Vector3 v_wall);
-  void take_slot(int particle, liggghts_pkg::TrackedFoot& tracked, const liggghts_pkg::ContactMemory& memory);
+  void take_slot(int particle, liggghts_pkg::TrackedFoot& tracked, const nurbs::Vector3& delta,
+                 const liggghts_pkg::ContactMemory& memory);
+  int side_of(const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
+  nurbs::Vector3 leave_surface(int particle, liggghts_pkg::TrackedFoot& tracked, const nurbs::Vector3& delta,
+                               const liggghts_pkg::ContactMemory& memory) const;
+  [[noreturn]] void fail_on_contact(int particle, const nurbs::SurfaceFoot& foot) const;
   double effective_radius(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
   bool inside_body(const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
   bool may_cross(int particle, const nurbs::SurfaceFoot& foot) const;
@@ -114,6 +126,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
 
   // fix_wall_nurbs_output.cpp
   const Totals& totals_of_all_ranks();
+  std::vector<LocalRow> rows_of_all_ranks() const;
   double structure_column(int column) const;
   void publish_local_rows();
 
@@ -148,20 +161,23 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
     bool stands, deforms, slides, is_turned, needs_forces;
   } now_{};                      // what the wall is and asks for in this step
   double surface_motion_ = 0.0;  // of a deforming wall since the list was built
+  double resolution_ = 0.0;      // a centre nearer than this is on the surface [length]
   bool surface_imported_ = false;
   bool rebuild_candidates_ = true;
 
-  std::vector<class FixPropertyAtom*> fix_slots_;  // the particles' contact memory
+  std::vector<std::string> slot_ids_;              // the particles' contact memory, each a fix property/atom
+  std::vector<class FixPropertyAtom*> fix_slots_;  // looked up before each run
   std::vector<double**> slots_;                    // their rows
   std::vector<bool> is_candidate_;
-  std::vector<double> list_reach_;  // per particle, when the list was built
+  std::vector<double> list_reach_;    // per particle, when the list was built
+  std::vector<double> radius_limit_;  // likewise: what the list is good for
 
   std::vector<coupling::ContactForce> contacts_;  // of this rank's particles, if needed
   std::vector<LocalRow> local_rows_;              // for dump local
   std::vector<double*> local_pointers_;
   const coupling::NodalVectors* nodal_forces_ = nullptr;
   coupling::NodalVectors no_forces_;
-  Totals totals_, all_totals_;
+  Totals totals_;
   bool totals_are_summed_ = false;
   liggghts_pkg::RunAlarm inside_, crossing_;
 

@@ -10,6 +10,7 @@
 #include "coupling/force_distribution.h"
 #include "fix_wall_nurbs.h"
 #include "nurbs/curvature.h"
+#include "nurbs/surface_normal.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -25,7 +26,7 @@ inline Vector3 FixWallNurbs::wall_velocity(const SurfaceFoot& foot, const Vector
   if (now_.stands) return Vector3::Zero();
   if (now_.deforms) return coupling::FootBasis(surface_, foot.at()).interpolate(exchange_.velocities());
   Vector3 v = frame_.velocity_at(point);
-  if (now_.slides) v += structure_.surface_velocity(point, delta / foot.distance);
+  if (now_.slides) v += structure_.surface_velocity(point, delta.normalized());
   return v;
 }
 
@@ -59,14 +60,61 @@ Vector3 moment(const Vector3& x, const volatile double* f) {
 
 }  // namespace
 
-inline void FixWallNurbs::take_slot(int i, TrackedFoot& tracked, const ContactMemory& slots) {
+inline void FixWallNurbs::take_slot(int i, TrackedFoot& tracked, const Vector3& delta,
+                                    const ContactMemory& slots) {
   if (tracked.slot < 0) tracked.slot = slots.empty_slot();
   if (tracked.slot < 0)
     fail_on_this_rank(
         fmt::format("particle {} touches the wall in more than {} places at step {}; use 'contacts N' "
                     "with a larger N",
                     atom->tag[i], slots.slot_count(), update->ntimestep));
-  slots.slot(tracked.slot).set_foot(tracked.foot.at());
+  // The side changes where the branch goes on to another patch, and where the centre passes the surface.
+  constexpr double kDeep = 0.5;  // of the radius
+  ContactSlot slot = slots.slot(tracked.slot);
+  int side = slot.empty() || slot.foot().patch != tracked.foot.patch ? 0 : slot.side();
+  if (side == 0 || tracked.foot.distance < kDeep * atom->radius[i]) side = side_of(tracked.foot, delta);
+  slot.set_foot(tracked.foot.at(), side);
+}
+
+int FixWallNurbs::side_of(const SurfaceFoot& foot, const Vector3& delta) const {
+  const Vector3 normal = foot.status == nurbs::ProjectionStatus::interior
+                             ? nurbs::shape_at(surface_, exchange_.positions(), foot.at()).normal
+                             : nurbs::normal_at(surface_, exchange_.positions(), foot.at());
+  return normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1 : 1;
+}
+
+// A centre on the surface has no direction of its own: it is moved off along the normal, by so little that
+// the overlap does not feel it, to the side where it is as far as round-off tells, else to the one that its
+// branch came from, else out of a solid, else against its velocity.
+Vector3 FixWallNurbs::leave_surface(int i, TrackedFoot& tracked, const Vector3& delta,
+                                    const ContactMemory& slots) const {
+  constexpr double kRoundOff = 1e-5;  // of the resolution
+  constexpr double kOff = 1e-9;       // of the radius
+  SurfaceFoot& foot = tracked.foot;
+  const Vector3 normal = frame_.rotation * nurbs::normal_at(surface_, exchange_.positions(), foot.at());
+  double side = normal.dot(delta);
+  if (std::abs(side) <= kRoundOff * resolution_) side = 0.0;
+  if (side == 0.0 && tracked.slot >= 0 && slots.slot(tracked.slot).foot().patch == foot.patch)
+    side = slots.slot(tracked.slot).side();
+  if (side == 0.0) side = outward_sign_[foot.patch];
+  if (side == 0.0) {
+    const Vector3 x(atom->x[i]);
+    side = normal.dot(wall_velocity(foot, x, normal) - Vector3::Map(atom->v[i]));
+  }
+  // What the models make of the overlap must be this distance to the last bit.
+  const double r = atom->radius[i];
+  foot.distance = r - (r - std::max(foot.distance, kOff * r));
+  return side < 0.0 ? Vector3(-foot.distance * normal) : Vector3(foot.distance * normal);
+}
+
+void FixWallNurbs::fail_on_contact(int i, const SurfaceFoot& foot) const {
+  const Vector3 x(atom->x[i]), F(atom->f[i]), v(atom->v[i]);
+  fail_on_this_rank(fmt::format(
+      "the contact of particle {} is not finite at step {}: centre ({:.6g}, {:.6g}, {:.6g}), {:.6g} from the "
+      "wall, radius {:.6g}, velocity ({:.6g}, {:.6g}, {:.6g}), force ({:.6g}, {:.6g}, {:.6g}); use a smaller "
+      "timestep, or look at the material and at what has changed the particle",
+      atom->tag[i], update->ntimestep, x[0], x[1], x[2], foot.distance, atom->radius[i], v[0], v[1], v[2],
+      F[0], F[1], F[2]));
 }
 
 inline void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& delta,
@@ -82,21 +130,12 @@ inline void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vecto
   call_contact_model(i, foot, delta, memory(i).slot(tracked.slot), v_wall);
   const Vector3 F = number_by_number(atom->f[i]), T = number_by_number(atom->torque[i]);
   const Vector3 wall_torque = -(T + moment(x, atom->f[i]));
+  if (!std::isfinite(F.sum() + T.sum())) fail_on_contact(i, foot);
   f = f_before + F;
   torque = torque_before + T;
 
   const double overlap = atom->radius[i] - foot.distance;
   if (overlap < 0.0 && F.isZero(0.0)) return;
-  Vector3::Map(totals_.force) -= F;
-  Vector3::Map(totals_.torque) += wall_torque;
-  totals_.contacts += 1.0;
-  totals_.overlap = std::max(totals_.overlap, overlap);
-  if (!now_.stands) {
-    // The wall feels -F at the foot and what is left of the torque.
-    const Vector3 wall_couple = wall_torque + point.cross(F);
-    totals_.power += F.dot(v_wall) - wall_couple.dot(frame_.angular_velocity);
-  }
-
   const nurbs::SurfacePoint at = foot.at();
   if (now_.needs_forces) {
     const Vector3 on_body = -(frame_.rotation.transpose() * F);
@@ -110,6 +149,10 @@ inline void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vecto
   Vector3::Map(row.point) = point;
   Vector3::Map(row.force) = -F;
   row.overlap = overlap;
+  Vector3::Map(row.torque) = wall_torque;
+  // The wall feels -F at the foot and what is left of the torque.
+  row.power = now_.stands ? 0.0 : F.dot(v_wall) - (wall_torque + point.cross(F)).dot(frame_.angular_velocity);
+  row.slot = tracked.slot;
 
   if (output_) tell_output(i, at, delta, F, v_wall);
 
@@ -144,20 +187,28 @@ inline void FixWallNurbs::call_contact_model(int i, const SurfaceFoot& foot, con
 // direction: the equivalent radius of Johnson (1985), section 4.2; exact where both are equal, as on a
 // sphere.
 double FixWallNurbs::effective_radius(int i, const SurfaceFoot& foot, const Vector3& delta) const {
-  constexpr double kLeast = 0.1;  // of 1/r: in a hollow of nearly the particle's radius Hertz' theory ends
-  const nurbs::SurfaceShape shape = nurbs::shape_at(surface_, exchange_.positions(), foot.at());
+  constexpr double kLeast = 0.1;    // of 1/r: in a hollow of nearly the particle's radius Hertz' theory ends
+  constexpr double kBeside = 1e-3;  // of the way to the patch's middle
+  nurbs::SurfacePoint at = foot.at();
+  nurbs::SurfaceShape shape = nurbs::shape_at(surface_, exchange_.positions(), at);
+  if (!std::isfinite(shape.curvature[1])) {  // a pole has none: what is beside it counts
+    for (int d = 0; d < 2; ++d) {
+      const nurbs::KnotVector& knots = surface_.patch(at.patch).knots(d);
+      at.xi[d] += kBeside * (0.5 * (knots.front() + knots.back()) - at.xi[d]);
+    }
+    shape = nurbs::shape_at(surface_, exchange_.positions(), at);
+  }
   const double r = atom->radius[i];
   const double side = shape.normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1.0 : 1.0;
   double product = 1.0;
   for (const double curvature : shape.curvature) product *= std::max(1.0 - side * curvature * r, kLeast);
-  return r / std::sqrt(product);
+  return std::max(r / std::sqrt(product), r - 0.5 * foot.distance);  // never less than the overlap
 }
 
 inline bool FixWallNurbs::inside_body(const SurfaceFoot& foot, const Vector3& delta) const {
   const int sign = outward_sign_[foot.patch];
   if (sign == 0 || foot.status != nurbs::ProjectionStatus::interior) return false;
-  const Vector3 normal = nurbs::shape_at(surface_, exchange_.positions(), foot.at()).normal;
-  return sign * normal.dot(frame_.rotation.transpose() * delta) < 0.0;
+  return sign * side_of(foot, delta) < 0;
 }
 
 // `delta`, from a foot to the particle's centre, is in space from here on; feet stay in the frame.
@@ -168,14 +219,15 @@ void FixWallNurbs::resolve_contacts(const ContactTracker::Query& query) {
     const SurfaceFoot& foot = tracked.foot;
     const bool touches = foot.distance <= atom->radius[i] || foot.distance < query.touch_reach;
     const Vector3 from_foot = query.centre - foot.foot;
-    const Vector3 delta = now_.is_turned ? Vector3(frame_.rotation * from_foot) : from_foot;
+    Vector3 delta = now_.is_turned ? Vector3(frame_.rotation * from_foot) : from_foot;
+    if (foot.distance <= resolution_) delta = leave_surface(i, tracked, delta, slots);
     Vector3 v_wall;
     if (touches || may_cross(i, foot)) {
       v_wall = wall_velocity(foot, Vector3::Map(atom->x[i]) - delta, delta);
       check_crossing(i, foot, delta, v_wall);
     }
     if (touches) {
-      take_slot(i, tracked, slots);
+      take_slot(i, tracked, delta, slots);
       apply_contact(i, tracked, delta, v_wall);
     } else if (tracked.slot >= 0) {
       slots.slot(tracked.slot).clear();

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <tuple>
 
 #include "comm.h"
 #include "fix_wall_nurbs.h"
@@ -10,14 +12,40 @@
 using namespace LAMMPS_NS;
 using nurbs::Vector3;
 
+// In the order of (tag, slot), so that the sums are the same to the last bit on any number of ranks.
 const FixWallNurbs::Totals& FixWallNurbs::totals_of_all_ranks() {
-  if (!totals_are_summed_) {
-    constexpr int kNumbers = sizeof(Totals) / sizeof(double);
-    MPI_Allreduce(&totals_, &all_totals_, kNumbers, MPI_DOUBLE, MPI_SUM, world);
-    MPI_Allreduce(&totals_.overlap, &all_totals_.overlap, 1, MPI_DOUBLE, MPI_MAX, world);
-    totals_are_summed_ = true;
+  if (totals_are_summed_) return totals_;
+  std::vector<LocalRow> rows = rows_of_all_ranks();
+  std::sort(rows.begin(), rows.end(), [](const LocalRow& a, const LocalRow& b) {
+    return std::tie(a.tag, a.slot) < std::tie(b.tag, b.slot);
+  });
+  totals_ = Totals();
+  for (const LocalRow& row : rows) {
+    Vector3::Map(totals_.force) += Vector3::Map(row.force);
+    Vector3::Map(totals_.torque) += Vector3::Map(row.torque);
+    totals_.contacts += 1.0;
+    totals_.overlap = std::max(totals_.overlap, row.overlap);
+    totals_.power += row.power;
   }
-  return all_totals_;
+  MPI_Bcast(&totals_, sizeof(Totals) / sizeof(double), MPI_DOUBLE, 0, world);
+  totals_are_summed_ = true;
+  return totals_;
+}
+
+// On rank 0; none elsewhere.
+std::vector<FixWallNurbs::LocalRow> FixWallNurbs::rows_of_all_ranks() const {
+  if (comm->nprocs == 1) return local_rows_;
+  const int mine = static_cast<int>(local_rows_.size());
+  std::vector<int> count(comm->nprocs), first(comm->nprocs);
+  MPI_Gather(&mine, 1, MPI_INT, count.data(), 1, MPI_INT, 0, world);
+  for (int rank = 1; rank < comm->nprocs; ++rank) first[rank] = first[rank - 1] + count[rank - 1];
+  std::vector<LocalRow> rows(comm->me == 0 ? first.back() + count.back() : 0);
+  MPI_Datatype row;
+  MPI_Type_contiguous(sizeof(LocalRow) / sizeof(double), MPI_DOUBLE, &row);
+  MPI_Type_commit(&row);
+  MPI_Gatherv(local_rows_.data(), mine, row, rows.data(), count.data(), first.data(), row, 0, world);
+  MPI_Type_free(&row);
+  return rows;
 }
 
 double FixWallNurbs::compute_vector(int column) {
@@ -38,7 +66,7 @@ double FixWallNurbs::structure_column(int column) const {
 
 // dump local reads the array without asking for it.
 void FixWallNurbs::publish_local_rows() {
-  static_assert(sizeof(LocalRow) == kLocalColumns * sizeof(double), "LocalRow is a row of columns");
+  static_assert(offsetof(LocalRow, torque) == kLocalColumns * sizeof(double), "LocalRow begins with columns");
   size_local_rows = static_cast<int>(local_rows_.size());
   const size_t known = local_pointers_.size();
   const bool moved = known > 0 && local_pointers_[0] != reinterpret_cast<double*>(local_rows_.data());

@@ -15,23 +15,26 @@ SurfaceShape shape_at(const MultiPatch& surface, const NodalVectors& control_poi
 
 SurfaceShape shape_on_element(const MultiPatch& surface, const NodalVectors& control_points, int patch,
                               int element_of_patch, const Parameter<2>& xi) {
-  constexpr double kNoArea = 1e-16;
+  constexpr double kNoArea = 1e-16, kNoLength = 1e-12;
   RationalBasis<2> basis;
   evaluate_on_element(surface.patch(patch), element_of_patch, xi, 2, basis);
   const auto points = surface.control_points_of(patch, control_points);
   const Vector3 zero = Vector3::Zero();
   Vector3 S = zero, S_i[2] = {zero, zero}, S_ij[3] = {zero, zero, zero};
+  double round_off[2] = {0.0, 0.0};  // of S_i, over the machine's
   for (int a = 0; a < basis.count; ++a) {
     const Vector3 P = points.col(basis.control_point[a]);
     S += basis.R[a] * P;
     for (int i = 0; i < 2; ++i) S_i[i] += basis.dR[i][a] * P;
+    for (int i = 0; i < 2; ++i) round_off[i] += std::abs(basis.dR[i][a]) * P.norm();
     for (int k = 0; k < 3; ++k) S_ij[k] += basis.d2R[k][a] * P;
   }
 
   const double E = S_i[0].squaredNorm(), F = S_i[0].dot(S_i[1]), G = S_i[1].squaredNorm();
   const double det = E * G - F * F;
   const Vector3 n = S_i[0].cross(S_i[1]) / std::sqrt(std::max(det, 0.0));
-  if (!(det > kNoArea * E * G)) {
+  const bool is_pole = std::sqrt(E) <= kNoLength * round_off[0] || std::sqrt(G) <= kNoLength * round_off[1];
+  if (is_pole || !(det > kNoArea * E * G)) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     return {S, n, {-kInfinity, kInfinity}};
   }

@@ -26,6 +26,11 @@ class Regularity {
   /// question.)
   bool is_regular(const Vector3& d, double reach, int element) const;
 
+  /// Whether a foot of d, `distance` away, lies in a valley: the distance does not rise along the surface to
+  /// second order, as d is a centre of curvature.  Poles count as such: they do where the surface is a
+  /// sphere.
+  bool in_valley(const Vector3& d, const SurfacePoint& foot, double distance) const;
+
  private:
   struct Shape {
     bool known = false;

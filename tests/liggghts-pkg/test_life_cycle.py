@@ -49,6 +49,18 @@ class LifeCycle(unittest.TestCase):
         np.testing.assert_array_equal(tables[1]["fz"], 0.0)
         np.testing.assert_array_equal(tables[1]["vz"], tables[1]["vz"][0])
 
+    def test_unfix_of_what_the_wall_holds_is_found_before_the_next_run(self):
+        for held in ("contact1_plate", "contact4_plate", "force_plate"):
+            start = START.replace("surface top", "surface top store_force yes") + f"run 60\nunfix {held}\n"
+            start += "thermo_style custom step\n"
+            with self.subTest(held=held):
+                result = decks.run(start + "run 10\n", files=FILES)
+                self.assertNotEqual(result.code, 0)
+                self.assertEqual(len(result.errors), 1, result.text[-2000:])
+                for part in ("Fix wall/nurbs (id plate)", f"'{held}'", "do not unfix", "'unfix plate'"):
+                    self.assertIn(part, result.errors[0])
+                decks.good(start + "unfix plate\nrun 10\n" + bob.wall() + "run 10\n", files=FILES)
+
     def test_recreating_after_unfix_and_after_clear_repeats_the_run(self):
         again = "unfix plate\nset atom 1 x 0 y 0 z 0.001 vx 0 vy 0 vz -1.0\nreset_timestep 0\n" + bob.wall() + "run 300\n"
         deck = START + "run 300\n" + again + "clear\n" + START + "run 300\n"
