@@ -108,7 +108,8 @@ class Descent {
       }
       return;
     }
-    conditioning_ = std::min(1.0, det / (A[0] * A[2]));
+    // Between the lesser curvature and twice that: the product of both over their mean.
+    conditioning_ = std::min(1.0, 2.0 * det / (H[0] * A[2] + H[2] * A[0]));
     minimise(g, H, room_low, room_high, step_);
   }
 
@@ -262,7 +263,7 @@ class Descent {
     if (std::max(std::abs(step_[0]), std::abs(step_[1])) > kShort) {
       move(1.0, next_->at);
       sample(*next_);
-      std::swap(now_, next_);
+      if (next_->f.phi <= now_->f.phi) std::swap(now_, next_);
       return Vector3(now_->f.r);
     }
     Vector3 r(now_->f.r);

@@ -31,7 +31,8 @@ class MultiPatchProjector {
 
   /// Local minimum reached from a point of the surface moved by `image`.
   SurfaceFoot follow(const Vector3& d, const SurfacePoint& from, const Vector3& image) const;
-  /// The same for `count` points, several at a time: feet[k] goes on, on the image where it is, for d[k].
+  /// The same for `count` points, several at a time: feet[k] goes on, on the image where it is, for d[k], to
+  /// where follow() leads it, to the last bit.
   void follow_batch(const Vector3* d, SurfaceFoot* const* feet, int count) const;
   /// The same from a foot already known on its patch.
   SurfaceFoot cross_borders(const Vector3& d, SurfaceFoot foot) const;

@@ -22,9 +22,10 @@ struct Taylor {
 template <int N, class T, class Coefficients, class U>
 [[gnu::always_inline]] inline Taylor<T> horner(int n_given, const Coefficients& a, const U& u) {
   const int n = N > 0 ? N : n_given;
-  Taylor<T> t{u * a[n] + a[n - 1], a[n], T{}};
-  if (n > 1) t = {u * t.f + a[n - 2], u * a[n] + t.f, a[n]};
-  for (int k = n - 3; k >= 0; --k) t = {u * t.f + a[k], u * t.f_u + t.f, u * t.half_f_uu + t.f_u};
+  Taylor<T> t{multiply_add(u, a[n], a[n - 1]), a[n], T{}};
+  if (n > 1) t = {multiply_add(u, t.f, a[n - 2]), multiply_add(u, a[n], t.f), a[n]};
+  for (int k = n - 3; k >= 0; --k)
+    t = {multiply_add(u, t.f, a[k]), multiply_add(u, t.f_u, t.f), multiply_add(u, t.half_f_uu, t.f_u)};
   return t;
 }
 
@@ -53,15 +54,15 @@ template <int P, int Q, class T, class Coefficients, class U>
 template <class Vector, class Number>
 [[gnu::always_inline]] inline Derivatives<Vector> quotient(const Derivatives<Vector>& A,
                                                            const Derivatives<Number>& W, const Vector& d) {
-  const Number inverse = 1.0 / W.f, W_0 = inverse * W.f_0, W_1 = inverse * W.f_1;
+  const Number inverse = 1.0 / W.f, W_0 = -inverse * W.f_0, W_1 = -inverse * W.f_1;
   const Vector S = inverse * A.f;
   Derivatives<Vector> r;
   r.f = S - d;
-  r.f_0 = inverse * A.f_0 - W_0 * S;
-  r.f_1 = inverse * A.f_1 - W_1 * S;
-  r.f_00 = inverse * (A.f_00 - W.f_00 * S) - 2.0 * W_0 * r.f_0;
-  r.f_01 = inverse * (A.f_01 - W.f_01 * S) - W_0 * r.f_1 - W_1 * r.f_0;
-  r.f_11 = inverse * (A.f_11 - W.f_11 * S) - 2.0 * W_1 * r.f_1;
+  r.f_0 = multiply_add(W_0, S, inverse * A.f_0);
+  r.f_1 = multiply_add(W_1, S, inverse * A.f_1);
+  r.f_00 = multiply_add(2.0 * W_0, r.f_0, inverse * multiply_add(-W.f_00, S, A.f_00));
+  r.f_01 = multiply_add(W_0, r.f_1, multiply_add(W_1, r.f_0, inverse * multiply_add(-W.f_01, S, A.f_01)));
+  r.f_11 = multiply_add(2.0 * W_1, r.f_1, inverse * multiply_add(-W.f_11, S, A.f_11));
   return r;
 }
 
@@ -159,9 +160,19 @@ template <class Surface>
   const Derivatives<typename Surface::Vector> S = surface(s[0], s[1]);
   const typename Surface::Vector& r = S.f;
   typename Surface::Number a[4], b[4];
-  sums({S.f_0 * S.f_0 + r * S.f_00, S.f_1 * S.f_1 + r * S.f_11, S.f_0 * S.f_1 + r * S.f_01, r * S.f_0}, a);
+  sums({multiply_add(S.f_0, S.f_0, r * S.f_00), multiply_add(S.f_1, S.f_1, r * S.f_11),
+        multiply_add(S.f_0, S.f_1, r * S.f_01), r * S.f_0},
+       a);
   sums({r * S.f_1, r * r, S.f_0 * S.f_0, S.f_1 * S.f_1}, b);
   return {b[1], {a[3], b[0]}, {b[2], b[3]}, {a[0], a[2], a[1]}};
+}
+
+/// The Newton step -H^-1 g, times det H.
+template <class Number>
+[[gnu::always_inline]] inline void newton_step(const Number (&H)[3], const Number (&g)[2],
+                                               Number (&step)[2]) {
+  step[0] = multiply_add(H[1], g[1], -(H[2] * g[0]));
+  step[1] = multiply_add(H[1], g[0], -(H[0] * g[1]));
 }
 
 /// Newton's method converges quadratically: after such a step one more with the same Hessian is the last.
@@ -208,9 +219,10 @@ template <class Surface>
     }
     twice_phi = active ? f.twice_phi : twice_phi;
     const Number(&g)[2] = f.g, (&A)[2] = f.A, (&H)[3] = f.H;
-    det = H[0] * H[2] - H[1] * H[1];
-    step[0] = (H[1] * g[1] - H[2] * g[0]) / det;  // -H^-1 g
-    step[1] = (H[1] * g[0] - H[0] * g[1]) / det;
+    Number steps[2];
+    newton_step(H, g, steps);
+    det = multiply_add(H[0], H[2], -(H[1] * H[1]));
+    for (int i = 0; i < 2; ++i) step[i] = active ? steps[i] / det : step[i];
     to[0] = s[0] + step[0];
     to[1] = s[1] + step[1];
     active = active && H[0] > kLeastCurvature * A[0] && H[2] > kLeastCurvature * A[1] &&
@@ -230,18 +242,20 @@ template <class Surface>
     if (iteration == kMaxIterations) break;
     to[0] = active ? to[0] : s[0];
     to[1] = active ? to[1] : s[1];
-    allowed = 0.5 * f.twice_phi + kDecrease * (g[0] * step[0] + g[1] * step[1]);
+    allowed = multiply_add(kDecrease, multiply_add(g[0], step[0], g[1] * step[1]), 0.5 * f.twice_phi);
   }
   // Once more with the same Hessian: the error shrinks by as much as this step is shorter than the last.
   const Number end[2] = {s[0] + step[0], s[1] + step[1]};
   const Derivatives<typename Surface::Vector> S = surface(end[0], end[1]);
-  const Number per_det = 1.0 / det, g[2] = {dot(S.f, S.f_0), dot(S.f, S.f_1)}, (&H)[3] = f.H;
-  const Number more[2] = {(H[1] * g[1] - H[2] * g[0]) * per_det, (H[1] * g[0] - H[0] * g[1]) * per_det};
+  const Number per_det = 1.0 / det, g[2] = {dot(S.f, S.f_0), dot(S.f, S.f_1)};
+  Number more[2];
+  newton_step(f.H, g, more);
+  for (Number& m : more) m = m * per_det;
   const Number further[2] = {end[0] + more[0], end[1] + more[1]};
   const Number longer = larger(absolute(more[0]), absolute(more[1]));
   done = done && twice_phi > square(kClose * size) && square(longer) <= kFootError * length + square(kTiny) &&
          larger(absolute(further[0]), absolute(further[1])) < kWellInside;
-  const typename Surface::Vector r = S.f + more[0] * S.f_0 + more[1] * S.f_1;
+  const typename Surface::Vector r = multiply_add(more[1], S.f_1, multiply_add(more[0], S.f_0, S.f));
   return {{done ? further[0] : s[0], done ? further[1] : s[1]},
           {end[0], end[1]},
           done ? dot(r, r) : twice_phi,
@@ -266,14 +280,14 @@ template <int P, int Q, bool Rational>
     }
     for (int k = 0; k <= p; ++k) {
       Vector4 sum = M0[k][0] * row[0];
-      for (int i = 1; i <= p; ++i) sum = sum + M0[k][i] * row[i];
+      for (int i = 1; i <= p; ++i) sum = multiply_add(M0[k][i], row[i], sum);
       half[k + (p + 1) * j] = sum;
     }
   }
   for (int l = 0; l <= q; ++l)
     for (int k = 0; k <= p; ++k) {
       Vector4 sum = M1[l][0] * half[k];
-      for (int j = 1; j <= q; ++j) sum = sum + M1[l][j] * half[k + (p + 1) * j];
+      for (int j = 1; j <= q; ++j) sum = multiply_add(M1[l][j], half[k + (p + 1) * j], sum);
       out[k + (p + 1) * l] = sum;
     }
 }

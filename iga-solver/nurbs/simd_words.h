@@ -4,6 +4,10 @@
 // alone includes this.
 #pragma once
 
+#if defined(__FMA__)
+#include <immintrin.h>
+#endif
+
 namespace nurbs {
 namespace {
 
@@ -87,6 +91,43 @@ template <class Numbers, class Number>
 }
 [[gnu::always_inline]] inline Lanes dot(const LaneVector& a, const LaneVector& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// a b + c, rounded once where the processor can.  Nothing else is: the compiler is told to contract no
+/// products of its own choice (-ffp-contract=off), so that one point and several in a word give the same
+/// bits.
+#if defined(__FMA__)
+typedef Word<4>::Numbers Four;
+[[gnu::always_inline]] inline double multiply_add(double a, double b, double c) {
+  return __builtin_fma(a, b, c);
+}
+[[gnu::always_inline]] inline Four multiply_add(const Four& a, const Four& b, const Four& c) {
+  return _mm256_fmadd_pd(a, b, c);
+}
+[[gnu::always_inline]] inline Four multiply_add(double a, const Four& b, const Four& c) {
+  return _mm256_fmadd_pd(_mm256_set1_pd(a), b, c);
+}
+#if defined(__AVX512F__)
+[[gnu::always_inline]] inline Lanes multiply_add(const Lanes& a, const Lanes& b, const Lanes& c) {
+  return _mm512_fmadd_pd(a, b, c);
+}
+[[gnu::always_inline]] inline Lanes multiply_add(double a, const Lanes& b, const Lanes& c) {
+  return _mm512_fmadd_pd(_mm512_set1_pd(a), b, c);
+}
+#endif
+#else
+template <class Factor, class Number>
+[[gnu::always_inline]] inline Number multiply_add(const Factor& a, const Number& b, const Number& c) {
+  return a * b + c;
+}
+#endif
+[[gnu::always_inline]] inline LaneVector multiply_add(const Lanes& a, const LaneVector& b,
+                                                      const LaneVector& c) {
+  return {multiply_add(a, b.x, c.x), multiply_add(a, b.y, c.y), multiply_add(a, b.z, c.z)};
+}
+[[gnu::always_inline]] inline LaneVector multiply_add(const LaneVector& a, const LaneVector& b,
+                                                      const LaneVector& c) {
+  return {multiply_add(a.x, b.x, c.x), multiply_add(a.y, b.y, c.y), multiply_add(a.z, b.z, c.z)};
 }
 
 [[gnu::always_inline]] inline double dot(const Vector4& a, const Vector4& b) {

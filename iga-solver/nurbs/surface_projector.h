@@ -31,6 +31,11 @@ struct ProductTerm;
 /// Tolerances are relative to the size of the surface and the round-off of its evaluation.  A search ends as
 /// not_converged if lengths are not finite, and never else.  None allocates, but for the list of
 /// all_minima and the first search over the tree after the surface moved.
+///
+/// What is promised of distances: a global minimum is longer than the least there is by 1e-10 of it at most,
+/// and round-off; a warm search ends no farther than its guess, but for round-off.  Where several feet are
+/// equally near within that (from the centre of a sphere), one of them is the answer, always the same for the
+/// same arguments: batches give what single searches give, bit by bit.
 class SurfaceProjector {
  public:
   /// Keeps a reference to `space`, which must outlive it.  Results of different instruction sets differ by
@@ -67,7 +72,7 @@ class SurfaceProjector {
       result = warm_beyond(d, start, end);
     return result;
   }
-  /// The same for `count` points, several at a time; equal to warm() but for round-off.
+  /// The same for `count` points, several at a time: for each what warm() gives, to the last bit.
   void warm_batch(const Vector3* d, const Parameter<2>* guesses, int count, Projection* out) const;
   void warm_batch(const Vector3* d, const Parameter<2>* guesses, int count, Projection* const* out) const;
   /// Global minimum, by the tree.

@@ -109,13 +109,19 @@ TEST(MultiPatchProjector, FollowsManyAcrossBorders) {
         feet[k] = all[0];
       }
     std::vector<int> before;
-    for (const SurfaceFoot& foot : feet) before.push_back(foot.patch);
+    std::vector<SurfaceFoot> alone;
+    for (int k = 0; k < kPoints; ++k) {
+      before.push_back(feet[k].patch);
+      alone.push_back(projector.follow(d[k], feet[k].at(), feet[k].image));
+    }
     projector.follow_batch(d.data(), pointers.data(), kPoints);
     for (int k = 0; k < kPoints; ++k) {
       changes += feet[k].patch != before[k];
       ASSERT_NEAR(feet[k].distance, 0.002 * k, 1e-13) << "point " << k << ", step " << step;
       ASSERT_LT((feet[k].foot - images[k % 2] - direction(k, step)).norm(), 1e-13);
       ASSERT_EQ(feet[k].image, images[k % 2]);
+      ASSERT_EQ(feet[k].foot, alone[k].foot);  // to the last bit
+      ASSERT_EQ(feet[k].xi, alone[k].xi);
     }
   }
   EXPECT_GT(changes, 2 * kPoints);  // a turn crosses four octants or more

@@ -141,5 +141,34 @@ TEST(Poles, CentresOfSpheresAndAxes) {
   }
 }
 
+// Beside the centre by a part of the radius down to round-off: both curvatures of the distance are that
+// small, and its least value is the radius less the offset.  A warm search stays below its guess.
+TEST(Poles, BesideTheCentreOfASphere) {
+  constexpr double kRadius = 7.0;
+  const Vector3 centre(0.3, -0.2, 0.1);
+  const Surface ball =
+      sphere(frame(centre, {1, 2, 2}), kRadius, refined(arc(0, 360), 8, 3), refined(arc(-90, 90), 4, 3));
+  SurfaceProjector projector(ball.space);
+  projector.set_control_points(ball.control_points);
+  std::vector<int> elements(ball.space.element_count());
+  std::iota(elements.begin(), elements.end(), 0);
+  shapes::Random random(43);
+  for (int k = 0; k < 3000; ++k) {
+    std::normal_distribution<double> normal;
+    const Vector3 aside = Vector3(normal(random), normal(random), normal(random)).normalized();
+    const double off = kRadius * std::pow(10.0, shapes::uniform(random, -12.0, -5.0));
+    const Vector3 d = centre + off * aside;
+    const Parameter<2> guess = shapes::random_parameter(random, ball.space);
+    const double least = kRadius - off,
+                 of_guess = (interpolate(ball.space, ball.control_points, guess) - d).norm();
+    SCOPED_TRACE(testing::Message() << "point " << k << ", off by " << off);
+    EXPECT_NEAR(projector.cold(d).distance, least, 1e-10 * kRadius);
+    EXPECT_NEAR(projector.nearest(d, guess).distance, least, 1e-10 * kRadius);
+    EXPECT_NEAR(projector.cold_on(d, elements.data(), static_cast<int>(elements.size())).distance, least,
+                1e-10 * kRadius);
+    EXPECT_LE(projector.warm(d, guess).distance, of_guess + 1e-15 * kRadius);
+  }
+}
+
 }  // namespace
 }  // namespace nurbs

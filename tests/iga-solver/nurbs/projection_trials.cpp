@@ -4,13 +4,15 @@
 //            elements, leaves it as it is; where the minimum is isolated its foot is right, too;
 //   cold_on  the same distance, on the elements that a box tree finds within reach;
 //   nearest  the same distance, from a guess;
-//   warm     from a guess off by 1 % of an element to several elements: a local minimum, not above the guess.
+//   warm     from a guess off by 1 % of an element to several elements: a local minimum, not above the guess;
+//   batch    warm_batch with all points of a surface: to the last bit what warm gives each.
 // A miss is printed with what repeats it: --seed S --only SURFACE.  Exit code 1 if there is any.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <exception>
+#include <map>
 
 #include "distance_bound.h"
 #include "nurbs/box_tree.h"
@@ -102,6 +104,21 @@ class Trial {
     return no_minimum(d, p, not_counted);
   }
 
+  /// The same for the warm searches together; `number` is that of the point in question.
+  std::string try_batch(const std::vector<Vector3>& d, const std::vector<Parameter<2>>& guesses,
+                        int& number) const {
+    std::vector<Projection> batch(d.size());
+    as_given_.search.warm_batch(d.data(), guesses.data(), static_cast<int>(d.size()), batch.data());
+    for (number = 0; number < static_cast<int>(d.size()); ++number) {
+      const Projection &p = batch[number], one = as_given_.search.warm(d[number], guesses[number]);
+      if (p.distance != one.distance || p.foot != one.foot || p.xi != one.xi || p.status != one.status ||
+          p.iterations != one.iterations)
+        return fmt::format("distance {:.16g} at [{}, {}], alone {:.16g} at [{}, {}]", p.distance, p.xi[0],
+                           p.xi[1], one.distance, one.xi[0], one.xi[1]);
+    }
+    return {};
+  }
+
   Parameter<2> foot(const Vector3& d) const { return as_given_.search.cold(d).xi; }
 
  private:
@@ -172,6 +189,8 @@ class Trials {
     TrialSurface surface = random_surface(random, static_cast<Family>(index % kFamilies));
     const Vector3 shift = 1e3 * surface.element * Vector3(0.6, -0.64, 0.48);
     const Trial trial(std::move(surface), shift);
+    std::vector<Vector3> points;
+    std::vector<Parameter<2>> guesses;
     for (int k = 0; k < kPlaces * kPointsPerPlace; ++k) {
       const Place place = static_cast<Place>(k % kPlaces);
       const Vector3 d = random_point(random, trial.surface(), place);
@@ -183,7 +202,12 @@ class Trials {
           guess_beside(random, trial.surface().surface.space, trial.foot(d), kOff[k / kPlaces]);
       report(index, k, "nearest", trial.try_nearest(d, guess, counts), counts.cold_misses);
       report(index, k, "warm", trial.try_warm(d, guess), counts.warm_misses);
+      points.push_back(d);
+      guesses.push_back(guess);
     }
+    int k = 0;
+    const std::string wrong = trial.try_batch(points, guesses, k);
+    report(index, k, "batch", wrong, counts_[index % kFamilies][k % kPlaces].warm_misses);
   }
 
   long trials() const { return total().trials; }
@@ -239,18 +263,23 @@ class Trials {
 int main(int argc, char** argv) {
   long count = 100000;
   unsigned seed = 1;
-  int only = -1;
+  int only = -1, family = -1;
   CLI::App app("Closest-point searches on random surfaces, judged by subdivision with lower bounds");
   app.add_option("--count", count, "least number of trials")->check(CLI::PositiveNumber);
   app.add_option("--seed", seed, "of the random numbers");
   app.add_option("--only", only, "number of the one surface to repeat");
+  std::map<std::string, int> families;
+  for (int f = 0; f < nurbs::trials::kFamilies; ++f)
+    families[name(static_cast<nurbs::trials::Family>(f))] = f;
+  app.add_option("--family", family, "surfaces of this family alone")->transform(CLI::Transformer(families));
   CLI11_PARSE(app, argc, argv);
   try {
     nurbs::trials::Trials trials(seed);
     if (only >= 0)
       trials.run_surface(only);
     else
-      for (int index = 0; trials.trials() < count; ++index) trials.run_surface(index);
+      for (int index = 0; trials.trials() < count; ++index)
+        if (family < 0 || index % nurbs::trials::kFamilies == family) trials.run_surface(index);
     return trials.summarise() == 0 ? 0 : 1;
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());

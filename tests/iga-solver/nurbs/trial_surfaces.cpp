@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nurbs/curvature.h"
+#include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
 
 namespace nurbs::trials {
@@ -93,6 +95,37 @@ Surface exact(Random& random) {
   return arcs_turned(random, shapes::quarter_arc(radius * uniform(random, 1.1, 3.0), radius));
 }
 
+Surface ball(Random& random) {
+  const auto range = [&](double full) {
+    if (integer(random, 0, 1) == 0) return std::array{0.0, full};
+    const double from = uniform(random, 0.0, 0.5) * full;
+    return std::array{from, from + uniform(random, 0.2, 0.5) * full};
+  };
+  const auto [west, east] = range(360.0);
+  const auto [south, north] = range(180.0);
+  return refined(random, nurbs::sphere(frame(Vector3::Zero(), direction(random)), uniform(random, 0.5, 2.0),
+                                       arc(west, east), arc(south - 90.0, north - 90.0)));
+}
+
+// Control points on a spiral of radii 1 to 1.3 over one and a half to three turns.
+Surface spiral(Random& random) {
+  Surface sheet = grid(random, false, 0.02, 0.0);
+  const KnotVector& along = sheet.space.knots(0);
+  const double turns = uniform(random, 1.5, 3.0), gap = uniform(random, 0.05, 0.15);
+  const int degree = along.degree(), elements = integer(random, 6, 12);
+  const Space<2> space({KnotVector::uniform(degree, elements), sheet.space.knots(1)});
+  const std::vector<double> places = space.knots(0).greville(), across = space.knots(1).greville();
+  NodalVectors P(3, space.control_point_count());
+  int a = 0;
+  for (const double y : across)
+    for (const double t : places) {
+      const double angle = 2.0 * M_PI * turns * t,
+                   radius = 1.0 + gap * turns * t + uniform(random, 0.0, 0.01);
+      P.col(a++) << radius * std::cos(angle), radius * std::sin(angle), y - across.front();
+    }
+  return {space, P};
+}
+
 Surface unit_surface(Random& random, Family family) {
   switch (family) {
     case Family::hills:
@@ -105,6 +138,10 @@ Surface unit_surface(Random& random, Family family) {
       return grid(random, true, 0.1, 0.7);
     case Family::pole:
       return with_pole(random);
+    case Family::ball:
+      return ball(random);
+    case Family::spiral:
+      return spiral(random);
     case Family::exact:
       break;
   }
@@ -129,15 +166,25 @@ Vector3 outward(const Surface& surface, const Parameter<2>& xi) {
   return out / std::max(out.norm(), 1e-300);
 }
 
+// The centre of one of the two curvatures at xi; of a plane or a sharp edge some elements away.
+Vector3 centre_of_curvature(Random& random, const TrialSurface& trial, const Parameter<2>& xi) {
+  const MultiPatch patch({trial.surface.space});
+  const SurfaceShape shape = shape_at(patch, trial.surface.control_points, {0, xi});
+  const double curvature = shape.curvature[integer(random, 0, 1)], least = 0.1 / trial.element;
+  if (!(std::abs(curvature) < 1e3 / trial.element)) return shape.point;
+  return shape.point + shape.normal / std::copysign(std::max(std::abs(curvature), least), curvature);
+}
+
 }  // namespace
 
 const char* name(Family family) {
-  static const char* const names[kFamilies] = {"hills", "rough", "folded", "creased", "pole", "exact"};
+  static const char* const names[kFamilies] = {"hills", "rough", "folded", "creased",
+                                               "pole",  "exact", "ball",   "spiral"};
   return names[static_cast<int>(family)];
 }
 
 const char* name(Place place) {
-  static const char* const names[kPlaces] = {"close", "bulk", "far", "edge", "corner", "line"};
+  static const char* const names[kPlaces] = {"close", "bulk", "far", "edge", "corner", "line", "centre"};
   return names[static_cast<int>(place)];
 }
 
@@ -179,6 +226,12 @@ Vector3 random_point(Random& random, const TrialSurface& trial, Place place) {
     case Place::corner:
       return S + trial.element * power_of_ten(random, -2.0, 0.5) *
                      (outward(surface, xi) + uniform(random, 0.0, 0.7) * direction(random));
+    case Place::centre: {
+      const Vector3 centre =
+          trial.family == Family::ball ? trial.centre : centre_of_curvature(random, trial, xi);
+      if (integer(random, 0, 7) == 0) return centre;
+      return centre + (S - centre).norm() * power_of_ten(random, -17.0, -5.0) * direction(random);
+    }
     case Place::line:
       break;
   }

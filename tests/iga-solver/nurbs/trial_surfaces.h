@@ -13,8 +13,10 @@ enum class Family {
   creased,  ///< graded knots of any multiplicity, C0 lines among them
   pole,     ///< an edge drawn together in one point: tents and sphere octants
   exact,    ///< tubes, spheres and tori of rational arcs that meet in C0 lines
+  ball,     ///< spheres, whole or cut by meridians and circles of latitude
+  spiral,   ///< a sheet rolled up, its turns a fraction of an element apart
 };
-constexpr int kFamilies = 6;
+constexpr int kFamilies = 8;
 const char* name(Family family);
 
 /// Degrees 2 to 5 (mixed), one in two rational; elements of 1e-4 to 1e3 [length] in any direction, one
@@ -34,8 +36,9 @@ enum class Place {
   edge,    ///< beyond an edge
   corner,  ///< beyond a corner
   line,    ///< close to a C0 line, a knot line or a pole
+  centre,  ///< on a centre of principal curvature, or up to 1e-5 of its radius beside it
 };
-constexpr int kPlaces = 6;
+constexpr int kPlaces = 7;
 const char* name(Place place);
 Vector3 random_point(shapes::Random& random, const TrialSurface& trial, Place place);
 
