@@ -17,6 +17,7 @@ import numpy as np
 
 NURBS = os.environ.get("LIGGGHTS_NURBS", "liggghts-nurbs")
 STOCK = os.environ.get("LIGGGHTS", "liggghts")
+PATIENCE = float(os.environ.get("TEST_PATIENCE", "1"))  # builds with sanitizers are slow
 LOG = "log.deck"
 # Place, velocity and spin of the first ball; needs a compute `spin` of omegax, omegay, omegaz.
 BALL = "".join(f"variable {c} equal {c}[1]\n" for c in ("x", "y", "z", "vx", "vy", "vz")) + "".join(
@@ -93,7 +94,7 @@ def run_in(
             stderr=subprocess.STDOUT,
             text=True,
             errors="replace",  # LIGGGHTS may print a line of garbage after an error
-            timeout=timeout,
+            timeout=timeout * PATIENCE,
             check=False,
         )
     # not from the screen: other ranks may print into the middle of its lines

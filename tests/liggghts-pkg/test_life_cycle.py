@@ -92,6 +92,7 @@ class LifeCycle(unittest.TestCase):
         table = decks.good(deck.replace("v_x v_y", "v_w v_x v_y") + "run 50\n", files=FILES).tables[-1]
         np.testing.assert_allclose(table["w"], -table["plate3"], rtol=1e-14)
 
+    @unittest.skipIf(decks.PATIENCE > 1, "not in builds with sanitizers: one memory checker at a time")
     def test_valgrind_finds_no_error_of_ours(self):
         small = {"block.yaml": bob.block(elements=(2, 2, 1))}
         deck = START_DAMPED + "run 60\nthermo_style custom step\nunfix plate\nrun 5\nclear\n" + START_DAMPED + "run 10\n"

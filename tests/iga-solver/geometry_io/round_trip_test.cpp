@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -32,7 +33,8 @@ GeometryFile again(const GeometryFile& geometry, Format format) {
 
 template <class Numbers>
 bool same_bits(const Numbers& a, const Numbers& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), sizeof(double) * a.size()) == 0;
+  const auto same = [](double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; };
+  return std::equal(a.data(), a.data() + a.size(), b.data(), b.data() + b.size(), same);
 }
 
 template <int Dim>

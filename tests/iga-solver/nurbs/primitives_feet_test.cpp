@@ -12,8 +12,6 @@
 namespace nurbs {
 namespace {
 
-constexpr double kDegrees = M_PI / 180;
-
 Curve meshed_arc(double from, double to, int elements, int degree = 2) {
   return refined(arc(from, to), elements, degree);
 }
