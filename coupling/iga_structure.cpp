@@ -81,6 +81,11 @@ std::optional<SurfaceMaterial> IgaStructure::material() const {
   return SurfaceMaterial{material.youngs_modulus(), material.poissons_ratio()};
 }
 
+Work IgaStructure::work() const {
+  const structure::Work work = solver_.work();
+  return {work.forces, work.loads, work.internal};
+}
+
 std::vector<Probe> IgaStructure::probes() const {
   std::vector<Probe> values;
   for (const structure::Probe& probe : probes_)

@@ -33,6 +33,7 @@ class IgaStructure final : public StructureSolver {
   Eigen::VectorXd control_node_mass() const override { return solver_.mass().nodal_mass(); }
   double kinetic_energy() const override { return solver_.kinetic_energy(); }
   double strain_energy() const override { return solver_.strain_energy(); }
+  Work work() const override;
   Vector3 linear_momentum() const override { return solver_.linear_momentum(); }
   Vector3 angular_momentum(const Vector3& about) const override { return solver_.angular_momentum(about); }
   std::optional<SurfaceMaterial> material() const override;

@@ -29,6 +29,14 @@ struct Probe {
   Vector3 displacement;  ///< [length]
 };
 
+/// Work since initialise_forces by the rule of the time step [energy]: a half kick by a force F that takes v
+/// to v' does dt/2 F . (v + v')/2, so kinetic energy + internal - loads - contacts is constant to round-off.
+struct Work {
+  double contacts = 0.0;  ///< of the contact forces on the body
+  double loads = 0.0;     ///< of its own loads
+  double internal = 0.0;  ///< done against internal forces
+};
+
 class StructureSolver {
  public:
   virtual ~StructureSolver() = default;
@@ -70,6 +78,7 @@ class StructureSolver {
   virtual Eigen::VectorXd control_node_mass() const = 0;  ///< [mass], one per node; empty for a rigid surface
   virtual double kinetic_energy() const = 0;              ///< sum m_A |v_A|^2 / 2 [energy]
   virtual double strain_energy() const = 0;               ///< [energy]; may cost as much as a step
+  virtual Work work() const { return {}; }                ///< zero for a body that is not integrated
   virtual Vector3 linear_momentum() const = 0;            ///< sum m_A v_A
   virtual Vector3 angular_momentum(const Vector3& about) const = 0;  ///< sum (x_A - about) x m_A v_A
   virtual std::optional<SurfaceMaterial> material() const = 0;

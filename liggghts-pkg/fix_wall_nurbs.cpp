@@ -44,7 +44,8 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
     fail("fix continuum/weighted needs per-contact forces, which this wall does not store");
 
   vector_flag = 1;
-  size_vector = kTotalColumns + kStructureColumns + 3 * static_cast<int>(structure_.probes().size()) + 1;
+  size_vector =
+      kTotalColumns + kStructureColumns + 3 * static_cast<int>(structure_.probes().size()) + 1 + kWorkColumns;
   global_freq = 1;
   extvector = 0;
   local_flag = 1;

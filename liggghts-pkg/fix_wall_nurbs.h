@@ -74,6 +74,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   };
   static const int kTotalColumns = 8;  // of them, the first in the vector; power is the last
   static const int kStructureColumns = 9;
+  static const int kWorkColumns = 3;  // after power, the last
 
   /// A contact: one row of the local array, and what else the totals need.
   struct LocalRow {

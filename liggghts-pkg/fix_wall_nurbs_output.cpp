@@ -49,7 +49,12 @@ std::vector<FixWallNurbs::LocalRow> FixWallNurbs::rows_of_all_ranks() const {
 }
 
 double FixWallNurbs::compute_vector(int column) {
-  if (column == size_vector - 1) return totals_of_all_ranks().power;
+  const int power = size_vector - 1 - kWorkColumns;
+  if (column == power) return totals_of_all_ranks().power;
+  if (column > power) {
+    const coupling::Work work = structure_.work();
+    return column == power + 1 ? work.contacts : column == power + 2 ? work.loads : work.internal;
+  }
   if (column < kTotalColumns) return reinterpret_cast<const double*>(&totals_of_all_ranks())[column];
   return structure_column(column - kTotalColumns);
 }

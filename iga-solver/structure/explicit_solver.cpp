@@ -17,11 +17,14 @@ ExplicitSolver::ExplicitSolver(Solid solid, Supports supports)
       supports_(std::move(supports)),
       mass_(std::make_unique<LumpedMass>(solid_.row_sum_mass())),
       f_ext_(NodalVectors::Zero(3, solid_.node_count())),
+      f_int_(f_ext_),
+      F_(f_ext_),
       residual_(f_ext_),
       u_(f_ext_),
       x_(solid_.patch().control_points),
       v_(f_ext_),
-      a_(f_ext_) {}
+      a_(f_ext_),
+      v_sum_(f_ext_) {}
 
 void ExplicitSolver::check_size(const NodalVectors& values, const char* what) const {
   if (values.cols() != u_.cols())
@@ -54,11 +57,19 @@ void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   power_ = (f_ext_ + F).cwiseProduct(v_).sum();
   start_energy_budget();
   check_divergence(F);
+  ledger_ = WorkLedger();
+}
+
+void ExplicitSolver::half_kick() {
+  v_sum_ = v_;
+  v_ += 0.5 * dt_ * a_;
+  v_sum_ += v_;
+  ledger_.half_kick(0.5 * dt_, v_sum_, f_int_, f_ext_, F_);
 }
 
 void ExplicitSolver::begin_step() {
   if (dt_ == 0.0) throw std::logic_error("ExplicitSolver: begin_step before set_time_step");
-  v_ += 0.5 * dt_ * a_;
+  half_kick();
   u_ += dt_ * v_;
   x_ = solid_.patch().control_points + u_;
 }
@@ -66,7 +77,7 @@ void ExplicitSolver::begin_step() {
 void ExplicitSolver::end_step(const NodalVectors& F) {
   check_size(F, "forces");
   update_accelerations(F);
-  v_ += 0.5 * dt_ * a_;
+  half_kick();
   time_ += dt_;
   const double power = (f_ext_ + F).cwiseProduct(v_).sum();
   if (budget_)
@@ -92,8 +103,9 @@ void ExplicitSolver::check_divergence(const NodalVectors& F) const {
 }
 
 void ExplicitSolver::update_accelerations(const NodalVectors& F) {
-  solid_.internal_force(u_, residual_);
-  residual_ = f_ext_ + F - residual_;
+  solid_.internal_force(u_, f_int_);
+  F_ = F;
+  residual_ = f_ext_ + F_ - f_int_;
   mass_->apply_inverse_mass(residual_, a_);
   supports_.apply(a_);
 }

@@ -14,6 +14,7 @@
 #include "structure/mass.h"
 #include "structure/solid.h"
 #include "structure/supports.h"
+#include "structure/work_ledger.h"
 
 namespace structure {
 
@@ -56,6 +57,8 @@ class ExplicitSolver {
 
   double kinetic_energy() const;  ///< sum m_A |v_A|^2 / 2
   double strain_energy() const;
+  /// Since initialise_forces: kinetic energy + internal - loads - forces is constant to round-off.
+  Work work() const { return ledger_.work(); }
   double load_work()
       const;  ///< f_ext . u: kinetic + strain energy - load work is conserved without further forces
   Vector3 linear_momentum() const;                       ///< sum m_A v_A
@@ -72,12 +75,15 @@ class ExplicitSolver {
   void update_accelerations(const NodalVectors& F);
   void start_energy_budget();
   void check_divergence(const NodalVectors& F) const;
+  void half_kick();
 
   Solid solid_;
   Supports supports_;
   std::unique_ptr<MassOperator> mass_;
   double dt_ = 0.0, time_ = 0.0;
-  NodalVectors f_ext_, residual_, u_, x_, v_, a_;
+  NodalVectors f_ext_, f_int_, F_, residual_, u_, x_, v_, a_;
+  NodalVectors v_sum_;  // of a half kick: before and after
+  WorkLedger ledger_;
   double power_ = 0.0;                  // of f_ext and F [energy/time]
   std::optional<EnergyBudget> budget_;  // since state or loads were set
   mutable std::optional<double> stable_time_step_;

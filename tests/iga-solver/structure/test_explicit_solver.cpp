@@ -183,6 +183,55 @@ TEST(ExplicitSolver, ContinuesFromASavedStateToTheLastBit) {
   EXPECT_EQ(other.positions(), solver.positions());
 }
 
+// Works summed here from positions, velocities and forces, half kick by half kick; a constant load's in
+// closed form: f . (u + dt^2/8 a) between the ends.
+TEST(ExplicitSolver, ItsLedgerOfWorkIsClosedToRoundOff) {
+  Supports supports;
+  const nurbs::Volume patch = models::distorted(models::block({3.0, 2.0, 1.0}, {3, 2, 1}, 2), 0.1);
+  supports.fix(patch.space, Face::xi_minus, {true, true, false});
+  ExplicitSolver solver(Solid(patch, models::elastic()), supports);
+  const int nodes = solver.solid().node_count();
+  const NodalVectors load = structure::gravity_load(solver.solid(), {0.3, -0.2, 0.5});
+  solver.set_load(load);
+  solver.set_velocities(models::random_vectors(nodes, 3));
+  const double dt = 0.3 * solver.stable_time_step();
+  solver.set_time_step(dt);
+  NodalVectors F = 0.1 * models::random_vectors(nodes, 10), f_int(3, nodes), before;
+  solver.initialise_forces(F);
+  solver.begin_step(), solver.end_step(F);  // the ledger begins anew with each run
+  solver.initialise_forces(F);
+  EXPECT_EQ(solver.work().internal, 0.0);
+  const double K_0 = solver.kinetic_energy(), U_0 = solver.strain_energy();
+  const double load_0 =
+      load.cwiseProduct(solver.displacements() + dt * dt / 8 * solver.accelerations()).sum();
+  double internal = 0.0, forces = 0.0, turned_over = 0.0;
+  for (int n = 1; n <= 500; ++n) {
+    const auto kick = [&](const NodalVectors& v, const NodalVectors& w) {
+      solver.solid().internal_force(solver.displacements(), f_int);
+      internal += 0.25 * dt * f_int.cwiseProduct(v + w).sum();
+      forces += 0.25 * dt * F.cwiseProduct(v + w).sum();
+    };
+    before = solver.velocities();
+    const NodalVectors half = before + 0.5 * dt * solver.accelerations();
+    kick(before, half);
+    solver.begin_step();
+    F = 0.1 * models::random_vectors(nodes, 10 + n);
+    solver.end_step(F);
+    kick(half, solver.velocities());
+    const structure::Work work = solver.work();
+    turned_over = std::max({turned_over, solver.kinetic_energy(), solver.strain_energy()});
+    EXPECT_NEAR(solver.kinetic_energy() - K_0 + work.internal - work.loads - work.forces, 0.0,
+                1e-13 * turned_over);
+    EXPECT_NEAR(work.internal, internal, 1e-12 * turned_over);
+    EXPECT_NEAR(work.forces, forces, 1e-12 * turned_over);
+    const double load_now =
+        load.cwiseProduct(solver.displacements() + dt * dt / 8 * solver.accelerations()).sum();
+    EXPECT_NEAR(work.loads, load_now - load_0, 1e-12 * turned_over);
+    EXPECT_NEAR(work.internal, solver.strain_energy() - U_0, 0.05 * turned_over)
+        << "up to the error of the step";
+  }
+}
+
 TEST(ExplicitSolver, RefusesWrongArguments) {
   ExplicitSolver solver = cubes(1);
   const NodalVectors wrong = NodalVectors::Zero(3, 5);
