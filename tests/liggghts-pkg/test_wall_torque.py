@@ -53,7 +53,7 @@ TILT = np.cross((0.02, 0.004, 0.006), (-0.003, 0.02, 0.002)) / np.linalg.norm(
 FOOT = np.array((-0.012, -0.01, -0.002)) + 0.45 * np.array((0.02, 0.004, 0.006)) + 0.4 * np.array((-0.003, 0.02, 0.002))
 BALL = "units: si\ngeometry:\n  sphere: {centre: [0, 0, 0], radius: 0.01, elements: [8, 4]}\nsurfaces: {wall: all}\n"
 # off the origin, oblique, with a spin of every direction; it leaves again after some 100 steps
-OBLIQUE = (tuple((FOOT + (R + 1.1e-6) * TILT).tolist()), tuple((np.array((0.5, 0.3, 0.1)) - 1.0 * TILT).tolist()), (300.0, -400.0, 200.0))
+OBLIQUE = tuple(tuple(a.tolist()) for a in (FOOT + (R + 1.1e-6) * TILT, np.array((0.5, 0.3, 0.1)) - TILT, np.array((300.0, -400.0, 200.0))))
 TURN = "motion rotate origin 0.004 -0.002 0.003 axis 1 2 -0.5 period 0.02"
 OMEGA = 2 * math.pi / 0.02 * np.array((1, 2, -0.5)) / np.linalg.norm((1, 2, -0.5))
 CENTRE = np.array((0.004, -0.002, 0.003))

@@ -134,8 +134,8 @@ class Plate(unittest.TestCase):
         deepest = contacts[:, 1]
         jump = np.abs(np.diff(deepest)).max() / self.DT
         speed = 2 * table["fastest"].max()
-        print(f"  contacts: up to {contacts[:, 0].max():.0f} at a time; largest overlap {deepest.max():.2e} m, it changes by at most "
-              f"{jump:.2f} m/s; balls by {table['fastest'].max():.2f} m/s")
+        print(f"  contacts: up to {contacts[:, 0].max():.0f} at a time; largest overlap {deepest.max():.2e} m, "
+              f"it changes by at most {jump:.2f} m/s; balls by {table['fastest'].max():.2f} m/s")
         self.assertGreaterEqual(len(deepest), STEPS)
         self.assertGreater(contacts[:, 0].max(), 3)
         self.assertLess(jump, speed)
@@ -146,7 +146,8 @@ class Drum(unittest.TestCase):
 
     def files(self) -> dict[str, str]:
         R, L = self.R, self.L
-        drum = f"units: si\ngeometry:\n  cylinder: {{origin: [0, -0.001, 0], axis: [0, 1, 0], radius: {R}, length: {L + 0.002}, elements: [16, 4]}}\nsurfaces: {{drum: all}}\n"
+        shape = f"origin: [0, -0.001, 0], axis: [0, 1, 0], radius: {R}, length: {L + 0.002}, elements: [16, 4]"
+        drum = f"units: si\ngeometry:\n  cylinder: {{{shape}}}\nsurfaces: {{drum: all}}\n"
         plates = ""
         for y in (0.0, L):
             corners = [[x, y, z] for z in (-1.2 * R, 1.2 * R) for x in (-1.2 * R, 1.2 * R)]
@@ -178,8 +179,8 @@ class Drum(unittest.TestCase):
 
     def check_contacts(self, rows):
         n1, lo1, hi1, n2, lo2, hi2, deepest, deep = rows.T
-        print(f"  {n1.sum() + n2.sum():.0f} contacts with the walls in {len(rows)} steps looked at, each where a particle reaches beyond a wall; "
-              f"up to {n1.max():.0f} at a time, largest overlap {deepest.max():.2e} m")
+        print(f"  {n1.sum() + n2.sum():.0f} contacts with the walls in {len(rows)} steps looked at, each where a particle reaches "
+              f"beyond a wall; up to {n1.max():.0f} at a time, largest overlap {deepest.max():.2e} m")
         self.assertTrue(((lo1 <= n1) & (n1 <= hi1)).all(), "contacts with the drum")
         self.assertTrue(((lo2 <= n2) & (n2 <= hi2)).all(), "contacts with the ends")
         self.assertLessEqual(np.abs(deepest - np.maximum(deep, 0.0)).max(), 1e-14)
