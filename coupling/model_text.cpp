@@ -2,13 +2,27 @@
 #include "coupling/model_text.h"
 
 #include <filesystem>
+#include <limits>
 #include <system_error>
 
+#include "geometry_io/geometry_io.h"
 #include "nurbs/input_error.h"
 #include "nurbs/regular_file.h"
 
 namespace coupling {
 namespace {
+
+// Returns the complaint, if there is one.
+std::string read(const std::string& path, std::string& text) {
+  nurbs::FileContent content = nurbs::read_regular_file(path);
+  if (!content.problem.empty()) return "cannot read '" + path + "': " + content.problem;
+  try {
+    text = geometry_io::readable(path, std::move(content.bytes));
+  } catch (const nurbs::InputError& error) {
+    return error.what();
+  }
+  return text.size() > std::numeric_limits<int>::max() ? path + ": holds more than 2 GiB" : std::string();
+}
 
 void broadcast(MPI_Comm comm, std::string& text) {
   int length = static_cast<int>(text.size());
@@ -22,12 +36,12 @@ void broadcast(MPI_Comm comm, std::string& text) {
 std::string read_text_on_all_ranks(MPI_Comm comm, const std::string& path) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  nurbs::FileContent content;
-  if (rank == 0) content = nurbs::read_regular_file(path);
-  broadcast(comm, content.problem);
-  if (!content.problem.empty()) throw nurbs::InputError("cannot read '" + path + "': " + content.problem);
-  broadcast(comm, content.bytes);
-  return std::move(content.bytes);
+  std::string text, problem;
+  if (rank == 0) problem = read(path, text);
+  broadcast(comm, problem);
+  if (!problem.empty()) throw nurbs::InputError(problem);
+  broadcast(comm, text);
+  return text;
 }
 
 bool is_same_file(MPI_Comm comm, const std::string& path, const std::string& other) {

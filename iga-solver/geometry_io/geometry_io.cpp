@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "geometry_io/formats.h"
+#include "geometry_io/hdf5_file.h"
 #include "nurbs/regular_file.h"
 
 namespace geometry_io {
@@ -57,7 +58,11 @@ std::string read_file(const std::string& path) {
   nurbs::FileContent content = nurbs::read_regular_file(path);
   if (!content.problem.empty())
     throw nurbs::InputError(fmt::format("{}: cannot read this file: {}", path, content.problem));
-  return std::move(content.bytes);
+  return readable(path, std::move(content.bytes));
+}
+
+std::string readable(const std::string& path, std::string bytes) {
+  return input_format(path) == Format::hdf5 ? unpacked_hdf5(bytes, path) : bytes;
 }
 
 GeometryFile read_geometry(const std::string& path, const ReadFile& read, nurbs::Units units) {

@@ -20,10 +20,14 @@ const char* format_name(Format format);
 /// By the file's extension: .h5, .hdf5, .xml, .yaml or .yml.
 std::optional<Format> format_of_path(const std::string& path);
 
-/// Gives the bytes of the file at `path`; throws nurbs::InputError if it cannot.
+/// Gives the bytes of the file at `path`, or what `readable` makes of them; throws nurbs::InputError if it
+/// cannot.
 using ReadFile = std::function<std::string(const std::string& path)>;
-/// Reads in this process.
+/// Reads in this process, `readable` included.
 std::string read_file(const std::string& path);
+/// For a ReadFile on behalf of many: an HDF5 file's contents as bytes that the others parse without HDF5,
+/// which might crash on a damaged file; other files as they are.
+std::string readable(const std::string& path, std::string bytes);
 
 /// Reads a geometry file, YAML unless its extension says otherwise, and another one that it names.  `units`
 /// are those of formats that have none. Throws nurbs::InputError: one line with file and place, what was

@@ -5,45 +5,44 @@
 #include <string>
 #include <vector>
 
+#include "geometry_io/hdf5_contents.h"
 #include "geometry_io/hdf5_handle.h"
 
 namespace geometry_io {
 
-/// Values of a data set, the last index fastest.
-struct Hdf5Array {
-  std::vector<hsize_t> shape;
-  std::vector<double> values;
-};
 /// "[3][2]", or "one value".
-std::string shape_text(const std::vector<hsize_t>& shape);
+std::string shape_text(const std::vector<std::uint64_t>& shape);
 
 /// Every function throws nurbs::InputError "file: path: what is there, what is expected".
 class Hdf5Input {
  public:
+  /// An HDF5 file, or what unpacked_hdf5 makes of it.
   Hdf5Input(const std::string& bytes, std::string file);
 
   /// Attributes of the object at `path`.
-  std::string text(const std::string& path, const char* attribute) const;
+  const std::string& text(const std::string& path, const char* attribute) const;
   std::vector<int> integers(const std::string& path, const char* attribute) const;
 
-  bool has(const std::string& path) const;
+  bool has(const std::string& path) const { return contents_.count(path) > 0; }
   /// Names in a group, sorted.
   std::vector<std::string> members(const std::string& group) const;
-  Hdf5Array numbers(const std::string& data_set) const;
-  std::vector<std::string> texts(const std::string& data_set) const;
+  const Hdf5Value& numbers(const std::string& data_set) const;
+  const std::vector<std::string>& texts(const std::string& data_set) const;
 
   [[noreturn]] void fail(const std::string& path, const std::string& message) const;
 
  private:
-  struct Source;
-  Source attribute(const std::string& path, const char* name) const;
-  Source data_set(const std::string& path) const;
-  std::vector<std::string> read_texts(const Source& source) const;
+  const Hdf5Object& object(const std::string& path) const;
+  const Hdf5Value& attribute(const std::string& path, const char* name) const;
+  const Hdf5Value& data_set(const std::string& path) const;
 
-  SilentHdf5Errors silent_;
   std::string file_name_;
-  Hdf5Handle file_;
+  Hdf5Contents contents_;
 };
+
+/// The file's contents as bytes that others can parse without HDF5: by this process if this program wrote the
+/// file, else by one of its own (hdf5_process.h).  Throws nurbs::InputError.
+std::string unpacked_hdf5(const std::string& bytes, const std::string& file);
 
 /// Every function throws std::runtime_error if HDF5 fails.
 class Hdf5Output {

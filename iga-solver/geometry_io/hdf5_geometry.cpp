@@ -22,8 +22,8 @@ using nurbs::Shape;
 
 // Shape of control-point data, the first direction fastest: [n_eta][n_xi].
 template <int Dim>
-std::vector<hsize_t> net_shape(const std::array<KnotVector, Dim>& knots) {
-  std::vector<hsize_t> shape;
+std::vector<std::uint64_t> net_shape(const std::array<KnotVector, Dim>& knots) {
+  std::vector<std::uint64_t> shape;
   for (int d = Dim - 1; d >= 0; --d) shape.push_back(knots[d].control_point_count());
   return shape;
 }
@@ -39,19 +39,19 @@ auto blame(const Hdf5Input& file, const std::string& path, Build build) {
 }
 
 std::vector<double> read_net(const Hdf5Input& file, const std::string& path,
-                             const std::vector<hsize_t>& shape) {
-  Hdf5Array array = file.numbers(path);
-  if (array.shape != shape)
+                             const std::vector<std::uint64_t>& shape) {
+  const Hdf5Value& array = file.numbers(path);
+  if (!std::equal(array.shape.begin(), array.shape.end(), shape.begin(), shape.end()))
     file.fail(path, fmt::format("shape is {}, expected {} by the knots and degrees", shape_text(array.shape),
                                 shape_text(shape)));
-  return std::move(array.values);
+  return array.numbers;
 }
 
 KnotVector read_knots(const Hdf5Input& file, const std::string& path, int degree) {
-  Hdf5Array array = file.numbers(path);
+  const Hdf5Value& array = file.numbers(path);
   if (array.shape.size() != 1)
     file.fail(path, fmt::format("shape is {}, expected [number of knots]", shape_text(array.shape)));
-  return blame(file, path, [&] { return KnotVector(degree, std::move(array.values)); });
+  return blame(file, path, [&] { return KnotVector(degree, array.numbers); });
 }
 
 template <int Dim, size_t... Direction>
@@ -59,7 +59,7 @@ Patch<Dim> read_patch(const Hdf5Input& file, const std::string& path, const std:
                       std::index_sequence<Direction...>) {
   const std::array<KnotVector, Dim> knots{
       read_knots(file, path + "/" + kKnots[Direction], degrees[Direction])...};
-  std::vector<hsize_t> shape = net_shape<Dim>(knots);
+  std::vector<std::uint64_t> shape = net_shape<Dim>(knots);
   const std::string weights_path = path + "/weights";
   std::vector<double> weights;
   if (file.has(weights_path)) weights = read_net(file, weights_path, shape);
@@ -107,7 +107,8 @@ void write_patch(const Patch<Dim>& patch, const std::string& path, Hdf5Output& f
     file.add_numbers(path + "/" + kKnots[d], {knots.knots().size()}, knots.knots().data());
   }
   file.set_integers(path, "degrees", degrees);
-  std::vector<hsize_t> shape = net_shape<Dim>(patch.space.knots());
+  const std::vector<std::uint64_t> net = net_shape<Dim>(patch.space.knots());
+  std::vector<hsize_t> shape(net.begin(), net.end());
   if (patch.space.rational()) file.add_numbers(path + "/weights", shape, patch.space.weights().data());
   shape.push_back(3);
   file.add_numbers(path + "/control_points", shape, patch.control_points.data());

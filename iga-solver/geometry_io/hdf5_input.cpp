@@ -1,178 +1,139 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 
 #include "geometry_io/hdf5_file.h"
+#include "geometry_io/hdf5_process.h"
+#include "geometry_io/hdf5_seal.h"
 #include "nurbs/file_kind.h"
 #include "nurbs/input_error.h"
 
 namespace geometry_io {
-
-// An attribute or a data set, opened.
-struct Hdf5Input::Source {
-  std::string name;  // for messages
-  Hdf5Handle object, type, space;
-  herr_t (*read)(hid_t object, hid_t type, void* values);
-
-  std::vector<hsize_t> shape() const {
-    std::vector<hsize_t> shape(std::max(H5Sget_simple_extent_ndims(space), 0));
-    H5Sget_simple_extent_dims(space, shape.data(), nullptr);
-    return shape;
-  }
-  hsize_t count() const { return std::max<hssize_t>(H5Sget_simple_extent_npoints(space), 0); }
-  H5T_class_t kind() const { return H5Tget_class(type); }
-  const char* described() const {
-    switch (kind()) {
-      case H5T_INTEGER:
-        return "whole numbers";
-      case H5T_FLOAT:
-        return "numbers";
-      case H5T_STRING:
-        return "text";
-      default:
-        return "values of another type";
-    }
-  }
-};
-
 namespace {
 
-constexpr hsize_t kMaxValues = std::numeric_limits<int>::max();
+using Kind = Hdf5Value::Kind;
 
-// The file lives in memory: HDF5's "core" driver on a copy of the bytes.
-hid_t open_image(const std::string& bytes) {
-  const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  constexpr size_t kIncrement = 1 << 16;
-  H5Pset_fapl_core(access, kIncrement, false);
-  // The interface takes an image that is not const, and copies it.
-  if (H5Pset_file_image(access, const_cast<char*>(bytes.data()), bytes.size()) < 0) return H5I_INVALID_HID;
-  return H5Fopen(kNameInMemory, H5F_ACC_RDONLY, access);
+const char* described(Kind kind) {
+  switch (kind) {
+    case Kind::integers:
+      return "whole numbers";
+    case Kind::numbers:
+      return "numbers";
+    case Kind::texts:
+      return "text";
+    default:
+      return "values of another type";
+  }
 }
 
-herr_t read_data_set(hid_t object, hid_t type, void* values) {
-  return H5Dread(object, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values);
-}
-
-// Text of fixed length as it stands in its field: up to the first NUL, without the padding.
-std::string trimmed(const char* text, size_t size) {
-  std::string value(text, std::find(text, text + size, '\0'));
-  value.erase(value.find_last_not_of(' ') + 1);
-  return value;
+void expect_hdf5(const std::string& bytes, const std::string& file) {
+  if (begins_with_seal(bytes)) return;
+  const nurbs::FileKind kind = nurbs::kind_of_file(file, bytes);
+  if (kind == nurbs::FileKind::hdf5) return;
+  if (kind != nurbs::FileKind::xml && kind != nurbs::FileKind::binary)
+    nurbs::expect_kind(nurbs::FileKind::hdf5, file, bytes);
+  throw nurbs::InputError(file + ": is no HDF5 file, expected one by its name");
 }
 
 }  // namespace
 
-std::string shape_text(const std::vector<hsize_t>& shape) {
+std::string shape_text(const std::vector<std::uint64_t>& shape) {
   std::string text;
-  for (const hsize_t n : shape) text += fmt::format("[{}]", n);
+  for (const std::uint64_t n : shape) text += fmt::format("[{}]", n);
   return text.empty() ? "one value" : text;
 }
 
-Hdf5Input::Hdf5Input(const std::string& bytes, std::string file)
-    : file_name_(std::move(file)), file_(open_image(bytes), H5Fclose) {
-  if (file_ >= 0) return;
-  const nurbs::FileKind kind = nurbs::kind_of_file(file_name_, bytes);
-  if (kind != nurbs::FileKind::xml && kind != nurbs::FileKind::binary)
-    nurbs::expect_kind(nurbs::FileKind::hdf5, file_name_, bytes);
-  throw nurbs::InputError(file_name_ + (kind == nurbs::FileKind::hdf5
-                                            ? ": damaged or incomplete, HDF5 cannot open it"
-                                            : ": is no HDF5 file, expected one by its name"));
+std::string unpacked_hdf5(const std::string& bytes, const std::string& file) {
+  expect_hdf5(bytes, file);
+  try {
+    return is_sealed(bytes) ? encoded(unpack_hdf5(bytes)) : unpack_in_own_process(bytes);
+  } catch (const std::runtime_error& error) {
+    throw nurbs::InputError(nurbs::one_line(file + ": " + error.what()));
+  }
+}
+
+Hdf5Input::Hdf5Input(const std::string& bytes, std::string file) : file_name_(std::move(file)) {
+  try {
+    contents_ = decoded(is_encoded(bytes) ? bytes : unpacked_hdf5(bytes, file_name_));
+  } catch (const nurbs::InputError&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw nurbs::InputError(file_name_ + ": " + error.what());
+  }
 }
 
 void Hdf5Input::fail(const std::string& path, const std::string& message) const {
   throw nurbs::InputError(nurbs::one_line(fmt::format("{}: {}: {}", file_name_, path, message)));
 }
 
-Hdf5Input::Source Hdf5Input::attribute(const std::string& path, const char* name) const {
-  if (path != "/" && !has(path)) fail(path, "is missing");
-  if (H5Aexists_by_name(file_, path.c_str(), name, H5P_DEFAULT) <= 0)
-    fail(path, fmt::format("attribute '{}' is missing", name));
-  Hdf5Handle object(H5Aopen_by_name(file_, path.c_str(), name, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
-  Hdf5Handle type(H5Aget_type(object), H5Tclose), space(H5Aget_space(object), H5Sclose);
-  return {fmt::format("attribute '{}'", name), std::move(object), std::move(type), std::move(space), H5Aread};
+const Hdf5Object& Hdf5Input::object(const std::string& path) const {
+  const auto found = contents_.find(path);
+  if (found == contents_.end()) fail(path, "is missing");
+  return found->second;
 }
 
-Hdf5Input::Source Hdf5Input::data_set(const std::string& path) const {
-  if (!has(path)) fail(path, "is missing");
-  Hdf5Handle object(H5Dopen2(file_, path.c_str(), H5P_DEFAULT), H5Dclose);
-  if (object < 0) fail(path, "is no data set, expected one");
-  Hdf5Handle type(H5Dget_type(object), H5Tclose), space(H5Dget_space(object), H5Sclose);
-  return {path, std::move(object), std::move(type), std::move(space), read_data_set};
+const Hdf5Value& Hdf5Input::attribute(const std::string& path, const char* name) const {
+  const auto& attributes = object(path).attributes;
+  const auto found = attributes.find(name);
+  if (found == attributes.end()) fail(path, fmt::format("attribute '{}' is missing", name));
+  if (!found->second.problem.empty())
+    fail(path, fmt::format("attribute '{}' {}", name, found->second.problem));
+  return found->second;
 }
 
-std::string Hdf5Input::text(const std::string& path, const char* name) const {
-  const std::vector<std::string> texts = read_texts(attribute(path, name));
-  if (texts.size() != 1)
-    fail(path, fmt::format("attribute '{}' has {} texts, expected one", name, texts.size()));
-  return texts.front();
+const Hdf5Value& Hdf5Input::data_set(const std::string& path) const {
+  const Hdf5Object& found = object(path);
+  if (found.is_group) fail(path, "is no data set, expected one");
+  if (!found.values.problem.empty()) fail(path, found.values.problem);
+  return found.values;
 }
 
-std::vector<std::string> Hdf5Input::texts(const std::string& path) const {
-  return read_texts(data_set(path));
+const std::string& Hdf5Input::text(const std::string& path, const char* name) const {
+  const Hdf5Value& value = attribute(path, name);
+  if (value.kind != Kind::texts)
+    fail(path, fmt::format("attribute '{}' holds {}, expected text", name, described(value.kind)));
+  if (value.texts.size() != 1)
+    fail(path, fmt::format("attribute '{}' has {} texts, expected one", name, value.texts.size()));
+  return value.texts.front();
 }
 
-std::vector<std::string> Hdf5Input::read_texts(const Source& source) const {
-  if (source.kind() != H5T_STRING)
-    fail(source.name, fmt::format("holds {}, expected text", source.described()));
-  if (source.count() > kMaxValues) fail(source.name, fmt::format("{} texts, expected fewer", source.count()));
-  const size_t count = source.count();
-  std::vector<std::string> texts;
-  if (H5Tis_variable_str(source.type) > 0) {
-    std::vector<char*> read(count);
-    if (source.read(source.object, source.type, read.data()) < 0) fail(source.name, "cannot be read");
-    for (const char* one : read) texts.emplace_back(one == nullptr ? "" : one);
-    H5Dvlen_reclaim(source.type, source.space, H5P_DEFAULT, read.data());
-  } else {
-    const size_t size = H5Tget_size(source.type);
-    std::vector<char> read(count * size);
-    if (source.read(source.object, source.type, read.data()) < 0) fail(source.name, "cannot be read");
-    for (size_t i = 0; i < count; ++i) texts.push_back(trimmed(&read[i * size], size));
-  }
-  return texts;
+const std::vector<std::string>& Hdf5Input::texts(const std::string& path) const {
+  const Hdf5Value& value = data_set(path);
+  if (value.kind != Kind::texts) fail(path, fmt::format("holds {}, expected text", described(value.kind)));
+  return value.texts;
 }
 
 std::vector<int> Hdf5Input::integers(const std::string& path, const char* name) const {
-  const Source source = attribute(path, name);
-  if (source.kind() != H5T_INTEGER)
-    fail(path, fmt::format("{} holds {}, expected whole numbers", source.name, source.described()));
-  std::vector<int> values(source.count());
-  if (source.read(source.object, H5T_NATIVE_INT, values.data()) < 0)
-    fail(path, fmt::format("{} cannot be read", source.name));
-  return values;
-}
-
-bool Hdf5Input::has(const std::string& path) const {
-  // Every part of the path must be asked for: HDF5 fails on a missing one in between.
-  for (size_t end = path.find('/', 1); end != std::string::npos; end = path.find('/', end + 1))
-    if (H5Lexists(file_, path.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-  return H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
+  const Hdf5Value& value = attribute(path, name);
+  std::vector<int> integers;
+  for (const double x : value.numbers) {
+    if (!(x >= std::numeric_limits<int>::min() && x <= std::numeric_limits<int>::max()))
+      fail(path, fmt::format("attribute '{}' is {}, expected a smaller number", name, x));
+    integers.push_back(static_cast<int>(x));
+  }
+  if (value.kind != Kind::integers)
+    fail(path, fmt::format("attribute '{}' holds {}, expected whole numbers", name, described(value.kind)));
+  return integers;
 }
 
 std::vector<std::string> Hdf5Input::members(const std::string& path) const {
-  if (!has(path)) fail(path, "is missing");
-  const Hdf5Handle group(H5Gopen2(file_, path.c_str(), H5P_DEFAULT), H5Gclose);
-  if (group < 0) fail(path, "is no group, expected one");
+  if (!object(path).is_group) fail(path, "is no group, expected one");
+  const std::string start = path + "/";
   std::vector<std::string> names;
-  const auto append = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
-    static_cast<std::vector<std::string>*>(out)->emplace_back(name);
-    return 0;
-  };
-  if (H5Literate(group, H5_INDEX_NAME, H5_ITER_INC, nullptr, append, &names) < 0)
-    fail(path, "cannot be listed");
+  for (auto entry = contents_.upper_bound(start); entry != contents_.end(); ++entry) {
+    if (entry->first.compare(0, start.size(), start) != 0) break;
+    if (entry->first.find('/', start.size()) == std::string::npos)
+      names.push_back(entry->first.substr(start.size()));
+  }
   return names;
 }
 
-Hdf5Array Hdf5Input::numbers(const std::string& path) const {
-  const Source source = data_set(path);
-  if (source.kind() != H5T_FLOAT && source.kind() != H5T_INTEGER)
-    fail(path, fmt::format("holds {}, expected numbers", source.described()));
-  if (source.count() > kMaxValues)
-    fail(path, fmt::format("{} numbers, expected at most {}", source.count(), kMaxValues));
-  Hdf5Array array{source.shape(), std::vector<double>(source.count())};
-  if (source.read(source.object, H5T_NATIVE_DOUBLE, array.values.data()) < 0) fail(path, "cannot be read");
-  return array;
+const Hdf5Value& Hdf5Input::numbers(const std::string& path) const {
+  const Hdf5Value& value = data_set(path);
+  if (value.kind != Kind::numbers && value.kind != Kind::integers)
+    fail(path, fmt::format("holds {}, expected numbers", described(value.kind)));
+  return value;
 }
 
 }  // namespace geometry_io

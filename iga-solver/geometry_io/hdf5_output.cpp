@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <algorithm>
 #include <stdexcept>
 
 #include "geometry_io/hdf5_file.h"
+#include "geometry_io/hdf5_seal.h"
 
 namespace geometry_io {
 namespace {
@@ -16,13 +18,15 @@ hid_t create_in_memory() {
   const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
   constexpr size_t kIncrement = 1 << 16;
   H5Pset_fapl_core(access, kIncrement, false);
-  return H5Fcreate(kNameInMemory, H5F_ACC_TRUNC, H5P_DEFAULT, access);
+  const Hdf5Handle creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose);
+  check(H5Pset_userblock(creation, kSealSize), "leave room for a seal");
+  return H5Fcreate(kNameInMemory, H5F_ACC_TRUNC, creation, access);
 }
 
-// Text of variable length, which other programs show as text.
-Hdf5Handle text_type() {
+// Text of fixed length, with a NUL behind it: on text of variable length HDF5 crashes if the file is damaged.
+Hdf5Handle text_type(size_t longest) {
   Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  check(H5Tset_size(type, H5T_VARIABLE), "make a text type");
+  check(H5Tset_size(type, longest + 1), "make a text type");
   check(H5Tset_cset(type, H5T_CSET_UTF8), "make a text type");
   return type;
 }
@@ -35,8 +39,7 @@ Hdf5Output::Hdf5Output() : file_(create_in_memory(), H5Fclose) {
 
 void Hdf5Output::set_text(const std::string& path, const char* name, const std::string& value) {
   const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-  const char* text = value.c_str();
-  set_attribute(path, name, text_type(), space, &text);
+  set_attribute(path, name, text_type(value.size()), space, value.c_str());
 }
 
 void Hdf5Output::set_integers(const std::string& path, const char* name, const std::vector<int>& values) {
@@ -66,10 +69,15 @@ void Hdf5Output::add_numbers(const std::string& path, const std::vector<hsize_t>
 }
 
 void Hdf5Output::add_texts(const std::string& path, const std::vector<std::string>& values) {
-  std::vector<const char*> texts;
-  for (const std::string& value : values) texts.push_back(value.c_str());
-  const hsize_t count = texts.size();
-  const Hdf5Handle type = text_type(), space(H5Screate_simple(1, &count, nullptr), H5Sclose);
+  size_t longest = 0;
+  for (const std::string& value : values) longest = std::max(longest, value.size());
+  std::string texts;
+  for (std::string value : values) {
+    value.resize(longest + 1, '\0');
+    texts += value;
+  }
+  const hsize_t count = values.size();
+  const Hdf5Handle type = text_type(longest), space(H5Screate_simple(1, &count, nullptr), H5Sclose);
   add_data_set(path, type, type, space, texts.data());
 }
 
@@ -83,8 +91,10 @@ void Hdf5Output::add_data_set(const std::string& path, hid_t file_type, hid_t me
 
 std::string Hdf5Output::bytes() const {
   check(H5Fflush(file_, H5F_SCOPE_LOCAL), "finish a file");
-  std::string image(check(H5Fget_file_image(file_, nullptr, 0), "measure a file"), '\0');
-  check(H5Fget_file_image(file_, image.data(), image.size()), "copy a file");
+  const ssize_t size = check(H5Fget_file_image(file_, nullptr, 0), "measure a file");
+  std::string image(kSealSize + size, '\0');  // HDF5 leaves the user block out
+  check(H5Fget_file_image(file_, image.data() + kSealSize, size), "copy a file");
+  seal(image);
   return image;
 }
 

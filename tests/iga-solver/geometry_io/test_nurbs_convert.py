@@ -6,18 +6,21 @@ import math
 import os
 import re
 import resource
+import shutil
 import struct
 import subprocess
 import tempfile
 import unittest
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+from random import Random
 
 import h5py
 import numpy
 import yaml
 
 PROGRAM = os.environ["NURBS_CONVERT"]
+DAMAGES = [*range(12), 15, 18, 20, 30]
 FACES = ["xi-", "xi+", "eta-", "eta+", "zeta-", "zeta+"]
 SANITIZED = b"__asan_init" in Path(PROGRAM).read_bytes()  # whose shadow memory needs terabytes of addresses
 
@@ -131,9 +134,9 @@ class NurbsConvert(unittest.TestCase):
 
     def check_hdf5(self, name: str, patches: list[Patch], surfaces: dict[str, list[bytes]]) -> None:
         with h5py.File(self.folder / name) as file:
-            self.assertEqual(file.attrs["format"], "nurbs-geometry")
+            self.assertEqual(file.attrs["format"], b"nurbs-geometry")
             self.assertEqual(file.attrs["version"], 1)
-            self.assertEqual(file.attrs["units"], "cgs")
+            self.assertEqual(file.attrs["units"], b"cgs")
             for index, patch in enumerate(patches):
                 group = file[f"patches/{index}"]
                 self.assertEqual(group.attrs["degrees"].tolist(), patch.degrees)
@@ -290,6 +293,56 @@ class NurbsConvert(unittest.TestCase):
         for text in (",", ", units: si", "{units: si},", "units: si\n...\n,\n", "[" * 100000, "- " * 100000):
             with self.subTest(text[:30]):
                 self.assertRegex(self.refused(self.write("wall.yaml", text)), r"wall.yaml:\d: (broken YAML|lists or)")
+
+    def test_files_of_older_versions_are_read(self):
+        """version_1.h5: SURFACES[0] as this program wrote it when its texts had variable length."""
+        (self.folder / "in.h5").write_bytes((Path(__file__).parent / "version_1.h5").read_bytes())
+        self.convert("in.h5", "out.yaml")
+        self.check_yaml("out.yaml", SURFACES[:1], {"shell": ["all"], "b": [0]})
+
+    def test_own_files_hold_no_text_of_variable_length(self):
+        write_hdf5(self.folder / "in.h5", SURFACES, {"shell": ["0", "2"]})
+        self.convert("in.h5", "out.h5")
+        with h5py.File(self.folder / "out.h5") as file:
+            texts = [file.attrs.get_id(name).dtype for name in ("format", "units")] + [file["surfaces/shell"].dtype]
+            self.assertEqual({(dtype.kind, h5py.check_vlen_dtype(dtype)) for dtype in texts}, {("S", None)})
+
+    def test_damaged_hdf5_is_refused(self):
+        """Bytes here and there, half of them where texts of variable length lie: HDF5 itself crashes on a tenth of these."""
+        write_hdf5(self.folder / "foreign.h5", SURFACES[:1], {"shell": ["all"], "b": ["0"]})
+        self.convert("foreign.h5", "own.h5")
+        for name in ("foreign.h5", "own.h5"):
+            good = (self.folder / name).read_bytes()
+            texts = max(good.find(b"GCOL"), 0)  # the heap of these texts
+            for seed in DAMAGES:
+                random = Random(seed)
+                bad = bytearray(good)
+                for _ in range(random.choice((1, 4, 16, 64))):
+                    value = random.choice((0, 255, random.randrange(256)))
+                    bad[random.randrange(len(bad)) if random.random() < 0.5 else texts + random.randrange(200)] = value
+                (self.folder / "bad.h5").write_bytes(bad)
+                with self.subTest(name, seed=seed):
+                    done = subprocess.run([PROGRAM, "bad.h5"], cwd=self.folder, capture_output=True, check=False, timeout=300)
+                    self.assertIn(done.returncode, (0, 1))
+                    if done.returncode == 1:
+                        self.assertRegex(done.stderr, rb"\AERROR: bad.h5: [^\n]+\n\Z")
+
+    def test_values_that_no_file_can_hold(self):
+        """A data set without storage has any size; none is allocated for it."""
+        write_hdf5(self.folder / "bomb.h5", SURFACES[:1], {})
+        with h5py.File(self.folder / "bomb.h5", "r+") as file:
+            del file["patches/0/knots_xi"]
+            file["patches/0"].create_dataset("knots_xi", shape=(2**31 - 1,), chunks=(1000,), dtype="f8")
+        self.assertRegex(self.refused("bomb.h5"), "/patches/0/knots_xi: holds 2147483647 values in 0 bytes of the file")
+
+    def test_without_the_program_that_reads_foreign_files(self):
+        write_hdf5(self.folder / "foreign.h5", SURFACES[:1], {})
+        self.convert("foreign.h5", "own.h5")
+        with tempfile.TemporaryDirectory() as elsewhere:
+            alone = shutil.copy(PROGRAM, elsewhere)
+            run = lambda file: subprocess.run([alone, file], cwd=self.folder, capture_output=True, text=True, check=False)
+            self.assertEqual(run("own.h5").returncode, 0)
+            self.assertRegex(run("foreign.h5").stderr, "needs the program 'nurbs-read-hdf5' .*: No such file or directory")
 
     def test_pipes_and_devices_are_no_files(self):
         os.mkfifo(self.folder / "pipe")
