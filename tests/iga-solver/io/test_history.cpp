@@ -13,6 +13,7 @@
 namespace {
 
 using io::Vector3;
+using structure::NodalVectors;
 namespace fs = std::filesystem;
 
 // A free block falling under gravity: every quantity of the history has a closed form, which the central
@@ -108,6 +109,21 @@ TEST_F(HistoryFile, HoldsTheClosedFormOfAFallingBlockAtEveryOutputTime) {
     EXPECT_NEAR(largest[row], -w, 1e-11);
     EXPECT_NEAR(top[3 * row + 2], w, 1e-11);
   }
+}
+
+// A history that begins late: one row at once, then those of its own times, none in between.
+TEST_F(HistoryFile, BeginsAtAnyTime) {
+  const io::ModelFile model = io::parse_model_file(kFalling, "falling.yaml");
+  structure::ExplicitSolver solver = falling_block(model);
+  const NodalVectors F = NodalVectors::Zero(3, solver.solid().node_count());
+  for (int n = 0; n < 105; ++n) solver.begin_step(), solver.end_step(F);
+  io::History history({10 * kStep, base()}, model.geometry.units, model.probes);
+  run(solver, history, 20);
+  const std::vector<double> time = read_series(history.path(), "time");
+  ASSERT_EQ(time.size(), 3u);
+  EXPECT_NEAR(time[0], 105 * kStep, 1e-12);
+  EXPECT_NEAR(time[1], 110 * kStep, 1e-12);
+  EXPECT_NEAR(time[2], 120 * kStep, 1e-12);
 }
 
 // An erg is 1 g cm^2/s^2; 1 g mm^2/ms^2 = 1e-3 kg (1e-3 m)^2 / (1e-3 s)^2 = 1 mJ.

@@ -174,10 +174,12 @@ TEST(ExplicitSolver, ContinuesFromASavedStateToTheLastBit) {
   solver.initialise_forces(no_forces(solver));
   run(solver, 7);
   const std::vector<double> saved = solver.save();
+  const NodalVectors saved_positions = solver.positions();
   run(solver, 7);
   ExplicitSolver other = cubes(2);
   other.set_time_step(0.3);
   other.load(saved);
+  EXPECT_EQ(other.positions(), saved_positions);
   run(other, 7);
   EXPECT_EQ(other.save(), solver.save());
   EXPECT_EQ(other.positions(), solver.positions());

@@ -78,4 +78,17 @@ TEST(FacePoint, LiesOnTheFaceAtTheRelativeParameters) {
   EXPECT_THROW(at(Face::zeta_plus, 0.0, -0.1), std::invalid_argument);
 }
 
+// Relative parameters, whatever the knots.
+TEST(FacePoint, IsRelativeToTheKnots) {
+  const nurbs::KnotVector u = nurbs::KnotVector::uniform(2, 3, 2.0, 5.0),
+                          v = nurbs::KnotVector::uniform(1, 2, -4.0, -2.0),
+                          w = nurbs::KnotVector::uniform(2, 1, 0.0, 10.0);
+  const nurbs::Parameter<3> low =
+      structure::face_point(nurbs::Space<3>({u, v, w}), Face::eta_minus, {0.5, 0.25});
+  const nurbs::Parameter<3> high =
+      structure::face_point(nurbs::Space<3>({u, v, w}), Face::eta_plus, {0.0, 1.0});
+  EXPECT_EQ(low, (nurbs::Parameter<3>{3.5, -4.0, 2.5}));
+  EXPECT_EQ(high, (nurbs::Parameter<3>{2.0, -2.0, 10.0}));
+}
+
 }  // namespace
