@@ -27,18 +27,6 @@ std::vector<int> side_nodes(const nurbs::BoundarySurface& face, int side) {
   return nodes;
 }
 
-// Edges that only touch, as those of a slit tube, part when the solid moves: welded are those of the same
-// nodes.
-void unweld_edges_that_only_touch(const std::vector<nurbs::BoundarySurface>& faces, nurbs::Borders& borders) {
-  for (size_t p = 0; p < faces.size(); ++p)
-    for (int side = 0; side < nurbs::kSideCount; ++side) {
-      nurbs::Border& border = borders[p][side];
-      if (border.kind == nurbs::Border::welded &&
-          side_nodes(faces[p], side) != side_nodes(faces[border.patch], border.side))
-        border = nurbs::Border();
-    }
-}
-
 ContactSurface surface_of(const nurbs::Volume& volume, const std::vector<nurbs::Face>& names) {
   std::vector<nurbs::BoundarySurface> faces;
   std::vector<nurbs::Surface> patches;
@@ -50,10 +38,14 @@ ContactSurface surface_of(const nurbs::Volume& volume, const std::vector<nurbs::
     outward_sign.push_back(face.outward_sign);
     faces.push_back(face);
   }
+  // Edges that only touch, as those of a slit tube, part when the solid moves: welded are those of the same
+  // nodes.
+  const auto same_nodes = [&](int patch, int side, int other_patch, int other_side) {
+    return side_nodes(faces[patch], side) == side_nodes(faces[other_patch], other_side);
+  };
+  constexpr double kTolerance = 1e-9;
   nurbs::MultiPatch topology = nurbs::join(patches).topology;
-  nurbs::Borders borders = topology.borders();
-  unweld_edges_that_only_touch(faces, borders);
-  topology.set_borders(std::move(borders));
+  topology.set_borders(nurbs::find_borders(patches, kTolerance, {}, same_nodes));
   return {std::move(topology), SurfaceMap::selection(nodes, volume.space.control_point_count()),
           std::move(outward_sign)};
 }

@@ -188,7 +188,7 @@ bool same_orientation(int side, const Border& border) {
 }
 
 Borders find_borders(const std::vector<Surface>& patches, double relative_tolerance,
-                     const std::vector<Vector3>& periods) {
+                     const std::vector<Vector3>& periods, const MayWeld& may_weld) {
   std::vector<Vector3> translations = {Vector3::Zero()};
   for (const Vector3& period : periods) translations.insert(translations.end(), {period, -period});
   const double tolerance = relative_tolerance * diagonal(patches);
@@ -206,6 +206,7 @@ Borders find_borders(const std::vector<Surface>& patches, double relative_tolera
   for (int e = 0; e < edge_count; ++e)
     for (int f = e + 1; f < edge_count; ++f) {
       if (border_of(e).kind == Border::pole || border_of(f).kind == Border::pole) continue;
+      if (may_weld && !may_weld(e / kSideCount, e % kSideCount, f / kSideCount, f % kSideCount)) continue;
       for (const Vector3& t : translations) {
         const auto border =
             weld(edges[e], e % kSideCount, edges[f], f / kSideCount, f % kSideCount, t, tolerance);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "nurbs/patch.h"
@@ -33,9 +34,11 @@ struct Border {
 /// relative_tolerance times the diagonal of the box of all control points.  Where more than two edges share a
 /// curve, the smoothest pair welds and the others stay free.  Normals are skipped where they vanish (poles).
 /// `periods`: translations that leave the surroundings as they are; edges also weld to edges moved by one.
+/// `may_weld`: of two edges that are one curve, whether they stay so; all do unless it is given.
 using Borders = std::vector<std::array<Border, kSideCount>>;
+using MayWeld = std::function<bool(int patch, int side, int other_patch, int other_side)>;
 Borders find_borders(const std::vector<Surface>& patches, double relative_tolerance = 1e-9,
-                     const std::vector<Vector3>& periods = {});
+                     const std::vector<Vector3>& periods = {}, const MayWeld& may_weld = {});
 
 /// Whether dS/dxi x dS/deta lies on the same side of both patches beyond the border of `side`.  max_angle
 /// counts from the neighbour's normal turned to the same side.

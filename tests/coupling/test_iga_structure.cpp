@@ -119,18 +119,37 @@ TEST(IgaStructure, FacesOfABlockAreWeldedAtAllEdges) {
     }
 }
 
-// A full ring is slit: the two faces of the slit touch, but none of their edges is that of the other.
-TEST(IgaStructure, EdgesOfASlitAreNotWelded) {
-  const coupling::IgaStructure solver = whole_skin(nurbs::tube(
-      nurbs::frame({0, 0, 0}, {0, 0, 1}), 1.0, 2.0, 3.0, nurbs::arc(0, 360), {knots(2, 2), knots(2, 1)}));
-  const nurbs::MultiPatch& skin = solver.surface().topology;
-  const int slit[] = {static_cast<int>(nurbs::Face::xi_minus), static_cast<int>(nurbs::Face::xi_plus)};
-  for (int p = 0; p < 6; ++p)
+// A whole tube is slit: four faces meet there, two and two of the same nodes.  The outside goes on into the
+// end of the wall at its own side of the slit, not into itself beyond it, and so does every other edge of the
+// solid.
+TEST(IgaStructure, EdgesThatOnlyTouchAreNotWelded) {
+  using nurbs::Face;
+  nurbs::Volume tube = nurbs::tube(nurbs::frame({0, 0, 0}, {0, 0, 1}), 0.8, 1.0, 2.0,
+                                   nurbs::refined(nurbs::arc(0, 360), 8, 2), {knots(2, 3), knots(2, 2)});
+  const nurbs::Space<3> space = tube.space;
+  auto steel = std::make_shared<structure::LinearElastic>(210.6e9, 0.286, 7850.0);
+  const std::vector<Face> names{Face::xi_minus, Face::xi_plus,    Face::eta_minus,
+                                Face::eta_plus, Face::zeta_minus, Face::zeta_plus};
+  const coupling::IgaStructure solver(structure::ExplicitSolver({std::move(tube), steel}, {}), names);
+  const nurbs::MultiPatch& surface = solver.surface().topology;
+  for (int p = 0; p < surface.patch_count(); ++p)
     for (int side = 0; side < nurbs::kSideCount; ++side) {
-      const nurbs::Border& border = skin.border(p, side);
-      if (border.kind != nurbs::Border::welded) continue;
-      EXPECT_FALSE(p == border.patch) << "face " << p << " is welded to itself";
-      EXPECT_FALSE((p == slit[0] && border.patch == slit[1]) || (p == slit[1] && border.patch == slit[0]));
+      SCOPED_TRACE(testing::Message() << face_name(names[p]) << ", side " << nurbs::side_name(side));
+      const nurbs::Border& border = surface.border(p, side);
+      ASSERT_EQ(border.kind, nurbs::Border::welded);
+      EXPECT_NE(border.patch, p);
+      EXPECT_NEAR(border.max_angle, M_PI / 2, 1e-6) << "all its edges are at right angles";
+      // The nodes at the ends of both edges are the same.
+      const nurbs::BoundarySurface here = nurbs::boundary_surface(space, names[p]),
+                                   there = nurbs::boundary_surface(space, names[border.patch]);
+      const auto corner = [](const nurbs::BoundarySurface& face, int of_side, bool end) {
+        const int n = face.space.control_point_count(0), m = face.space.control_point_count(1);
+        const bool upper = of_side % 2 == 1;
+        return face.volume_control_point[of_side < 2 ? (upper ? n - 1 : 0) + n * (end ? m - 1 : 0)
+                                                     : (end ? n - 1 : 0) + n * (upper ? m - 1 : 0)];
+      };
+      for (const bool end : {false, true})
+        EXPECT_EQ(corner(here, side, end), corner(there, border.side, end != border.reversed));
     }
 }
 

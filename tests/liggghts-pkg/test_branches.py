@@ -113,6 +113,27 @@ class Corner(unittest.TestCase):
                 self.assertEqual(ours["n"].max(), 2.0)
                 self.assertLessEqual(difference(ours, stock), 1e-10)
 
+    def test_a_hundred_balls_side_by_side_do_what_one_does(self):
+        """More contacts than are resolved together, two of each ball: nobody is forgotten, nobody gets another's."""
+        count, long = 100, 0.3
+        box = BOX.replace("-0.02 0.02 -0.02 0.02", "-0.02 0.02 -0.15 0.15")
+        files = model_file(quad((0, -long / 2, 0), (L, 0, 0), (0, long, 0)), quad((0, -long / 2, 0), (0, 0, L), (0, long, 0)))
+        start = prelude((2e-3, 0.0, R), (-0.5, 0.4, 0), gravity=False, box=box)
+        more = "".join(f"create_atoms 1 single 0.002 {2.5e-3 * k!r} {R!r} units box\n" for k in range(-50, 51) if k != 0)
+        many = start.replace("set group all diameter", more + "set group all diameter", 1)
+        extremes = "".join(f"compute {name} all reduce {name} x z vx vy vz\n" for name in ("min", "max"))
+        columns = " v_n f_wall[1] f_wall[2] f_wall[3]" + "".join(f" c_{m}[{k}]" for k in range(1, 6) for m in ("min", "max"))
+        one, all_ = (run(s, nurbs() + extremes, files, steps=1600, more=columns).table for s in (start, many))
+        self.assertEqual(one["n"].max(), 2.0)
+        np.testing.assert_array_equal(all_["n"], (count + 1) * one["n"])
+        for k, name in enumerate(("x", "z", "vx", "vy", "vz"), 1):
+            scale = abs(one[name]).max()
+            for end in (f"min[{k}]", f"max[{k}]"):
+                np.testing.assert_allclose(all_[end], one[name], rtol=0, atol=1e-12 * scale, err_msg=name)
+        for k in (1, 2, 3):
+            force = one[f"wall[{k}]"]
+            np.testing.assert_allclose(all_[f"wall[{k}]"], (count + 1) * force, rtol=0, atol=1e-10 * (count + 1) * abs(force).max())
+
     def test_ranks_and_restart_keep_both_memories(self):
         """Both ranks meet in the middle of the corner; the restart falls into two contacts."""
         start = prelude((R - 1e-7, -1e-4, R - 2e-7), (0, 0.4, 0), e=0.1)  # as deep as its weight presses it

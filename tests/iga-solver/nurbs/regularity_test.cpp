@@ -130,6 +130,8 @@ TEST(Regularity, OfACreaseChangesWithTheShape) {
   Subject subject(join({sheet}));
   NodalVectors bent = sheet.control_points;
   for (Eigen::Index a = 0; a < bent.cols(); ++a) bent(2, a) = std::max(0.0, bent(0, a) - 2.0);
+  NodalVectors folded = sheet.control_points;  // flat, back on itself
+  for (Eigen::Index a = 0; a < bent.cols(); ++a) folded(0, a) = 2.0 - std::abs(folded(0, a) - 2.0);
   const Vector3 d(1.5, 1.5, 0.1);  // 0.5 from the crease at x = 2
   for (int turn = 0; turn < 3; ++turn) {
     subject.move(sheet.control_points);
@@ -138,6 +140,8 @@ TEST(Regularity, OfACreaseChangesWithTheShape) {
     EXPECT_FALSE(subject.regular(d, 1.2, {0.4, 0.4}));
     EXPECT_TRUE(subject.regular(d, 0.49, {0.4, 0.4}));
     EXPECT_FALSE(subject.regular({2.5, 1.5, 0.4}, 1.2, {0.6, 0.4})) << "from the other side";
+    subject.move(folded);
+    EXPECT_FALSE(subject.regular(d, 1.2, {0.4, 0.4}));
   }
 }
 
@@ -161,6 +165,16 @@ TEST(Regularity, FollowsAChangingShape) {
     const Vector3 end = interpolate(sheet.space, points, {0.99, 0.4});
     EXPECT_FALSE(subject.regular(end, 0.1, {0.99, 0.4})) << radius;
   }
+}
+
+TEST(Regularity, EndsAtAPole) {
+  const Surface dome =
+      sphere(frame({0, 0, 0}, {0, 0, 1}), 5.0, refined(arc(0, 360), 8, 2), refined(arc(0, 90), 8, 2));
+  const Subject subject(join({dome}));
+  const Vector3 d(0.5, 0.0, 5.4);  // outside, where the dome bends away
+  EXPECT_TRUE(subject.regular(d, 0.55, {0.01, 0.99}));
+  EXPECT_FALSE(subject.regular(d, 0.70, {0.01, 0.99}));
+  EXPECT_TRUE(subject.regular({0.6, 0.0, 6.0}, 0.55, {0.01, 0.8})) << "the next element has no pole";
 }
 
 }  // namespace
