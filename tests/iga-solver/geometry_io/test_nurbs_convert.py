@@ -298,7 +298,7 @@ class NurbsConvert(unittest.TestCase):
         """version_1.h5: SURFACES[0] as this program wrote it when its texts had variable length."""
         (self.folder / "in.h5").write_bytes((Path(__file__).parent / "version_1.h5").read_bytes())
         self.convert("in.h5", "out.yaml")
-        self.check_yaml("out.yaml", SURFACES[:1], {"shell": ["all"], "b": [0]})
+        self.check_yaml("out.yaml", SURFACES[:1], {"shell": ["all"], "b": ["all"]})
 
     def test_own_files_hold_no_text_of_variable_length(self):
         write_hdf5(self.folder / "in.h5", SURFACES, {"shell": ["0", "2"]})
