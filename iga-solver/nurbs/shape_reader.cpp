@@ -4,12 +4,23 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <limits>
+#include <new>
+
 #include "nurbs/primitives.h"
 
 namespace nurbs {
 namespace {
 
-constexpr int kMaxElements = 1000000;  // per direction; guards against a slip of the finger
+// Guards against a slip of the finger: elements of one direction, control points of a patch.
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // a fuzzer asks for every size: the same checks, sooner
+constexpr int kMaxElements = 300;
+constexpr double kMaxControlPoints = 1e4;
+#else
+constexpr int kMaxElements = 1000000;
+constexpr double kMaxControlPoints = std::numeric_limits<int>::max();
+#endif
 
 // Runs `build`; what it finds wrong with its arguments is an error of the file at `key`.
 template <class Build>
@@ -23,6 +34,15 @@ auto blame(const YamlMap& map, const std::string& key, const std::string& prefix
 
 void expect_count(const YamlMap& map, const std::string& key, size_t given, size_t expected) {
   if (given != expected) map.fail(key, fmt::format("{} is a list of {}, expected {}", key, given, expected));
+}
+
+// Before anything is allocated for them.
+void check_size(const YamlMap& map, const std::vector<int>& elements, const std::vector<int>& degrees) {
+  double count = 1.0;
+  for (size_t d = 0; d < elements.size(); ++d) count *= static_cast<double>(elements[d]) + degrees[d];
+  if (count > kMaxControlPoints)
+    map.fail("elements", fmt::format("elements are {}, about {:.3g} control points, expected at most {:.0f}",
+                                     fmt::join(elements, " x "), count, kMaxControlPoints));
 }
 
 // `degree`: one number for all directions or one for each.
@@ -50,6 +70,7 @@ std::vector<KnotVector> read_mesh(const YamlMap& map, int dim) {
   if (map.has("elements")) {
     const std::vector<int> elements = map.integers("elements", 1, kMaxElements);
     expect_count(map, "elements", elements.size(), dim);
+    check_size(map, elements, degrees);
     for (int d = 0; d < dim; ++d) knots.push_back(KnotVector::uniform(degrees[d], elements[d]));
   } else {
     const std::vector<std::vector<double>> breaks = map.table("breaks");
@@ -85,7 +106,12 @@ Shape read_rolled_plate(const YamlMap& map) {
   const std::vector<int> degrees = read_degrees(map, 3), elements = map.integers("elements", 1, kMaxElements);
   expect_count(map, "elements", elements.size(), 2);
   std::vector<Strip> strips;
-  for (const YamlMap& strip : map.list_of_maps("strips")) strips.push_back(read_strip(strip));
+  std::vector<int> sizes{0, elements[0], elements[1]};
+  for (const YamlMap& strip : map.list_of_maps("strips")) {
+    strips.push_back(read_strip(strip));
+    sizes[0] += std::min(strips.back().elements, std::numeric_limits<int>::max() - sizes[0]);
+  }
+  check_size(map, sizes, degrees);
   const Vector3 origin = map.vector3("origin");
   const double width = map.number("width", positive());
   return blame(map, "strips", "", [&] {
@@ -121,6 +147,8 @@ RoundMesh read_round_mesh(const YamlMap& map, int dim) {
   RoundMesh mesh{map.integers("elements", 1, kMaxElements), std::vector<int>(dim, 2)};
   expect_count(map, "elements", mesh.elements.size(), dim);
   if (map.has("degree")) mesh.degrees = read_degrees(map, dim);
+  // the arcs of a whole turn add a control point per joint and degree
+  check_size(map, mesh.elements, std::vector<int>(dim, 4 * kMaxDegree));
   return mesh;
 }
 
@@ -260,6 +288,17 @@ constexpr ShapeKey kShapes[] = {
     {"cone", read_cone},   {"sphere", read_sphere},
     {"torus", read_torus}, {"tube", read_tube},
 };
+Shape read_sized(const ShapeKey& shape, const YamlMap& map) {
+  try {
+    return shape.read(map);
+  } catch (const std::bad_alloc&) {
+    map.fail("elements",
+             fmt::format("no memory for a {} of {} elements", shape.key,
+                         map.is_list("elements") ? fmt::format("{}", fmt::join(map.words("elements"), " x "))
+                                                 : "so many"));
+  }
+}
+
 constexpr std::initializer_list<const char*> kKeys = {"box",    "rolled_plate", "plane", "cylinder", "cone",
                                                       "sphere", "torus",        "tube",  "patches",  "file"};
 
@@ -272,7 +311,7 @@ std::vector<Shape> read_shapes(const YamlMap& geometry) {
     geometry.fail("geometry",
                   fmt::format("{} geometries given, expected one of: {}", given, fmt::join(kKeys, ", ")));
   for (const ShapeKey& shape : kShapes)
-    if (geometry.has(shape.key)) return {shape.read(geometry.map(shape.key))};
+    if (geometry.has(shape.key)) return {read_sized(shape, geometry.map(shape.key))};
   return read_patches(geometry);
 }
 

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The entry that libFuzzer calls, and the errors that are answers.
+#include <cstddef>
+#include <cstdint>
+
+#include "fuzz_target.h"
+#include "nurbs/input_error.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    fuzz_one(std::string(reinterpret_cast<const char*>(data), size));
+  } catch (const nurbs::InputError& error) {
+    check_that(std::string(error.what()).find('\n') == std::string::npos);
+  } catch (const std::invalid_argument&) {
+  }
+  return 0;
+}
