@@ -113,10 +113,9 @@ std::vector<double> SurfaceFields::save() const {
 }
 
 void SurfaceFields::load(const std::vector<double>& state) {
-  const std::size_t expected = 1 + forces_.size() + contacts_.size();
-  if (state.size() != expected)
+  if (state.size() != state_size())
     throw std::invalid_argument("the restart file holds " + std::to_string(state.size()) +
-                                " numbers of surface fields, expected " + std::to_string(expected) +
+                                " numbers of surface fields, expected " + std::to_string(state_size()) +
                                 " for this geometry");
   samples_ = state[0];
   int rank = 0;

@@ -56,6 +56,7 @@ class SurfaceFields {
   /// throws std::invalid_argument if the size does not fit.
   std::vector<double> save() const;
   void load(const std::vector<double>& state);
+  std::size_t state_size() const { return 1 + forces_.size() + contacts_.size(); }
 
  private:
   enum Row { kNormal, kShear, kWear = kShear + 3, kRows };

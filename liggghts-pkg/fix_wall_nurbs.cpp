@@ -231,7 +231,7 @@ void FixWallNurbs::pre_force(int) {
 }
 
 void FixWallNurbs::post_force(int vflag) {
-  if (output_) output_->begin_step(update->setupflag);
+  if (output_) output_->begin_step(update->setupflag, update->get_cur_time());
   FixWallGran::post_force(vflag);  // calls post_force_primitive
   totals_are_summed_ = false;
   publish_local_rows();

@@ -37,8 +37,8 @@ WallState::Origin FixWallNurbs::origin() const {
 }
 
 void FixWallNurbs::write_restart(FILE* file) {
-  const std::vector<double> all =
-      liggghts_pkg::pack({structure_.save(), output_ ? output_->save() : std::vector<double>(), origin()});
+  const std::vector<double> fields = output_ ? output_->save(update->get_cur_time()) : std::vector<double>();
+  const std::vector<double> all = liggghts_pkg::pack({structure_.save(), fields, origin()});
   int bytes = 0;
   try {
     bytes = liggghts_pkg::restart_bytes(all.size());

@@ -37,7 +37,9 @@ WallOutput::WallOutput(MPI_Comm comm, OutputOptions options, const nurbs::MultiP
       fields_(comm, surface, control_points),
       series_(options_.file) {}
 
-void WallOutput::begin_step(bool setup) {
+void WallOutput::begin_step(bool setup, double time) {
+  if (saved_time_) earlier_ = *saved_time_ - time;
+  saved_time_.reset();
   setup_ = setup;
   sampling_ = !setup || at_beginning_;
   if (!sampling_) return;
@@ -55,12 +57,23 @@ void WallOutput::add(const coupling::SurfaceContact& contact) {
 void WallOutput::write(long step, double time, const coupling::NodalVectors& control_points,
                        const coupling::RigidFrame& frame) {
   const std::vector<vtk::PatchFields<2>> state = fields_.fields(control_points, frame, options_.fields);
-  on_first_rank(comm_, [&] { series_.write(step, time, state); });
+  on_first_rank(comm_, [&] { series_.write(step, earlier_ + time, state); });
   fields_.begin_interval();
   at_beginning_ = false;
 }
 
-void WallOutput::load(const std::vector<double>& state, long step) {
+std::vector<double> WallOutput::save(double time) const {
+  std::vector<double> state = fields_.save();
+  state.push_back(saved_time_ ? *saved_time_ : earlier_ + time);
+  return state;
+}
+
+void WallOutput::load(std::vector<double> state, long step) {
+  // Files of older versions hold no time.
+  if (state.size() == fields_.state_size() + 1) {
+    saved_time_ = state.back();
+    state.pop_back();
+  }
   fields_.load(state);
   on_first_rank(comm_, [&] { series_.resume(step); });
   at_beginning_ = false;

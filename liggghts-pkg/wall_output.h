@@ -4,6 +4,7 @@
 
 #include <mpi.h>
 
+#include <optional>
 #include <vector>
 
 #include "coupling/surface_fields.h"
@@ -21,8 +22,9 @@ class WallOutput {
   int every() const { return options_.every; }
   bool tracks_wear() const { return options_.fields.wear; }
   /// Before the contacts of a step.  The forces of setup belong to a step that has been counted, unless it is
-  /// the very first one: its contacts are the first state of the series, and wear nothing.
-  void begin_step(bool setup);
+  /// the very first one: its contacts are the first state of the series, and wear nothing.  `time` is
+  /// LIGGGHTS', which begins again at 0 with the first run after a restart file is read.
+  void begin_step(bool setup, double time);
   void add(const coupling::SurfaceContact& contact);
   /// The first state is still to be written, at the end of setup.
   bool at_beginning() const { return at_beginning_; }
@@ -32,15 +34,18 @@ class WallOutput {
   void write(long step, double time, const coupling::NodalVectors& control_points,
              const coupling::RigidFrame& frame);
 
-  /// Restart: fields since the last state, and the wear.  After load the series goes on after `step`.
-  std::vector<double> save() const { return fields_.save(); }
-  void load(const std::vector<double>& state, long step);
+  /// Restart: fields since the last state, the wear, and the series' time.  After load the series goes on
+  /// after `step`.
+  std::vector<double> save(double time) const;
+  void load(std::vector<double> state, long step);
 
  private:
   MPI_Comm comm_;
   OutputOptions options_;
   coupling::SurfaceFields fields_;
   vtk::Series series_;
+  double earlier_ = 0.0;              // time of the runs before the restart file
+  std::optional<double> saved_time_;  // of that file, until the next run begins
   bool at_beginning_ = true, sampling_ = false, setup_ = false;
 };
 
