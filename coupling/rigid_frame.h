@@ -28,13 +28,25 @@ struct RigidFrame {
   /// Largest distance between the places that a body point of the box has in the two frames [length].  The
   /// distance is a convex function of the point, so it is largest at a corner.
   double max_displacement(const RigidFrame& other, const nurbs::Box& body_bounds) const {
+    return largest_at_corners(
+        body_bounds, [&](const nurbs::Vector3& X) { return (to_space(X) - other.to_space(X)).norm(); });
+  }
+  /// Largest speed of a body point of the box [length/time].
+  double max_speed(const nurbs::Box& body_bounds) const {
+    return largest_at_corners(body_bounds,
+                              [&](const nurbs::Vector3& X) { return velocity_at(to_space(X)).norm(); });
+  }
+
+ private:
+  template <class Function>
+  static double largest_at_corners(const nurbs::Box& box, Function value_at) {
     double largest = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
       nurbs::Vector3 X;
-      for (int d = 0; d < 3; ++d) X[d] = (corner >> d) & 1 ? body_bounds.high[d] : body_bounds.low[d];
-      const double distance = (to_space(X) - other.to_space(X)).norm();
-      if (std::isnan(distance)) return distance;
-      largest = std::max(largest, distance);
+      for (int d = 0; d < 3; ++d) X[d] = (corner >> d) & 1 ? box.high[d] : box.low[d];
+      const double value = value_at(X);
+      if (std::isnan(value)) return value;
+      largest = std::max(largest, value);
     }
     return largest;
   }

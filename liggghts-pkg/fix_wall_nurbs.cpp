@@ -227,7 +227,6 @@ void FixWallNurbs::pre_force(int) {
   if (!rebuild_candidates_) return;
   rebuild_candidates_ = false;
   build_candidates();
-  count_near_particles();
 }
 
 void FixWallNurbs::post_force(int vflag) {
@@ -266,17 +265,18 @@ void FixWallNurbs::build_candidates() {
   find_slots();
   list_reach_.resize(atom->nlocal);
   radius_limit_.resize(atom->nlocal);
-  double largest = 0.0;
-  const double touch_factor = neighbor->contactDistanceFactor;
-  for (int i = 0; i < atom->nlocal; ++i) {
-    const double travel = Vector3::Map(atom->v[i]).norm() * dt_;
-    list_reach_[i] = atom->radius[i] * touch_factor + 1.5 * neighbor->skin + travel;
-    radius_limit_[i] = atom->radius[i] + 0.5 * neighbor->skin / touch_factor;
-    largest = std::max(largest, list_reach_[i]);
-  }
   if (structure_.deforms() || !candidates_.has_surface()) {
     candidates_.set_surface(surface_, exchange_.positions());
     regularity_.set_control_points(exchange_.positions());
+  }
+  wall_travel_ = largest_wall_speed() * dt_;
+  double largest = 0.0;
+  const double touch_factor = neighbor->contactDistanceFactor;
+  for (int i = 0; i < atom->nlocal; ++i) {
+    const double travel = Vector3::Map(atom->v[i]).norm() * dt_ + wall_travel_;
+    list_reach_[i] = atom->radius[i] * touch_factor + 1.5 * neighbor->skin + travel;
+    radius_limit_[i] = atom->radius[i] + 0.5 * neighbor->skin / touch_factor;
+    largest = std::max(largest, list_reach_[i]);
   }
   const std::vector<Vector3> images =
       liggghts_pkg::wall_images(*domain, candidates_.wall_bounds(), frame_, largest);
@@ -288,13 +288,12 @@ void FixWallNurbs::build_candidates() {
   tracker_.list_is_new();
   surface_motion_ = 0.0;
   forget_lost_contacts();
+  near_particles_ = static_cast<long>(candidates_.candidates().size());
 }
 
-// Collective, so not in build_candidates, which a single rank may need.
-void FixWallNurbs::count_near_particles() {
-  if (!options_.drive.servo) return;
-  const long near = static_cast<long>(candidates_.candidates().size());
-  MPI_Allreduce(&near, &near_particles_, 1, MPI_LONG, MPI_SUM, world);
+double FixWallNurbs::largest_wall_speed() const {
+  if (structure_.deforms()) return std::sqrt(exchange_.velocities().colwise().squaredNorm().maxCoeff());
+  return frame_.max_speed(candidates_.wall_bounds());
 }
 
 // The list leaves half a skin for growth.  Other fixes may change radii as late as in pre_force.

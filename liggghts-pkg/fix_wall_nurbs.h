@@ -96,7 +96,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   void weld_across_periodic_faces();
   void import_surface();
   void build_candidates();
-  void count_near_particles();
+  double largest_wall_speed() const;
   bool has_outgrown_list() const;
   void forget_lost_contacts();
   void find_properties();
@@ -162,6 +162,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
     bool stands, deforms, slides, is_turned, needs_forces;
   } now_{};                      // what the wall is and asks for in this step
   double surface_motion_ = 0.0;  // of a deforming wall since the list was built
+  double wall_travel_ = 0.0;     // in a step, when the list was built [length]
   double resolution_ = 0.0;      // a centre nearer than this is on the surface [length]
   bool surface_imported_ = false;
   bool rebuild_candidates_ = true;

@@ -34,16 +34,18 @@ inline Vector3 FixWallNurbs::wall_velocity(const SurfaceFoot& foot, const Vector
 // only where it matters.
 inline bool FixWallNurbs::may_cross(int i, const SurfaceFoot& foot) const {
   constexpr double kNear = 0.1;  // of the distance
-  return !now_.deforms || Vector3::Map(atom->v[i]).norm() * dt_ >= kNear * foot.distance;
+  return !now_.deforms || Vector3::Map(atom->v[i]).norm() * dt_ + wall_travel_ >= kNear * foot.distance;
 }
 
-// A centre that comes to the surface within one step would leave it on the other side.
+// A centre that comes to the surface within one step would leave it on the other side; one that was on the
+// other side a step ago has done so.
 inline void FixWallNurbs::check_crossing(int i, const SurfaceFoot& foot, const Vector3& delta,
                                          const Vector3& v_wall) {
   const double approach = (v_wall - Vector3::Map(atom->v[i])).dot(delta);  // times the distance
   // In this order: the sign of the approach is anyone's guess, for the processor too.
-  if (approach * dt_ >= foot.distance * foot.distance && approach > 0.0)
-    crossing_.raise(atom->tag[i], atom->radius[i], approach / foot.distance);
+  if (std::abs(approach) * dt_ >= foot.distance * foot.distance &&
+      (approach > 0.0 || (approach < 0.0 && !update->setupflag)))
+    crossing_.raise(atom->tag[i], atom->radius[i], std::abs(approach) / foot.distance);
 }
 
 namespace {

@@ -76,7 +76,12 @@ std::string LAMMPS_NS::wall_nurbs_message(const char* id, const std::string& wha
 void WallNurbsSetup::complete_servo(LAMMPS* lmp, coupling::ServoSettings& servo) {
   if (!servo.automatic) return;
   servo.automatic->smallest_radius = [lmp] { return smallest_radius(*lmp); };
-  servo.automatic->near_particles = [this] { return near_particles_; };
+  // In each step: ranks rebuild their lists when they have to, not together.
+  servo.automatic->near_particles = [this, lmp] {
+    long all;
+    MPI_Allreduce(&near_particles_, &all, 1, MPI_LONG, MPI_SUM, lmp->world);
+    return all;
+  };
 }
 
 int WallNurbsSetup::modify_drive(LAMMPS* lmp, const char* id, int narg, char** arg) {

@@ -27,7 +27,7 @@ class WallNurbsSetup {
   liggghts_pkg::WallNurbsOptions options_;
   coupling::OpenedStructure opened_;
   std::vector<char*> stock_arg_;  // points into stock_words_
-  long near_particles_ = 0;       // candidates of all ranks, for a servo in automatic mode
+  long near_particles_ = 0;       // candidates of this rank, for a servo in automatic mode
 
  private:
   void complete_servo(class LAMMPS* lmp, coupling::ServoSettings& servo);
