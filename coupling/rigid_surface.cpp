@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "nurbs/assert.h"
+
 namespace coupling {
 
 namespace {
@@ -70,6 +72,7 @@ void RigidSurface::begin_step() {
 // on the number of ranks.
 void RigidSurface::end_step(const NodalVectors& forces) {
   if (!servo_) return;
+  NURBS_ASSERT(forces.cols() == positions_.cols(), forces.cols(), positions_.cols());
   const RigidFrame& frame = body_.frame();
   const Vector3 com = frame.to_body(servo_->com());
   Vector3 force = Vector3::Zero(), torque = Vector3::Zero();

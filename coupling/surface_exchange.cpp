@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "coupling/force_distribution.h"
+#include "nurbs/assert.h"
 
 namespace coupling {
 
@@ -31,6 +32,7 @@ const NodalVectors& SurfaceExchange::export_add(const std::vector<ContactForce>&
 
   surface_forces_.setZero();
   for (const ContactForce& contact : contacts_) {
+    NURBS_ASSERT(Vector3::Map(contact.F).allFinite(), contact.tag, contact.F[0], contact.F[1], contact.F[2]);
     const FootBasis foot(solver_.surface().topology, {contact.patch, {contact.xi[0], contact.xi[1]}});
     foot.distribute(Vector3::Map(contact.F), surface_forces_);
   }
@@ -52,6 +54,7 @@ void SurfaceExchange::gather(const std::vector<ContactForce>& local) {
     offset_[rank] = total;
     total += bytes_[rank];
   }
+  NURBS_ASSERT(total % sizeof(ContactForce) == 0, total, sizeof(ContactForce));
   contacts_.resize(total / sizeof(ContactForce));
   if (total == 0) return;
   MPI_Allgatherv(local.data(), mine, MPI_BYTE, contacts_.data(), bytes_.data(), offset_.data(), MPI_BYTE,

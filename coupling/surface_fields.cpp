@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/surface_fields.h"
 
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 
+#include "nurbs/assert.h"
 #include "nurbs/coincident.h"
 #include "nurbs/control_area.h"
 
@@ -38,6 +40,7 @@ SurfaceFields::SurfaceFields(MPI_Comm comm, const nurbs::MultiPatch& surface,
 
 void SurfaceFields::add(const SurfaceContact& contact) {
   const nurbs::SurfacePoint& foot = contact.foot;
+  NURBS_ASSERT(std::abs(contact.normal.squaredNorm() - 1.0) < 1e-6, contact.normal.norm());
   const double normal_force = contact.force.dot(contact.normal);
   Eigen::Matrix<double, kRows, 1> q;
   q << -normal_force, contact.force - normal_force * contact.normal, contact.worn_volume;
@@ -56,6 +59,7 @@ Eigen::MatrixXd SurfaceFields::sum_over_ranks(const Eigen::MatrixXd& local) cons
 
 void SurfaceFields::measure(const NodalVectors& control_points) {
   if (measured_.cols() == control_points.cols() && measured_ == control_points) return;
+  NURBS_ASSERT(control_points.cols() == surface_.control_point_count(), control_points.cols());
   measured_ = control_points;
   area_.setZero(control_points.cols());
   for (int p = 0; p < surface_.patch_count(); ++p) {

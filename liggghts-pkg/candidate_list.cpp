@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "nurbs/assert.h"
+
 namespace liggghts_pkg {
 
 using nurbs::Vector3;
@@ -39,6 +41,7 @@ void CandidateList::build(const coupling::RigidFrame& frame, const std::vector<V
 double CandidateList::motion_since_build(const nurbs::NodalVectors& control_points, bool deforms,
                                          const coupling::RigidFrame& frame) const {
   if (!deforms) return frame.max_displacement(frame_at_build_, wall_bounds());
+  NURBS_ASSERT(control_points.cols() == control_points_at_build_.cols(), control_points.cols());
   return std::sqrt(
       (control_points - control_points_at_build_).colwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>());
 }

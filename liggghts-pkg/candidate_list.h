@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coupling/rigid_frame.h"
+#include "nurbs/assert.h"
 #include "nurbs/box_tree.h"
 #include "nurbs/multi_patch.h"
 
@@ -43,8 +44,14 @@ class CandidateList {
 
   const std::vector<Candidate>& candidates() const { return candidates_; }
   const std::vector<nurbs::Vector3>& images() const { return images_; }  ///< in space [length]
-  const ImageElements* image_elements(const Candidate& c) const { return &image_elements_[c.first_image]; }
-  const int* elements(const ImageElements& e) const { return elements_.data() + e.first; }
+  const ImageElements* image_elements(const Candidate& c) const {
+    NURBS_ASSERT(c.first_image + c.image_count <= static_cast<int>(image_elements_.size()), c.first_image);
+    return &image_elements_[c.first_image];
+  }
+  const int* elements(const ImageElements& e) const {
+    NURBS_ASSERT(e.first + e.count <= static_cast<int>(elements_.size()), e.first, e.count);
+    return elements_.data() + e.first;
+  }
 
   /// Largest distance that any point of the surface has moved since build, at most: a surface point is a
   /// convex combination of control points [length].

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <vector>
 
+#include "nurbs/assert.h"
 #include "nurbs/multi_patch.h"
 
 namespace liggghts_pkg {
@@ -31,6 +32,7 @@ class ContactSlot {
     return fraction == 0.0 ? 0 : fraction < 0.4 ? 1 : -1;
   }
   void set_foot(const nurbs::SurfacePoint& foot, int side) {
+    NURBS_ASSERT(foot.patch >= 0 && -1 <= side && side <= 1, foot.patch, side);
     constexpr double kFraction[] = {0.5, 0.0, 0.25};
     values_[0] = foot.patch + kFraction[1 + side];
     values_[1] = foot.xi[0];
@@ -58,7 +60,10 @@ class ContactMemory {
       : slots_(slots), particle_(particle), history_count_(history_count) {}
 
   int slot_count() const { return static_cast<int>(slots_.size()); }
-  ContactSlot slot(int s) const { return {slots_[s][particle_], history_count_}; }
+  ContactSlot slot(int s) const {
+    NURBS_ASSERT(0 <= s && s < slot_count(), s, slot_count());
+    return {slots_[s][particle_], history_count_};
+  }
   /// Index of an empty slot, -1 if there is none.
   int empty_slot() const {
     for (int s = 0; s < slot_count(); ++s)

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nurbs/assert.h"
+
 namespace liggghts_pkg {
 
 using nurbs::SurfaceFoot;
@@ -31,7 +33,9 @@ void ContactTracker::follow(const Query* queries, int count) {
   Vector3 centres[kMost];
   int n = 0;
   for (const Query* query = queries; query < queries + count; ++query) {
+    NURBS_ASSERT(query->candidate < static_cast<int>(states_.size()), query->candidate, states_.size());
     const State& state = states_[query->candidate];
+    NURBS_ASSERT(state.first + state.count <= static_cast<int>(feet_.size()), state.first, state.count);
     for (int k = 0; k < state.count; ++k) {
       if (n == kMost) search_.follow_batch(centres, feet, n), n = 0;
       feet[n] = &feet_[state.first + k].foot;
@@ -43,6 +47,7 @@ void ContactTracker::follow(const Query* queries, int count) {
 
 // Of a candidate whose branches are not followed, or not yet.
 FeetRange ContactTracker::find_feet(const Query& query, const ContactMemory& memory) {
+  NURBS_ASSERT(states_.size() == candidates_.candidates().size(), states_.size());
   const Candidate& candidate = candidates_.candidates()[query.candidate];
   State& state = states_[query.candidate];
   find_all(candidate, query, state.touched ? query.touch_reach : query.list_reach, memory, all_feet_);

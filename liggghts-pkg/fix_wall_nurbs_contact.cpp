@@ -9,6 +9,7 @@
 #include "atom.h"
 #include "coupling/force_distribution.h"
 #include "fix_wall_nurbs.h"
+#include "nurbs/assert.h"
 #include "nurbs/curvature.h"
 #include "nurbs/surface_normal.h"
 #include "update.h"
@@ -122,6 +123,8 @@ void FixWallNurbs::fail_on_contact(int i, const SurfaceFoot& foot) const {
 inline void FixWallNurbs::apply_contact(int i, TrackedFoot& tracked, const Vector3& delta,
                                         const Vector3& v_wall) {
   const SurfaceFoot& foot = tracked.foot;
+  NURBS_ASSERT(0 <= i && i < atom->nlocal, i, atom->nlocal);
+  NURBS_ASSERT(0 <= tracked.slot && tracked.slot < memory(i).slot_count(), tracked.slot);
   const Vector3 x(atom->x[i]), point = x - delta;
 
   // The models add to the particle's force; a force of zero before shows what they add.

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "nurbs/assert.h"
+
 namespace nurbs {
 namespace {
 
@@ -37,6 +39,10 @@ void differentiate(const double* U, int i, int q, const double* lower, double* u
 void evaluate_basis(const KnotVector& knots, int span, double xi, int derivatives, BasisFunctions& out) {
   const double* U = knots.knots().data();
   const int p = knots.degree();
+  NURBS_ASSERT(p <= span && span < knots.control_point_count(), span, p, knots.control_point_count());
+  NURBS_ASSERT(U[span] < U[span + 1], span, U[span], U[span + 1]);
+  NURBS_ASSERT(U[span] <= xi && xi <= U[span + 1], xi, U[span], U[span + 1]);
+  NURBS_ASSERT(0 <= derivatives && derivatives <= 2, derivatives);
   double N[kMaxDegree + 1][kMaxDegree + 1];  // N[q]: functions of degree q
   N[0][0] = 1.0;
   for (int q = 1; q < p; ++q) raise_degree(U, span, q, xi, N[q - 1], N[q]);
@@ -51,6 +57,7 @@ void evaluate_basis(const KnotVector& knots, int span, double xi, int derivative
 }
 
 void evaluate_blossom(const KnotVector& knots, int span, const double* t, double* out) {
+  NURBS_ASSERT(knots.degree() <= span && span < knots.control_point_count(), span, knots.degree());
   double lower[kMaxDegree + 1];
   out[0] = 1.0;
   for (int q = 1; q <= knots.degree(); ++q) {
@@ -60,6 +67,7 @@ void evaluate_blossom(const KnotVector& knots, int span, const double* t, double
 }
 
 double binomial(int n, int k) {
+  NURBS_ASSERT(0 <= k && k <= n, n, k);
   double value = 1.0;
   for (int i = 1; i <= k; ++i) value = value * (n - k + i) / i;
   return value;

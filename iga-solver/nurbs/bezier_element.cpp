@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "nurbs/assert.h"
+
 namespace nurbs {
 namespace {
 
@@ -27,6 +29,8 @@ struct Bernstein {
 }  // namespace
 
 void BezierElement::fetch(const Space<2>& space, const NodalVectors& control_points, int element) {
+  NURBS_ASSERT(control_points.cols() == space.control_point_count(), control_points.cols(),
+               space.control_point_count());
   const Indices<2> indices = space.element_indices(element);
   // Bezier point k of one direction is the blossom with k arguments at the element's end, the others at its
   // begin.

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "nurbs/assert.h"
 #include "nurbs/gauss_legendre.h"
 
 namespace nurbs {
@@ -24,6 +25,8 @@ double area_jacobian(const RationalBasis<2>& basis, const NodalVectors& X) {
 }  // namespace
 
 Eigen::VectorXd control_point_areas(const Space<2>& space, const NodalVectors& control_points) {
+  NURBS_ASSERT(control_points.cols() == space.control_point_count(), control_points.cols(),
+               space.control_point_count());
   Eigen::VectorXd area = Eigen::VectorXd::Zero(space.control_point_count());
   RationalBasis<2> basis;
   for (int e = 0; e < space.element_count(); ++e) {

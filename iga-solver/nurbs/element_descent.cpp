@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "nurbs/assert.h"
+
 namespace nurbs {
 namespace {
 
@@ -306,6 +308,9 @@ void ElementStore::homogeneous_points(const int (&e)[2], Vector4* out) const {
 
 void ElementStore::build(int e0, int e1, int index) const {
   if (control_points_.cols() == 0) throw std::logic_error("no control points given before the first search");
+  NURBS_ASSERT(control_points_.cols() == space_.control_point_count(), control_points_.cols(),
+               space_.control_point_count());
+  NURBS_ASSERT(0 <= e0 && e0 < count(0) && 0 <= e1 && e1 < count(1), e0, e1, count(0), count(1));
   kernel_.build(kernel_.p, kernel_.q, axis(0, e0).functions->power, axis(1, e1).functions->power, net(e0, e1),
                 row(index));
   built_[index] = version_;

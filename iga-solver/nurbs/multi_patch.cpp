@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "nurbs/assert.h"
+
 namespace nurbs {
 
 MultiPatch::MultiPatch(std::vector<Space<2>> patches, Borders borders) : patches_(std::move(patches)) {
@@ -26,12 +28,17 @@ void MultiPatch::set_borders(Borders borders) {
 }
 
 int MultiPatch::patch_of_element(int element) const {
+  NURBS_ASSERT(0 <= element && element < element_count(), element, element_count());
   const auto beyond = std::upper_bound(first_element_.begin(), first_element_.end(), element);
   return static_cast<int>(beyond - first_element_.begin()) - 1;
 }
 
 SurfacePoint MultiPatch::across(const SurfacePoint& point, int side) const {
+  NURBS_ASSERT(0 <= point.patch && point.patch < patch_count(), point.patch, patch_count());
+  NURBS_ASSERT(0 <= side && side < kSideCount, side);
   const Border& border = borders_[point.patch][side];
+  NURBS_ASSERT(border.kind == Border::welded, point.patch, side);
+  NURBS_ASSERT(on_side(point, side), side, point.xi[0], point.xi[1]);
   const KnotVector& here = patches_[point.patch].knots(1 - side / 2);
   const int along = 1 - border.side / 2;
   const KnotVector& there = patches_[border.patch].knots(along);
@@ -57,6 +64,7 @@ PatchedSurface join(const std::vector<Surface>& patches) {
 }
 
 std::vector<Surface> split(const MultiPatch& topology, const NodalVectors& control_points) {
+  NURBS_ASSERT(control_points.cols() == topology.control_point_count(), control_points.cols());
   std::vector<Surface> patches;
   for (int p = 0; p < topology.patch_count(); ++p)
     patches.push_back({topology.patch(p), topology.control_points_of(p, control_points)});

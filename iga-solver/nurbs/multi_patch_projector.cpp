@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "nurbs/assert.h"
+
 namespace nurbs {
 namespace {
 
@@ -125,6 +127,7 @@ void MultiPatchProjector::add_minima(const Vector3& d, const Vector3& image, dou
   };
   const auto first_new = static_cast<std::ptrdiff_t>(out.size());
   for (int k = 0; k < count;) {
+    NURBS_ASSERT(k == 0 || elements[k - 1] < elements[k], elements[k], k);
     const int p = surface_.patch_of_element(elements[k]);
     const int first = surface_.first_element(p), next = surface_.first_element(p + 1);
     patch_elements_.clear();

@@ -8,6 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "nurbs/assert.h"
+
 namespace nurbs {
 
 template <int Dim>
@@ -33,6 +35,7 @@ Space<Dim>::Space(std::array<KnotVector, Dim> knots, std::vector<double> weights
 
 template <int Dim>
 Indices<Dim> Space<Dim>::element_indices(int element) const {
+  NURBS_ASSERT(0 <= element && element < element_count_, element, element_count_);
   Indices<Dim> indices;
   for (int d = 0; d < Dim; ++d) {
     indices[d] = element % knots_[d].element_count();
@@ -44,7 +47,10 @@ Indices<Dim> Space<Dim>::element_indices(int element) const {
 template <int Dim>
 int Space<Dim>::element_index(const Indices<Dim>& indices) const {
   int element = 0;
-  for (int d = Dim - 1; d >= 0; --d) element = element * knots_[d].element_count() + indices[d];
+  for (int d = Dim - 1; d >= 0; --d) {
+    NURBS_ASSERT(0 <= indices[d] && indices[d] < knots_[d].element_count(), d, indices[d]);
+    element = element * knots_[d].element_count() + indices[d];
+  }
   return element;
 }
 
@@ -170,6 +176,7 @@ void evaluate(const Space<Dim>& space, const Parameter<Dim>& xi, int derivatives
   Parameter<Dim> inside;
   Indices<Dim> spans;
   for (int d = 0; d < Dim; ++d) {
+    NURBS_ASSERT(!std::isnan(xi[d]), d, xi[d]);
     inside[d] = std::clamp(xi[d], space.knots(d).front(), space.knots(d).back());
     spans[d] = space.knots(d).find_span(inside[d]);
   }
@@ -188,12 +195,14 @@ void evaluate_on_element(const Space<Dim>& space, int element, const Parameter<D
 template <int Dim>
 Vector3 interpolate(const RationalBasis<Dim>& basis, const NodalVectors& q) {
   Vector3 sum = Vector3::Zero();
+  NURBS_ASSERT(basis.control_point[basis.count - 1] < q.cols(), basis.count, q.cols());
   for (int a = 0; a < basis.count; ++a) sum += basis.R[a] * q.col(basis.control_point[a]);
   return sum;
 }
 
 template <int Dim>
 Vector3 interpolate(const Space<Dim>& space, const NodalVectors& q, const Parameter<Dim>& xi) {
+  NURBS_ASSERT(q.cols() == space.control_point_count(), q.cols(), space.control_point_count());
   RationalBasis<Dim> basis;
   evaluate(space, xi, 0, basis);
   return interpolate(basis, q);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nurbs/assert.h"
 #include "nurbs/distance_polynomial.h"
 
 namespace nurbs {
@@ -54,6 +55,7 @@ void SurfaceProjector::search_elements(const int* elements, int count, Search& s
 }
 
 const Box& SurfaceProjector::box(int element) const {
+  NURBS_ASSERT(0 <= element && element < space_.element_count(), element, space_.element_count());
   if (box_version_[element] != version_) {
     boxes_[element] = element_box(space_, elements_.control_points(), element);
     box_version_[element] = version_;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "nurbs/assert.h"
 #include "structure/stable_time_step.h"
 
 namespace structure {
@@ -106,6 +107,7 @@ void ExplicitSolver::update_accelerations(const NodalVectors& F) {
   solid_.internal_force(u_, f_int_);
   F_ = F;
   residual_ = f_ext_ + F_ - f_int_;
+  NURBS_ASSERT(residual_.cols() == mass_->nodal_mass().size(), residual_.cols(), mass_->nodal_mass().size());
   mass_->apply_inverse_mass(residual_, a_);
   supports_.apply(a_);
 }

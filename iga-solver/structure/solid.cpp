@@ -8,6 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "nurbs/assert.h"
 #include "nurbs/gauss_legendre.h"
 
 namespace structure {
@@ -89,6 +90,7 @@ void Solid::integrate_point(int element, int point, const nurbs::Parameter<3>& x
 }
 
 ElementGeometry Solid::geometry(int element) const {
+  NURBS_ASSERT(0 <= element && element < patch_.space.element_count(), element);
   const std::size_t first_point = std::size_t(element) * points_;
   return {&dR_dX_[first_point * 3 * padded_], &wJ_[first_point], points_, padded_};
 }
@@ -96,6 +98,7 @@ ElementGeometry Solid::geometry(int element) const {
 double Solid::volume() const { return std::accumulate(wJ_.begin(), wJ_.end(), 0.0); }
 
 void Solid::gather(int element, const NodalVectors& nodal, double* values) const {
+  NURBS_ASSERT(nodal.cols() == node_count(), nodal.cols(), node_count());
   const int* nodes = element_nodes(element);
   for (int i = 0; i < 3; ++i) {
     for (int a = 0; a < functions_; ++a) values[i * padded_ + a] = nodal(i, nodes[a]);
@@ -112,6 +115,7 @@ double Solid::smallest_volume_ratio(int element, const double* u) const {
 }
 
 void Solid::internal_force(const NodalVectors& u, NodalVectors& f) const {
+  NURBS_ASSERT(u.cols() == node_count() && f.cols() == node_count(), u.cols(), f.cols(), node_count());
   double u_element[kMaxElementValues], f_element[kMaxElementValues];
   f.setZero();
   for (int e = 0; e < patch_.space.element_count(); ++e) {

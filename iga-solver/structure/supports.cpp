@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "nurbs/assert.h"
+
 namespace structure {
 
 void Supports::fix(const nurbs::Space<3>& volume, nurbs::Face face, const Directions& directions) {
@@ -14,6 +16,7 @@ void Supports::fix(const nurbs::Space<3>& volume, nurbs::Face face, const Direct
 }
 
 void Supports::apply(NodalVectors& values) const {
+  NURBS_ASSERT(dofs_.empty() || dofs_.back() < values.size(), values.size());
   for (int dof : dofs_) values.data()[dof] = 0.0;
 }
 
