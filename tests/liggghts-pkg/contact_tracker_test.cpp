@@ -183,6 +183,40 @@ TEST(ContactTracker, SlotsStayWithTheirSideOfAKink) {
   }
 }
 
+// In the trough z = x^2 a particle above the centre of curvature (0, 1/2) has a foot on each side; as it
+// sinks they grow together, and one of their slots is given back.
+TEST(ContactTracker, BranchesGrowTogether) {
+  nurbs::Surface trough = plate({-2, -2, 0}, {4, 0, 0}, {0, 4, 0});
+  const std::vector<double> u = trough.space.knots(0).greville();
+  for (Eigen::Index a = 0; a < trough.control_points.cols(); ++a) {
+    // Of x^2 on uniform parabolas: the product of the two knots that a Greville abscissa is the mean of.
+    const int i = static_cast<int>(a % static_cast<Eigen::Index>(u.size()));
+    const std::vector<double>& t = trough.space.knots(0).knots();
+    trough.control_points(2, a) = (4.0 * t[i + 1] - 2.0) * (4.0 * t[i + 2] - 2.0);
+  }
+  for (const double image : {0.0, -20.0})  // the wall itself, or a copy of it below
+    for (const bool rises : {false, true}) {
+      const Vector3 shift(0, 0, image);
+      const double from = rises ? 0.33 : 1.08, way = rises ? 0.05 : -0.05;
+      Scene scene({trough}, {Vector3(0, 0.1, from) + shift, Vector3(0, 0.3, from) + shift}, 1.2, 1.4,
+                  {shift});
+      for (int step = 0; step < 16; ++step) {
+        const double z = from + way * step;
+        for (Vector3& centre : scene.centres()) centre[2] = z + image;
+        scene.step(64, [&](int particle, const FeetRange& feet) {
+          SCOPED_TRACE(testing::Message() << "particle " << particle << " at " << z << ", image " << image);
+          ASSERT_EQ(feet.count, z > 0.5 ? 2 : 1);
+          const double x2 = std::max(z - 0.5, 0.0);
+          for (const TrackedFoot& tracked : feet)
+            EXPECT_NEAR(tracked.foot.distance, std::sqrt(x2 + (z - x2) * (z - x2)), 1e-9);
+          int used = 0;
+          for (int s = 0; s < 2; ++s) used += !scene.memory(particle).slot(s).empty();
+          EXPECT_EQ(used, feet.count);
+        });
+      }
+    }
+}
+
 // A saw of period 1: ridges in the middle of the wall, valleys where it meets its own image.  In a valley one
 // foot is on each; above a ridge and above a valley's end each minimum counts once, though two images have
 // it.

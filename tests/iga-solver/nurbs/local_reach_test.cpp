@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nurbs/curvature.h"
 #include "nurbs/primitives.h"
 #include "shapes.h"
 
@@ -130,6 +131,39 @@ TEST(LocalReach, SlowParametersAndTwist) {
     const int e[2] = {0, 0};
     EXPECT_GT(reach(0, e, surface.control_points), 0.001);
     for (int k = 0; k < 100; ++k) expect_nearest(random, surface, reach, 0, e);
+  }
+}
+
+// A sheet bent at one of its four rims alone: no reach of a window there exceeds the radius of curvature,
+// elsewhere nothing bounds it.  Asked of one block after the other, each has its own answer.
+TEST(LocalReach, OfASheetBentAtOneRim) {
+  const Surface sheet =
+      plane({0, 0, 0}, {12, 0, 0}, {0, 12, 0}, {KnotVector::uniform(2, 12), KnotVector::uniform(2, 12)});
+  const int n = sheet.space.control_point_count(0);
+  for (int side = 0; side < 4; ++side) {
+    NodalVectors points = sheet.control_points;
+    for (Eigen::Index a = 0; a < points.cols(); ++a) {
+      const int place = static_cast<int>(side < 2 ? a % n : a / n);
+      if (place == (side % 2 == 0 ? 0 : n - 1)) points(2, a) = 0.2;
+    }
+    const MultiPatch patch({sheet.space});
+    const LocalReach reach(sheet.space);
+    for (int f = 0; f < 12; ++f)
+      for (int e = 0; e < 12; ++e) {
+        SCOPED_TRACE(testing::Message() << "side " << side << ", element " << e << ", " << f);
+        const int at[2] = {e, f}, from_rim = side % 2 == 0 ? at[side / 2] : 11 - at[side / 2];
+        const double r = reach(0, at, points);
+        if (from_rim > 1) {
+          EXPECT_GT(r, 1e12);
+          continue;
+        }
+        Parameter<2> rim{(e + 0.5) / 12.0, (f + 0.5) / 12.0};
+        rim[side / 2] = side % 2;
+        const SurfaceShape shape = shape_at(patch, points, {0, rim});
+        const double curvature = std::max(std::abs(shape.curvature[0]), std::abs(shape.curvature[1]));
+        EXPECT_GT(curvature, 0.1);
+        EXPECT_LE(r, 1.0 / curvature);
+      }
   }
 }
 
