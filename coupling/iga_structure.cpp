@@ -53,11 +53,27 @@ ContactSurface surface_of(const nurbs::Volume& volume, const std::vector<nurbs::
 }  // namespace
 
 IgaStructure::IgaStructure(structure::ExplicitSolver solver, const std::vector<nurbs::Face>& faces,
-                           std::vector<structure::Probe> probes)
+                           std::vector<structure::Probe> probes, std::optional<Vector3> gravity)
     : solver_(std::move(solver)),
       faces_(faces),
       surface_(surface_of(solver_.solid().patch(), faces)),
-      probes_(std::move(probes)) {}
+      probes_(std::move(probes)),
+      gravity_(gravity) {}
+
+void IgaStructure::initialise_forces(const NodalVectors& forces) {
+  solver_.initialise_forces(forces);
+  if (history_) history_->record_if_due(solver_);
+}
+
+void IgaStructure::end_step(const NodalVectors& forces) {
+  solver_.end_step(forces);
+  if (history_) history_->record_if_due(solver_);
+}
+
+void IgaStructure::load(const std::vector<double>& state) {
+  solver_.load(state);
+  if (history_) history_->resume();
+}
 
 void IgaStructure::set_time_step(double dt) {
   const double stable = solver_.stable_time_step();

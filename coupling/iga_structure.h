@@ -2,9 +2,12 @@
 // iga-solver's explicit solid behind the port.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "coupling/shared_history.h"
 #include "coupling/structure_solver.h"
 #include "nurbs/boundary.h"
 #include "structure/explicit_solver.h"
@@ -16,15 +19,17 @@ class IgaStructure final : public StructureSolver {
  public:
   /// Particles see the given faces of the solver's volume patch; faces that share an edge are welded there.
   IgaStructure(structure::ExplicitSolver solver, const std::vector<nurbs::Face>& faces,
-               std::vector<structure::Probe> probes = {});
+               std::vector<structure::Probe> probes = {}, std::optional<Vector3> gravity = {});
+  /// From now on writes histories; before the first run.
+  void write_history(SharedHistory history) { history_.emplace(std::move(history)); }
 
   const ContactSurface& surface() const override { return surface_; }
   const NodalVectors& positions() const override { return solver_.positions(); }
   const NodalVectors& velocities() const override { return solver_.velocities(); }
 
-  void initialise_forces(const NodalVectors& forces) override { solver_.initialise_forces(forces); }
+  void initialise_forces(const NodalVectors& forces) override;
   void begin_step() override { solver_.begin_step(); }
-  void end_step(const NodalVectors& forces) override { solver_.end_step(forces); }
+  void end_step(const NodalVectors& forces) override;
   /// Also throws if dt is above structure::kStableStepSafety of the stable step, naming both numbers.
   void set_time_step(double dt) override;
   double stable_time_step() const override { return solver_.stable_time_step(); }
@@ -37,9 +42,10 @@ class IgaStructure final : public StructureSolver {
   Vector3 linear_momentum() const override { return solver_.linear_momentum(); }
   Vector3 angular_momentum(const Vector3& about) const override { return solver_.angular_momentum(about); }
   std::optional<SurfaceMaterial> material() const override;
+  std::optional<Vector3> gravity() const override { return gravity_; }
   std::vector<Probe> probes() const override;
   std::vector<double> save() const override { return solver_.save(); }
-  void load(const std::vector<double>& state) override { solver_.load(state); }
+  void load(const std::vector<double>& state) override;
   Fingerprint fingerprint() const override;
 
  private:
@@ -47,6 +53,8 @@ class IgaStructure final : public StructureSolver {
   std::vector<nurbs::Face> faces_;
   ContactSurface surface_;
   std::vector<structure::Probe> probes_;
+  std::optional<Vector3> gravity_;
+  std::optional<SharedHistory> history_;
 };
 
 }  // namespace coupling

@@ -13,7 +13,10 @@ OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const
   nurbs::named_surface(model.geometry, surface, path);  // complains about a name that is not there
   std::vector<nurbs::Face> faces;
   for (const nurbs::SurfacePiece& piece : model.geometry.surfaces.at(surface)) faces.push_back(*piece.face);
-  return {std::make_unique<IgaStructure>(io::build_solver(model), faces, model.probes), model.geometry.units};
+  auto solver = std::make_unique<IgaStructure>(io::build_solver(model), faces, model.probes, model.gravity);
+  if (model.output)
+    solver->write_history(SharedHistory(comm, *model.output, model.geometry.units, model.probes));
+  return {std::move(solver), model.geometry.units};
 }
 
 }  // namespace coupling

@@ -82,6 +82,8 @@ class StructureSolver {
   virtual Vector3 linear_momentum() const = 0;            ///< sum m_A v_A
   virtual Vector3 angular_momentum(const Vector3& about) const = 0;  ///< sum (x_A - about) x m_A v_A
   virtual std::optional<SurfaceMaterial> material() const = 0;
+  /// Gravity among its own loads [length/time^2]; nothing if they have none.
+  virtual std::optional<Vector3> gravity() const { return std::nullopt; }
   virtual std::vector<Probe> probes() const = 0;
 
   /// The state as numbers, for restart files; load throws std::invalid_argument if the size does not fit.

@@ -205,6 +205,13 @@ void FixWallNurbs::setup(int vflag) {
   FixWallGran::setup(vflag);  // pre_neighbor, pre_force, post_force
   if (structure_.moves()) advance([this] { structure_.initialise_forces(*nodal_forces_); });
   if (output_ && output_->at_beginning()) end_of_step();
+  warn_of_missing_gravity();
+}
+
+void FixWallNurbs::warn_of_missing_gravity() {
+  const std::string missing = liggghts_pkg::missing_gravity(*modify, structure_, options_.file);
+  if (!missing.empty() && !warned_of_gravity_) warn(missing);
+  warned_of_gravity_ = !missing.empty();
 }
 
 void FixWallNurbs::initial_integrate(int) {

@@ -93,6 +93,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   template <class Action>
   void advance(Action action);  // of the structure
   [[noreturn]] void fail_in_step(const std::string& problem) const;
+  void warn_of_missing_gravity();
   void weld_across_periodic_faces();
   void import_surface();
   void build_candidates();
@@ -164,7 +165,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   double surface_motion_ = 0.0;  // of a deforming wall since the list was built
   double wall_travel_ = 0.0;     // in a step, when the list was built [length]
   double resolution_ = 0.0;      // a centre nearer than this is on the surface [length]
-  bool surface_imported_ = false;
+  bool surface_imported_ = false, warned_of_gravity_ = false;
   bool rebuild_candidates_ = true;
 
   std::vector<std::string> slot_ids_;              // the particles' contact memory, each a fix property/atom

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
+#include <vector>
 
+#include "fix_gravity.h"
 #include "fix_property_global.h"
 #include "modify.h"
 #include "update.h"
@@ -29,6 +31,11 @@ void check_property(LAMMPS_NS::Modify& modify, const char* property, int wall_ty
         property, wall_type, deck_value, model_value, file));
 }
 
+// LIGGGHTS tells a gravity's value, but not whether it is one for ever.
+struct DeckGravity : LAMMPS_NS::FixGravity {
+  static bool varies(const LAMMPS_NS::FixGravity& gravity) { return gravity.*(&DeckGravity::varflag) != 0; }
+};
+
 }  // namespace
 
 void check_run_style(const LAMMPS_NS::Update& update) {
@@ -43,6 +50,34 @@ void check_wall_material(LAMMPS_NS::Modify& modify, int wall_type,
   if (!material) return;
   check_property(modify, "youngsModulus", wall_type, material->youngs_modulus, file);
   check_property(modify, "poissonsRatio", wall_type, material->poissons_ratio, file);
+}
+
+std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::StructureSolver& structure,
+                            const std::string& file) {
+  if (!structure.deforms() || structure.gravity()) return "";
+  double sum[3] = {0.0, 0.0, 0.0};
+  std::vector<std::string> ids;
+  bool varies = false;
+  for (int i = 0; i < modify.nfix; ++i) {
+    if (std::strcmp(modify.fix[i]->style, "gravity") != 0) continue;
+    auto* const gravity = static_cast<LAMMPS_NS::FixGravity*>(modify.fix[i]);
+    double g[3];
+    gravity->get_gravity(g);
+    for (int d = 0; d < 3; ++d) sum[d] += g[d];
+    ids.emplace_back(gravity->id);
+    varies |= DeckGravity::varies(*gravity);
+  }
+  const std::string whose = fmt::format("fix gravity (id {}) acts on particles alone", fmt::join(ids, ", "));
+  if (varies)
+    return fmt::format(
+        "{}; it varies, so that the solid in '{}' cannot have it: if that is meant add the line 'loads: "
+        "{{gravity: [0, 0, 0]}}' to that file",
+        whose, file);
+  if (sum[0] == 0.0 && sum[1] == 0.0 && sum[2] == 0.0) return "";
+  return fmt::format(
+      "{}; for the solid add the line 'loads: {{gravity: [{:.10g}, {:.10g}, {:.10g}]}}' to '{}', or this "
+      "gravity to the loads that it has; [0, 0, 0] if the solid shall have none",
+      whose, sum[0] + 0.0, sum[1] + 0.0, sum[2] + 0.0, file);
 }
 
 }  // namespace liggghts_pkg

@@ -23,4 +23,9 @@ void check_run_style(const LAMMPS_NS::Update& update);
 void check_wall_material(LAMMPS_NS::Modify& modify, int wall_type,
                          const std::optional<coupling::SurfaceMaterial>& material, const std::string& file);
 
+/// What to tell the user if `fix gravity` pulls at the particles, and nothing at the solid that they hit: the
+/// line that its file lacks.  Empty if all is well.  In setup: the deck's gravity is known only then.
+std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::StructureSolver& structure,
+                            const std::string& file);
+
 }  // namespace liggghts_pkg

@@ -1,34 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "wall_output.h"
 
-#include <stdexcept>
-#include <string>
 #include <utility>
+
+#include "coupling/on_first_rank.h"
 
 namespace liggghts_pkg {
 
-namespace {
-
-// Rank 0 acts; if it fails every rank throws.
-template <class Action>
-void on_first_rank(MPI_Comm comm, Action action) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
-  std::string problem;
-  if (rank == 0) try {
-      action();
-    } catch (const std::exception& caught) {
-      problem = caught.what();
-    }
-  int length = static_cast<int>(problem.size());
-  MPI_Bcast(&length, 1, MPI_INT, 0, comm);
-  if (length == 0) return;
-  problem.resize(length);
-  MPI_Bcast(problem.data(), length, MPI_CHAR, 0, comm);
-  throw std::runtime_error(problem);
-}
-
-}  // namespace
+using coupling::on_first_rank;
 
 WallOutput::WallOutput(MPI_Comm comm, OutputOptions options, const nurbs::MultiPatch& surface,
                        const coupling::NodalVectors& control_points)

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/history.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <filesystem>
+#include <stdexcept>
 
 #include "io/series_file.h"
 
@@ -33,28 +37,82 @@ struct History::Writer {
   int time, kinetic_energy, strain_energy, load_work, linear_momentum, angular_momentum, largest_displacement;
   std::vector<int> probe_displacement;
 
-  Writer(const std::string& path, nurbs::Units units, std::vector<structure::Probe> probes_in)
-      : file(path), probes(std::move(probes_in)) {
+  Writer(SeriesFile file_in, std::vector<structure::Probe> probes_in)
+      : file(std::move(file_in)), probes(std::move(probes_in)) {}
+
+  /// `series(name, width, unit)` gives a series' index.
+  template <class Series>
+  void take_series(nurbs::Units units, Series series) {
     const UnitNames unit = unit_names(units);
-    file.set_attribute("units", nurbs::units_name(units));
-    time = file.add_series("time", 1, unit.time);
-    kinetic_energy = file.add_series("kinetic_energy", 1, unit.energy);
-    strain_energy = file.add_series("strain_energy", 1, unit.energy);
-    load_work = file.add_series("load_work", 1, unit.energy);
-    linear_momentum = file.add_series("linear_momentum", 3, unit.momentum);
-    angular_momentum = file.add_series("angular_momentum", 3, unit.angular_momentum);
-    largest_displacement = file.add_series("largest_displacement", 1, unit.length);
+    time = series("time", 1, unit.time);
+    kinetic_energy = series("kinetic_energy", 1, unit.energy);
+    strain_energy = series("strain_energy", 1, unit.energy);
+    load_work = series("load_work", 1, unit.energy);
+    linear_momentum = series("linear_momentum", 3, unit.momentum);
+    angular_momentum = series("angular_momentum", 3, unit.angular_momentum);
+    largest_displacement = series("largest_displacement", 1, unit.length);
     for (const structure::Probe& probe : probes)
-      probe_displacement.push_back(file.add_series("probes/" + probe.name, 3, unit.length));
+      probe_displacement.push_back(series("probes/" + probe.name, 3, unit.length));
+  }
+  void add_series(nurbs::Units units) {
+    file.set_attribute("units", nurbs::units_name(units));
+    take_series(units, [&](const std::string& name, int width, const char* unit) {
+      return file.add_series(name, width, unit);
+    });
+  }
+  /// Rows after `end` are dropped; the time of the last that is left.
+  std::optional<double> find_series(nurbs::Units units, double end) {
+    if (file.attribute("units") != nurbs::units_name(units))
+      throw std::runtime_error(fmt::format("{}: units are '{}', expected '{}'", file.path(),
+                                           file.attribute("units"), nurbs::units_name(units)));
+    take_series(units, [&](const std::string& name, int width, const char*) {
+      return file.find_series(name, width);
+    });
+    const std::vector<double> times = file.values(time);
+    hsize_t rows = 0;
+    while (rows < file.rows() && times[rows] <= end) ++rows;
+    file.keep_rows(rows);
+    if (rows == 0) return {};
+    return times[rows - 1];
   }
 
   void append(int series, double value) { file.append(series, &value); }
   void append(int series, const Vector3& value) { file.append(series, value.data()); }
 };
 
+OutputTimes::OutputTimes(double every, std::optional<double> last)
+    : every_(every), next_time_(last ? every * (std::round(*last / every) + 1.0) : 0.0), last_(last) {}
+
+bool OutputTimes::take(const structure::ExplicitSolver& solver) {
+  const double reached = solver.time() + 0.5 * solver.time_step();
+  if (reached < next_time_ || (last_ && solver.time() <= *last_)) return false;
+  next_time_ = every_ * (std::floor(reached / every_) + 1.0);
+  return true;
+}
+
+History::History(std::unique_ptr<Writer> writer, double every, std::optional<double> last_time)
+    : writer_(std::move(writer)), last_time_(last_time), times_(every, last_time) {}
+
 History::History(const HistoryOutput& output, nurbs::Units units, std::vector<structure::Probe> probes)
-    : writer_(std::make_unique<Writer>(output.file + ".h5", units, std::move(probes))),
-      every_(output.every) {}
+    : History(std::make_unique<Writer>(SeriesFile(output.file + ".h5"), std::move(probes)), output.every,
+              {}) {
+  writer_->add_series(units);
+}
+
+History History::resume(const HistoryOutput& output, nurbs::Units units, std::vector<structure::Probe> probes,
+                        double time) {
+  const std::string path = output.file + ".h5";
+  if (!std::filesystem::exists(path)) return {output, units, std::move(probes)};
+  try {
+    auto writer = std::make_unique<Writer>(SeriesFile::open(path), std::move(probes));
+    const std::optional<double> last = writer->find_series(units, time);
+    return {std::move(writer), output.every, last};
+  } catch (const std::runtime_error& problem) {
+    throw std::runtime_error(fmt::format(
+        "{}; a restarted run goes on with the history of this name: move the file away, or name another",
+        problem.what()));
+  }
+}
 
 History::~History() = default;
 History::History(History&&) noexcept = default;
@@ -62,10 +120,7 @@ History::History(History&&) noexcept = default;
 const std::string& History::path() const { return writer_->file.path(); }
 
 void History::record_if_due(const structure::ExplicitSolver& solver) {
-  const double reached = solver.time() + 0.5 * solver.time_step();
-  if (reached < next_time_) return;
-  record(solver);
-  next_time_ = every_ * (std::floor(reached / every_) + 1.0);
+  if (times_.take(solver)) record(solver);
 }
 
 void History::record(const structure::ExplicitSolver& solver) {
@@ -80,6 +135,7 @@ void History::record(const structure::ExplicitSolver& solver) {
   for (std::size_t i = 0; i < w.probes.size(); ++i)
     w.append(w.probe_displacement[i], solver.displacement(w.probes[i].xi));
   w.file.flush();
+  last_time_ = solver.time();
 }
 
 }  // namespace io

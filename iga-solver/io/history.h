@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,11 +11,29 @@
 
 namespace io {
 
+/// Times 0, every, 2 every, ..., each met by the nearest step.
+class OutputTimes {
+ public:
+  /// `last`: the time of a row that is there already.
+  explicit OutputTimes(double every, std::optional<double> last = {});
+  /// Whether the solver has reached the next one, to within half a step; if so, it lies behind from now on.
+  bool take(const structure::ExplicitSolver& solver);
+
+ private:
+  double every_, next_time_ = 0.0;
+  std::optional<double> last_;
+};
+
 class History {
  public:
   /// Creates `<output.file>.h5`, replacing an older one.  Throws std::runtime_error, naming the file, if that
   /// fails.
   History(const HistoryOutput& output, nurbs::Units units, std::vector<structure::Probe> probes);
+  /// Goes on with the file of an earlier run, from `time`: later rows are dropped, and come anew.  Without
+  /// such a file as above.  Throws std::runtime_error if it is the file of something else, which it leaves as
+  /// it is.
+  static History resume(const HistoryOutput& output, nurbs::Units units, std::vector<structure::Probe> probes,
+                        double time);
   ~History();
   History(History&&) noexcept;
 
@@ -23,12 +42,16 @@ class History {
   /// Appends a row and flushes: what was recorded survives a killed run.
   void record(const structure::ExplicitSolver& solver);
   const std::string& path() const;
+  /// Time of the last row, if there is one.
+  std::optional<double> last_time() const { return last_time_; }
 
  private:
   struct Writer;
+  History(std::unique_ptr<Writer> writer, double every, std::optional<double> last_time);
+
   std::unique_ptr<Writer> writer_;
-  double every_;
-  double next_time_ = 0.0;
+  std::optional<double> last_time_;
+  OutputTimes times_;
 };
 
 }  // namespace io

@@ -105,7 +105,7 @@ ModelFile read_required(const YamlMap& document, const geometry_io::ReadFile& re
                   {},
                   {},
                   {},
-                  Vector3::Zero(),
+                  {},
                   {},
                   Vector3::Zero(),
                   {}};
@@ -156,7 +156,8 @@ structure::ExplicitSolver build_solver(const ModelFile& model) {
     for (nurbs::Face face : fixed.faces) supports.fix(volume.space, face, fixed.directions);
   try {
     structure::ExplicitSolver solver(structure::Solid(volume, model.material), std::move(supports));
-    structure::NodalVectors f_ext = structure::gravity_load(solver.solid(), model.gravity);
+    structure::NodalVectors f_ext =
+        structure::gravity_load(solver.solid(), model.gravity.value_or(Vector3::Zero()));
     for (const FaceTraction& traction : model.tractions)
       f_ext += structure::traction_load(volume, traction.face, traction.value);
     solver.set_load(f_ext);

@@ -48,7 +48,7 @@ struct ModelFile {
   std::vector<FixedFaces> boundary;
   std::vector<structure::Probe> probes;  ///< in the order of the file
   std::optional<HistoryOutput> output;
-  Vector3 gravity = Vector3::Zero();  ///< [length/time^2]
+  std::optional<Vector3> gravity;  ///< [length/time^2]
   std::vector<FaceTraction> tractions;
   Vector3 initial_velocity = Vector3::Zero();  ///< [length/time], uniform
   std::optional<TimeSpan> time;

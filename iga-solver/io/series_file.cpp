@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "nurbs/regular_file.h"
@@ -22,6 +23,11 @@ hid_t create_file(const std::string& path) {
   return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
 }
 
+hid_t open_file(const std::string& path) {
+  const SilentErrors silent;
+  return H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+}
+
 }  // namespace
 
 template <class Result>
@@ -30,8 +36,28 @@ Result SeriesFile::check(Result result, const char* action) const {
   return result;
 }
 
-SeriesFile::SeriesFile(std::string path) : path_(std::move(path)), file_(create_file(path_), H5Fclose) {
+SeriesFile::SeriesFile(std::string path, hid_t file) : path_(std::move(path)), file_(file, H5Fclose) {}
+
+SeriesFile::SeriesFile(std::string path) : SeriesFile(path, create_file(path)) {
   check<hid_t>(file_, "create this file (does the folder exist, may it be written to?)");
+}
+
+SeriesFile SeriesFile::open(std::string path) {
+  const hid_t opened = open_file(path);
+  SeriesFile file(std::move(path), opened);
+  file.check<hid_t>(file.file_, "open this file to go on with it");
+  return file;
+}
+
+std::string SeriesFile::attribute(const std::string& name) const {
+  const SilentErrors silent;
+  const Hdf5Handle attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT), H5Aclose);
+  check<hid_t>(attribute, ("find the attribute '" + name + "'").c_str());
+  const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
+  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return "";
+  std::string text(H5Tget_size(type), '\0');
+  check(H5Aread(attribute, type, text.data()), "read an attribute");
+  return text.c_str();  // up to the first NUL
 }
 
 void SeriesFile::set_attribute(const std::string& name, const std::string& value) {
@@ -65,6 +91,43 @@ int SeriesFile::add_series(const std::string& name, int width, const std::string
   write_attribute(data_set, "unit", unit);
   series_.push_back({std::move(data_set), 0, columns});
   return static_cast<int>(series_.size()) - 1;
+}
+
+int SeriesFile::find_series(const std::string& name, int width) {
+  const SilentErrors silent;
+  Hdf5Handle data_set(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+  check<hid_t>(data_set, ("find the data set '" + name + "'").c_str());
+  const Hdf5Handle space(H5Dget_space(data_set), H5Sclose);
+  hsize_t size[2] = {0, 1};
+  const bool fits = H5Sget_simple_extent_ndims(space) == (width == 1 ? 1 : 2) &&
+                    H5Sget_simple_extent_dims(space, size, nullptr) >= 0 && size[1] == hsize_t(width);
+  if (!fits) throw std::runtime_error(fmt::format("{}: data set '{}' has another shape", path_, name));
+  series_.push_back({std::move(data_set), size[0], size[1]});
+  return static_cast<int>(series_.size()) - 1;
+}
+
+hsize_t SeriesFile::rows() const {
+  hsize_t least = series_.empty() ? 0 : series_.front().rows;
+  for (const Series& s : series_) least = std::min(least, s.rows);
+  return least;
+}
+
+std::vector<double> SeriesFile::values(int series) const {
+  const SilentErrors silent;
+  const Series& s = series_.at(series);
+  std::vector<double> values(s.rows * s.width);
+  check(H5Dread(s.data_set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
+        "read a data set");
+  return values;
+}
+
+void SeriesFile::keep_rows(hsize_t rows) {
+  const SilentErrors silent;
+  for (Series& s : series_) {
+    const hsize_t size[2] = {rows, s.width};
+    check(H5Dset_extent(s.data_set, size), "shorten a data set");
+    s.rows = rows;
+  }
 }
 
 void SeriesFile::append(int series, const double* row) {

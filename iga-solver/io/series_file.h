@@ -16,13 +16,24 @@ class SeriesFile {
  public:
   /// Creates the file, replacing an older one.
   explicit SeriesFile(std::string path);
+  /// Opens a file that is there, to go on with it.
+  static SeriesFile open(std::string path);
   void set_attribute(const std::string& name, const std::string& value);
+  std::string attribute(const std::string& name) const;
   /// Data set [rows] (width 1) or [rows][width] of doubles with attribute `unit`; '/' in the name makes
   /// groups.  Returns the index for append.
   int add_series(const std::string& name, int width, const std::string& unit);
+  /// A data set that is there; the index as above.  Also throws if its shape is another.
+  int find_series(const std::string& name, int width);
   void append(int series, const double* row);
   /// Everything appended so far reaches the file, which then is complete as it stands.
   void flush();
+  /// Rows that every series has: a killed run may have left some with one more.
+  hsize_t rows() const;
+  /// All rows of a series of width 1.
+  std::vector<double> values(int series) const;
+  /// Drops the rows after the first `rows` of each series.
+  void keep_rows(hsize_t rows);
   const std::string& path() const { return path_; }
 
  private:
@@ -30,6 +41,7 @@ class SeriesFile {
     Hdf5Handle data_set;
     hsize_t rows, width;
   };
+  SeriesFile(std::string path, hid_t file);
   template <class Result>
   Result check(Result result, const char* action) const;
   void write_attribute(hid_t object, const std::string& name, const std::string& value);

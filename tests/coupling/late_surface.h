@@ -46,11 +46,13 @@ class LateSurface final : public coupling::StructureSolver {
   Eigen::VectorXd control_node_mass() const override { return solver_->control_node_mass(); }
   double kinetic_energy() const override { return solver_->kinetic_energy(); }
   double strain_energy() const override { return solver_->strain_energy(); }
+  coupling::Work work() const override { return solver_->work(); }
   coupling::Vector3 linear_momentum() const override { return solver_->linear_momentum(); }
   coupling::Vector3 angular_momentum(const coupling::Vector3& about) const override {
     return solver_->angular_momentum(about);
   }
   std::optional<coupling::SurfaceMaterial> material() const override { return solver_->material(); }
+  std::optional<coupling::Vector3> gravity() const override { return solver_->gravity(); }
   std::vector<coupling::Probe> probes() const override { return solver_->probes(); }
   std::vector<double> save() const override { return solver_->save(); }
   coupling::Fingerprint fingerprint() const override { return solver_->fingerprint(); }

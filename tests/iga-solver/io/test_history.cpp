@@ -166,6 +166,55 @@ TEST_F(HistoryFile, IsCompleteOnDiskAfterEveryRecord) {
   }
 }
 
+// A run that goes on from a state of step 40: what comes after it is written anew, not twice.
+TEST_F(HistoryFile, GoesOnFromASavedState) {
+  const io::ModelFile model = io::parse_model_file(kFalling, "falling.yaml");
+  const io::HistoryOutput output{2.5 * kStep, base()};
+  structure::ExplicitSolver first = falling_block(model);
+  std::vector<double> state, whole;
+  {
+    io::History history(output, model.geometry.units, model.probes);
+    run(first, history, 40);
+    state = first.save();
+    run(first, history, 60);  // lost with the run
+    whole = read_series(history.path(), "probes/top");
+  }
+  structure::ExplicitSolver second = falling_block(model);
+  second.load(state);
+  {
+    io::History history = io::History::resume(output, model.geometry.units, model.probes, second.time());
+    EXPECT_EQ(history.last_time(), second.time()) << "step 40 is an output time";
+    EXPECT_EQ(read_series(history.path(), "time").size(), 17u);
+    run(second, history, 60);
+    EXPECT_EQ(read_series(history.path(), "time").size(), 41u);
+    EXPECT_EQ(read_series(history.path(), "probes/top"), whole);
+  }
+  fs::remove(base() + ".h5");
+  second.load(state);
+  const io::History anew = io::History::resume(output, model.geometry.units, model.probes, second.time());
+  EXPECT_FALSE(anew.last_time());
+}
+
+TEST_F(HistoryFile, OfSomethingElseIsLeftAsItIs) {
+  const io::ModelFile model = io::parse_model_file(kFalling, "falling.yaml");
+  const io::HistoryOutput output{kStep, base()};
+  structure::ExplicitSolver solver = falling_block(model);
+  {
+    io::History history(output, model.geometry.units, {});
+    run(solver, history, 5);
+  }
+  const auto resume = [&](nurbs::Units units, std::vector<structure::Probe> probes) {
+    io::History::resume(output, units, std::move(probes), 0.0);
+  };
+  EXPECT_THAT([&] { resume(model.geometry.units, model.probes); },
+              testing::ThrowsMessage<std::runtime_error>(
+                  testing::AllOf(testing::HasSubstr("falling.h5"), testing::HasSubstr("probes/top"),
+                                 testing::HasSubstr("move the file away"))));
+  EXPECT_THAT([&] { resume(nurbs::Units::cgs, {}); },
+              testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("'mm-g-ms', expected 'cgs'")));
+  EXPECT_EQ(read_series(base() + ".h5", "time").size(), 6u);
+}
+
 TEST_F(HistoryFile, NamesTheFileItCannotCreate) {
   EXPECT_THAT(([&] {
                 io::History({1.0, base() + "_missing/history"}, nurbs::Units::si, {});

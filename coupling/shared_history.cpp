@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/shared_history.h"
+
+#include <cmath>
+#include <limits>
+
+#include "coupling/on_first_rank.h"
+
+namespace coupling {
+
+void SharedHistory::open(double time) {
+  double last = std::numeric_limits<double>::quiet_NaN();  // no row yet
+  on_first_rank(comm_, [&] {
+    history_.emplace(resumes_ ? io::History::resume(output_, units_, probes_, time)
+                              : io::History(output_, units_, probes_));
+    last = history_->last_time().value_or(last);
+  });
+  MPI_Bcast(&last, 1, MPI_DOUBLE, 0, comm_);
+  times_.emplace(output_.every, std::isnan(last) ? std::optional<double>() : last);
+}
+
+void SharedHistory::record_if_due(const structure::ExplicitSolver& solver) {
+  if (!times_) open(solver.time());
+  if (times_->take(solver)) on_first_rank(comm_, [&] { history_->record(solver); });
+}
+
+}  // namespace coupling

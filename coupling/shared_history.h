@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Histories (io/history.h) of a solid that every rank integrates: all know when a row is due, rank 0 writes
+// it.
+#pragma once
+
+#include <mpi.h>
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "io/history.h"
+
+namespace coupling {
+
+class SharedHistory {
+ public:
+  SharedHistory(MPI_Comm comm, io::HistoryOutput output, nurbs::Units units,
+                std::vector<structure::Probe> probes)
+      : comm_(comm), output_(std::move(output)), units_(units), probes_(std::move(probes)) {}
+
+  /// The solver has got a saved state: the first row goes on with the file of then, if it is there.
+  void resume() { resumes_ = true; }
+  /// Collective, before the first step and after each.  The first call opens the file.  Throws
+  /// std::runtime_error on every rank, naming the file, if rank 0 cannot write.
+  void record_if_due(const structure::ExplicitSolver& solver);
+
+ private:
+  void open(double time);
+
+  MPI_Comm comm_;
+  io::HistoryOutput output_;
+  nurbs::Units units_;
+  std::vector<structure::Probe> probes_;
+  bool resumes_ = false;
+  std::optional<io::OutputTimes> times_;  // from the first call on
+  std::optional<io::History> history_;    // the same, on rank 0
+};
+
+}  // namespace coupling
