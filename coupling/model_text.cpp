@@ -5,6 +5,7 @@
 #include <limits>
 #include <system_error>
 
+#include "coupling/on_every_rank.h"
 #include "geometry_io/geometry_io.h"
 #include "nurbs/input_error.h"
 #include "nurbs/regular_file.h"
@@ -13,7 +14,7 @@ namespace coupling {
 namespace {
 
 // Returns the complaint, if there is one.
-std::string read(const std::string& path, std::string& text) {
+std::string read(const std::string& path, std::string& text) try {
   nurbs::FileContent content = nurbs::read_regular_file(path);
   if (!content.problem.empty()) return "cannot read '" + path + "': " + content.problem;
   try {
@@ -22,12 +23,14 @@ std::string read(const std::string& path, std::string& text) {
     return error.what();
   }
   return text.size() > std::numeric_limits<int>::max() ? path + ": holds more than 2 GiB" : std::string();
+} catch (const std::bad_alloc&) {
+  return out_of_memory(path);
 }
 
-void broadcast(MPI_Comm comm, std::string& text) {
+void broadcast(MPI_Comm comm, const std::string& path, std::string& text) {
   int length = static_cast<int>(text.size());
   MPI_Bcast(&length, 1, MPI_INT, 0, comm);
-  text.resize(length);
+  on_every_rank(comm, path, [&] { return text.resize(length), true; });
   MPI_Bcast(text.data(), length, MPI_CHAR, 0, comm);
 }
 
@@ -38,9 +41,9 @@ std::string read_text_on_all_ranks(MPI_Comm comm, const std::string& path) {
   MPI_Comm_rank(comm, &rank);
   std::string text, problem;
   if (rank == 0) problem = read(path, text);
-  broadcast(comm, problem);
+  broadcast(comm, path, problem);
   if (!problem.empty()) throw nurbs::InputError(problem);
-  broadcast(comm, text);
+  broadcast(comm, path, text);
   return text;
 }
 

@@ -3,12 +3,15 @@
 
 #include "coupling/iga_structure.h"
 #include "coupling/model_text.h"
+#include "coupling/on_every_rank.h"
 #include "coupling/open_structure.h"
 #include "io/model_file.h"
 
 namespace coupling {
 
-OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface) {
+namespace {
+
+OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface) {
   const io::ModelFile model = io::read_model_file(path, reader_on_all_ranks(comm));
   nurbs::named_surface(model.geometry, surface, path);  // complains about a name that is not there
   std::vector<nurbs::Face> faces;
@@ -17,6 +20,12 @@ OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const
   if (model.output)
     solver->write_history(SharedHistory(comm, *model.output, model.geometry.units, model.probes));
   return {std::move(solver), model.geometry.units};
+}
+
+}  // namespace
+
+OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface) {
+  return on_every_rank(comm, path, [&] { return read_iga_structure(comm, path, surface); });
 }
 
 }  // namespace coupling

@@ -1,13 +1,30 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
+
 #include "coupling/model_text.h"
+#include "coupling/on_every_rank.h"
 #include "coupling/open_structure.h"
 #include "coupling/rigid_surface.h"
 #include "geometry_io/geometry_io.h"
+#include "nurbs/memory.h"
 
 namespace coupling {
 
-OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
-                                   RigidDrive drive) {
+namespace {
+
+// What contact keeps of each element, whether particles come near or not.
+void expect_room(const std::vector<nurbs::Surface>& patches, const std::string& path) {
+  constexpr double kBytesPerElement = 450.0;
+  double elements = 0.0;
+  for (const nurbs::Surface& patch : patches) elements += patch.space.element_count();
+  try {
+    nurbs::expect_memory(kBytesPerElement * elements, fmt::format("a wall of {:.3g} elements", elements));
+  } catch (const std::invalid_argument& error) {
+    throw nurbs::InputError(fmt::format("{}: {}", path, error.what()));
+  }
+}
+
+OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface) {
   const nurbs::GeometryFile file = geometry_io::read_geometry(path, reader_on_all_ranks(comm));
   std::vector<nurbs::Surface> patches;
   std::vector<int> outward_sign;
@@ -15,9 +32,17 @@ OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const
     patches.push_back(std::move(patch.surface));
     outward_sign.push_back(patch.outward_sign);
   }
-  auto solver = std::make_unique<RigidSurface>(patches, std::move(outward_sign));
-  solver->drive(std::move(drive));
-  return {std::move(solver), file.units};
+  expect_room(patches, path);
+  return {std::make_unique<RigidSurface>(patches, std::move(outward_sign)), file.units};
+}
+
+}  // namespace
+
+OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
+                                   RigidDrive drive) {
+  OpenedStructure opened = on_every_rank(comm, path, [&] { return read_rigid_surface(comm, path, surface); });
+  static_cast<RigidSurface&>(*opened.solver).drive(std::move(drive));
+  return opened;
 }
 
 }  // namespace coupling

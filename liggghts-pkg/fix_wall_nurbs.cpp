@@ -222,7 +222,9 @@ void FixWallNurbs::initial_integrate(int) {
   const double motion = candidates_.motion_since_build(exchange_.positions(), structure_.deforms(), frame_);
   if (!std::isfinite(motion))
     fail_in_step(
-        "the solid has blown up: its positions are not finite; likely cause: the loads or the timestep");
+        structure_.deforms()
+            ? "the solid has blown up: its positions are not finite; likely cause: the loads or the timestep"
+            : "the wall's place is not finite; likely cause: the numbers that move it");
   if (motion > 0.5 * neighbor->skin) rebuild_candidates_ = true;
   surface_motion_ = structure_.deforms() ? motion : 0.0;
 }

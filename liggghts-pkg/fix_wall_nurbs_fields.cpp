@@ -9,6 +9,7 @@
 #include "fix_property_global.h"
 #include "fix_wall_nurbs.h"
 #include "modify.h"
+#include "nurbs/memory.h"
 #include "update.h"
 
 using namespace LAMMPS_NS;
@@ -60,7 +61,21 @@ void FixWallNurbs::end_of_step() {
    fix mesh/surface ... fix ID: this wall in triangles, as it stands when that fix is created
 ------------------------------------------------------------------------- */
 
+// LIGGGHTS keeps more than a kilobyte of each triangle, on every rank.
+void FixWallNurbs::check_twin_size() const {
+  constexpr double kBytesPerTriangle = 1500.0;
+  const double triangles = 2.0 * options_.twin * options_.twin * surface_.element_count();
+  try {
+    nurbs::expect_memory(kBytesPerTriangle * triangles,
+                         fmt::format("twin {} of a wall of {} elements: {:.3g} triangles", options_.twin,
+                                     surface_.element_count(), triangles));
+  } catch (const std::exception& problem) {
+    fail(problem.what());
+  }
+}
+
 int FixWallNurbs::getCreateMeshTriCount() {
+  check_twin_size();
   twin_ = nurbs::tessellate(nurbs::split(surface_, exchange_.positions()), options_.twin);
   const coupling::RigidFrame frame = structure_.frame();
   twin_.vertices = (frame.rotation * twin_.vertices).colwise() + frame.origin;

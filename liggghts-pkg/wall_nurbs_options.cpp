@@ -20,6 +20,8 @@ const std::vector<std::string> kKeywords = {
     "rstar", "temperature", "motion",   "servo",   "surface_vel", "surface_ang_vel", "output", "twin"};
 const std::vector<std::string> kModelKeywords = {"model", "tangential", "cohesion", "rolling_friction"};
 
+constexpr int kMostContacts = 256, kMostTwinCells = 100;
+
 [[noreturn]] void fail(const std::string& message) { throw std::invalid_argument(message); }
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
@@ -88,7 +90,10 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const V
                            ? SearchMethod::newton
                            : SearchMethod::simplex_brent;
     } else if (keyword == "contacts") {
-      options.slots = reader.count(keyword, "how many contacts one particle may have with the wall");
+      options.slots = reader.count(keyword,
+                                   "how many contacts one particle may have with the wall (each has its "
+                                   "place in every particle's memory)",
+                                   kMostContacts);
     } else if (keyword == "rstar") {
       options.curvature_radius = reader.value_of(keyword, {"particle", "curvature"}) == "curvature";
     } else if (keyword == "temperature") {
@@ -98,7 +103,8 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const V
     } else if (keyword == "output") {
       options.output = read_output(reader);
     } else if (keyword == "twin") {
-      options.twin = reader.count(keyword, "how many cells of triangles an element has in each direction");
+      options.twin = reader.count(keyword, "how many cells of two triangles an element has in each direction",
+                                  kMostTwinCells);
     } else if (reader.next_is_one_of({"on", "off"})) {
       options.setting_words.push_back(keyword);
       options.setting_words.push_back(reader.keyword());

@@ -10,6 +10,8 @@
 #include <optional>
 #include <stdexcept>
 
+#include "nurbs/usable_number.h"
+
 namespace liggghts_pkg {
 
 namespace {
@@ -47,11 +49,12 @@ std::string WordReader::value_of(const std::string& keyword, const std::vector<s
   return given;
 }
 
-int WordReader::count(const std::string& keyword, const std::string& expected) {
+int WordReader::count(const std::string& keyword, const std::string& expected, std::optional<int> most) {
   const std::string word = value(expected);
   const std::optional<int> number = parsed<int>(word);
-  if (!number || *number < 1)
-    fail(fmt::format("{} is '{}', expected {}, 1 or more", keyword, word, expected));
+  if (!number || *number < 1 || (most && *number > *most))
+    fail(fmt::format("{} is '{}', expected {}, {}", keyword, word, expected,
+                     most ? fmt::format("1 to {}", *most) : "1 or more"));
   return *number;
 }
 
@@ -59,6 +62,9 @@ double WordReader::number(const std::string& keyword) {
   const std::string word = value(fmt::format("a number for '{}'", keyword));
   const std::optional<double> number = parsed<double>(word);
   if (!number || !std::isfinite(*number)) fail(fmt::format("{} is '{}', expected a number", keyword, word));
+  if (!nurbs::is_usable(*number))
+    fail(fmt::format("{} is '{}', expected a number of at most {} in size", keyword, word,
+                     nurbs::kLargestNumber));
   return *number;
 }
 

@@ -2,6 +2,7 @@
 // The words of a deck's line, read from left to right.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,8 +28,9 @@ class WordReader {
   /// The next word; the other readers of values name the keyword that it belongs to in their messages.
   std::string value(const std::string& expected);
   std::string value_of(const std::string& keyword, const std::vector<std::string>& allowed);
-  int count(const std::string& keyword, const std::string& expected);  ///< 1 or more
-  double number(const std::string& keyword);                           ///< finite
+  /// 1 or more, up to `most`, if there is a limit.
+  int count(const std::string& keyword, const std::string& expected, std::optional<int> most = {});
+  double number(const std::string& keyword);  ///< finite, of at most nurbs::kLargestNumber in size
   double number_at_least_zero(const std::string& keyword);
   double number_above_zero(const std::string& keyword);
   nurbs::Vector3 vector(const std::string& keyword);

@@ -6,20 +6,33 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <new>
+#include <string>
+
+#include "nurbs/memory.h"
 
 namespace app {
 
-/// Parses the command line and calls run().  The exit code: 0, or 1 after an error, which is printed.
+inline int print_error(const std::string& message) {
+  fmt::print(stderr, "ERROR: {}\n", message);
+  return 1;
+}
+
+/// Parses the command line and calls run(), which works on `file`.  The exit code: 0, or 1 after an error,
+/// which is printed.
 template <class Run>
-int run_command(CLI::App& command, int argc, char** argv, Run run) {
+int run_command(CLI::App& command, int argc, char** argv, const std::string& file, Run run) {
   try {
     command.parse(argc, argv);
     run();
   } catch (const CLI::Success& success) {  // help
     return command.exit(success);
+  } catch (const std::bad_alloc&) {
+    return print_error(
+        fmt::format("{}: out of memory: what it describes takes more than this process may have, {}", file,
+                    nurbs::size_text(nurbs::memory_limit())));
   } catch (const std::exception& error) {
-    fmt::print(stderr, "ERROR: {}\n", error.what());
-    return 1;
+    return print_error(error.what());
   }
   return 0;
 }

@@ -31,6 +31,14 @@ double end_time(const Options& options, const io::ModelFile& model) {
       fmt::format("{}: no end time, expected 'time: {{end: T}}' in it or --end T", model.file));
 }
 
+double stable_step(const ExplicitSolver& solver, const io::ModelFile& model) {
+  try {
+    return solver.stable_time_step();
+  } catch (const std::exception& problem) {
+    throw std::runtime_error(fmt::format("{}: {}", model.file, problem.what()));
+  }
+}
+
 double time_step(const Options& options, const io::ModelFile& model, double stable) {
   std::optional<double> wanted = options.step;
   if (!wanted && model.time) wanted = model.time->step;
@@ -96,7 +104,7 @@ void run(const Options& options) {
   const double end = end_time(options, model);
   ExplicitSolver solver = io::build_solver(model);
   if (!options.quiet) print_model(model, solver);
-  const double stable = solver.stable_time_step();
+  const double stable = stable_step(solver, model);
   if (!options.quiet) fmt::print("  stable step  {:.6g}\n", stable);
   const double largest_step = time_step(options, model, stable);
   const long steps = step_count(end, largest_step);
@@ -134,5 +142,5 @@ int main(int argc, char** argv) {
                   "largest time step (else time: {step}, else 0.9 of the stable step)")
       ->check(CLI::PositiveNumber);
   command.add_flag("--quiet", options.quiet, "print nothing but errors");
-  return app::run_command(command, argc, argv, [&] { run(options); });
+  return app::run_command(command, argc, argv, options.model, [&] { run(options); });
 }

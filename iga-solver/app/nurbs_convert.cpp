@@ -68,5 +68,5 @@ int main(int argc, char** argv) {
   command.add_option("--surface", options.surface, "keep the patches of this named surface only");
   command.add_option("--units", options.units,
                      "units of a file that has none (G+Smo): si (default), cgs or mm-g-ms");
-  return app::run_command(command, argc, argv, [&] { run(options); });
+  return app::run_command(command, argc, argv, options.in, [&] { run(options); });
 }

@@ -29,6 +29,20 @@ UnitNames unit_names(nurbs::Units units) {
   return {"s", "m", "J", "kg m/s", "kg m^2/s"};
 }
 
+// The path of the file to write.
+std::string checked_path(const HistoryOutput& output) {
+  const std::string path = output.file + ".h5";
+  for (const std::string& input : output.inputs) {
+    std::error_code missing;  // a file that does not exist is no input
+    if (std::filesystem::equivalent(path, input, missing))
+      throw nurbs::InputError(
+          fmt::format("{}: output.file is {}: {} is the file {} that the model is read from and would be "
+                      "overwritten, expected another name",
+                      output.place, nurbs::shown(output.file), path, input));
+  }
+  return path;
+}
+
 }  // namespace
 
 struct History::Writer {
@@ -94,14 +108,14 @@ History::History(std::unique_ptr<Writer> writer, double every, std::optional<dou
     : writer_(std::move(writer)), last_time_(last_time), times_(every, last_time) {}
 
 History::History(const HistoryOutput& output, nurbs::Units units, std::vector<structure::Probe> probes)
-    : History(std::make_unique<Writer>(SeriesFile(output.file + ".h5"), std::move(probes)), output.every,
+    : History(std::make_unique<Writer>(SeriesFile(checked_path(output)), std::move(probes)), output.every,
               {}) {
   writer_->add_series(units);
 }
 
 History History::resume(const HistoryOutput& output, nurbs::Units units, std::vector<structure::Probe> probes,
                         double time) {
-  const std::string path = output.file + ".h5";
+  const std::string path = checked_path(output);
   if (!std::filesystem::exists(path)) return {output, units, std::move(probes)};
   try {
     auto writer = std::make_unique<Writer>(SeriesFile::open(path), std::move(probes));

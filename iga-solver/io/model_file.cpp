@@ -74,9 +74,10 @@ structure::Probe read_probe(const YamlMap& probes, const std::string& name, cons
   }
 }
 
-HistoryOutput read_output(const YamlMap& map) {
+HistoryOutput read_output(const YamlMap& map, const std::vector<std::string>& inputs) {
   map.allow_only({"every", "file"});
-  return {map.number("every", nurbs::positive()), map.word("file")};
+  return {map.number("every", nurbs::positive()), map.word("file"),
+          fmt::format("{}:{}", map.file(), map.line_of("file")), inputs};
 }
 
 void read_loads(const YamlMap& map, ModelFile& model) {
@@ -122,10 +123,15 @@ ModelFile read_required(const YamlMap& document, const geometry_io::ReadFile& re
 
 ModelFile parse_model_file(const std::string& text, const std::string& file,
                            const geometry_io::ReadFile& read) {
+  std::vector<std::string> inputs{file};
+  const auto read_and_note = [&](const std::string& path) {
+    inputs.push_back(path);
+    return read(path);
+  };
   const YamlMap document = YamlMap::parse(text, file);
   document.allow_only({"units", "geometry", "material", "boundary", "surfaces", "probes", "output", "loads",
                        "initial", "time"});
-  ModelFile model = read_required(document, read);
+  ModelFile model = read_required(document, read_and_note);
   if (document.has("boundary"))
     for (const YamlMap& entry : document.list_of_maps("boundary"))
       model.boundary.push_back(read_fixed_faces(entry));
@@ -134,7 +140,7 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
     for (const std::string& name : probes.keys())
       model.probes.push_back(read_probe(probes, name, model.volume().space));
   }
-  if (document.has("output")) model.output = read_output(document.map("output"));
+  if (document.has("output")) model.output = read_output(document.map("output"), inputs);
   if (document.has("loads")) read_loads(document.map("loads"), model);
   if (document.has("initial")) {
     const YamlMap initial = document.map("initial");

@@ -31,8 +31,10 @@ struct FaceTraction {
 };
 
 struct HistoryOutput {
-  double every;      ///< interval [time]
-  std::string file;  ///< without ".h5"; relative to the current directory unless absolute
+  double every;                          ///< interval [time]
+  std::string file;                      ///< without ".h5"; relative to the current directory unless absolute
+  std::string place = {};                ///< "plate.yaml:12", for messages
+  std::vector<std::string> inputs = {};  ///< the files that the model was read from: never to be replaced
 };
 
 struct TimeSpan {

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "nurbs/usable_number.h"
+
 namespace nurbs {
 namespace {
 
@@ -21,8 +23,9 @@ void check_order(int degree, const std::vector<double>& knots) {
     throw std::invalid_argument(
         fmt::format("{} knots given, degree {} expects at least {}", knots.size(), degree, least));
   for (size_t i = 0; i < knots.size(); ++i) {
-    if (!std::isfinite(knots[i]))
-      throw std::invalid_argument(fmt::format("knot {} is {}, expected a finite number", i + 1, knots[i]));
+    if (!is_usable(knots[i]))
+      throw std::invalid_argument(fmt::format("knot {} is {}, expected a finite number of at most {} in size",
+                                              i + 1, knots[i], kLargestNumber));
     if (i > 0 && knots[i] < knots[i - 1])
       throw std::invalid_argument(fmt::format("knot {} is {} after {}, expected knots that do not decrease",
                                               i + 1, knots[i], knots[i - 1]));

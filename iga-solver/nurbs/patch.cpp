@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "nurbs/assert.h"
+#include "nurbs/usable_number.h"
 
 namespace nurbs {
 
@@ -28,8 +29,9 @@ Space<Dim>::Space(std::array<KnotVector, Dim> knots, std::vector<double> weights
   if (!weights_.empty() && static_cast<int>(weights_.size()) != count_)
     throw std::invalid_argument(fmt::format("{} weights given, expected {}", weights_.size(), count_));
   for (size_t a = 0; a < weights_.size(); ++a)
-    if (!(std::isfinite(weights_[a]) && weights_[a] > 0.0))
-      throw std::invalid_argument(fmt::format("weight {} is {}, expected a number > 0", a + 1, weights_[a]));
+    if (!(is_usable(weights_[a]) && weights_[a] > 0.0))
+      throw std::invalid_argument(fmt::format("weight {} is {}, expected a number > 0{}", a + 1, weights_[a],
+                                              weights_[a] > 0.0 ? ", at most 1e+100" : ""));
   for (int d = 0; d < Dim; ++d) functions_[d] = element_functions(knots_[d]);
 }
 
@@ -215,8 +217,13 @@ void check_patch(const Patch<Dim>& patch) {
   if (given != expected)
     throw std::invalid_argument(fmt::format("{} control points given, expected {}", given, expected));
   for (int a = 0; a < given; ++a)
-    if (!patch.control_points.col(a).allFinite())
-      throw std::invalid_argument(fmt::format("control point {} is not finite", a + 1));
+    for (const double x : patch.control_points.col(a))
+      if (!is_usable(x))
+        throw std::invalid_argument(
+            std::isfinite(x)
+                ? fmt::format("control point {} has a coordinate {}, expected at most {} in size", a + 1, x,
+                              kLargestNumber)
+                : fmt::format("control point {} is not finite", a + 1));
 }
 
 #define INSTANTIATE(Dim)                                                                       \

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "nurbs/regular_file.h"
 
+#include <fmt/format.h>
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <new>
+
+#include "nurbs/memory.h"
 
 namespace nurbs {
 namespace {
@@ -43,7 +48,12 @@ FileContent read_regular_file(const std::string& path) {
   const auto size = file ? std::filesystem::file_size(path, error) : 0;
   if (!file || error) return {{}, std::strerror(errno != 0 ? errno : EIO)};
   if (size > std::numeric_limits<int>::max()) return {{}, std::strerror(EFBIG)};
-  FileContent content{std::string(size, '\0'), {}};
+  FileContent content;
+  try {
+    content.bytes.resize(size);
+  } catch (const std::bad_alloc&) {
+    return {{}, fmt::format("{}: {}", std::strerror(ENOMEM), size_text(static_cast<double>(size)))};
+  }
   file.read(content.bytes.data(), static_cast<std::streamsize>(size));
   if (file.bad()) return {{}, std::strerror(errno != 0 ? errno : EIO)};
   content.bytes.resize(file.gcount());

@@ -8,6 +8,7 @@
 #include <limits>
 #include <new>
 
+#include "nurbs/memory.h"
 #include "nurbs/primitives.h"
 
 namespace nurbs {
@@ -40,6 +41,10 @@ void expect_count(const YamlMap& map, const std::string& key, size_t given, size
 void check_size(const YamlMap& map, const std::vector<int>& elements, const std::vector<int>& degrees) {
   double count = 1.0;
   for (size_t d = 0; d < elements.size(); ++d) count *= static_cast<double>(elements[d]) + degrees[d];
+  blame(map, "elements", "", [&] {
+    expect_memory(sizeof(Vector3) * count,
+                  fmt::format("elements [{}]: {:.3g} control points", fmt::join(elements, ", "), count));
+  });
   if (count > kMaxControlPoints)
     map.fail("elements", fmt::format("elements are {}, about {:.3g} control points, expected at most {:.0f}",
                                      fmt::join(elements, " x "), count, kMaxControlPoints));

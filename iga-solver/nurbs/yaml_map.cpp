@@ -10,6 +10,7 @@
 
 #include "nurbs/file_kind.h"
 #include "nurbs/parse_number.h"
+#include "nurbs/usable_number.h"
 
 namespace nurbs {
 namespace {
@@ -214,6 +215,9 @@ double YamlMap::read_number(const YamlNode& node, const std::string& name, Range
   double x = 0.0;
   if (node.kind != Kind::scalar || !parse_number(node.scalar, x) || !contains(range, x))
     fail_at(node, fmt::format("{} is {}, expected {}", name, described(node), described(range)));
+  if (!is_usable(x))
+    fail_at(node, fmt::format("{} is {}, expected a number of at most {} in size", name, described(node),
+                              kLargestNumber));
   return x;
 }
 

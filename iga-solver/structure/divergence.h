@@ -8,6 +8,7 @@
 #include <string>
 
 #include "nurbs/types.h"
+#include "nurbs/usable_number.h"
 
 namespace structure {
 
@@ -15,7 +16,7 @@ class ExplicitSolver;
 using nurbs::NodalVectors;
 
 /// Displacements beyond it mean nothing, and their squares overflow [length].
-constexpr double kLargestDisplacement = 1e100;
+constexpr double kLargestDisplacement = nurbs::kLargestNumber;
 
 /// A solid has blown up; what() says in one line when, where and why, as far as that can be told.
 struct Diverged : std::runtime_error {

@@ -23,10 +23,11 @@ class MassOperator {
 /// Row-sum lumped mass: M is diagonal.
 class LumpedMass final : public MassOperator {
  public:
-  /// Throws std::invalid_argument unless every mass is > 0.
+  /// Throws std::invalid_argument unless every mass is > 0 and finite.
   explicit LumpedMass(Eigen::VectorXd nodal_mass)
       : mass_(std::move(nodal_mass)), inverse_(mass_.cwiseInverse()) {
-    if (!(mass_.array() > 0.0).all()) throw std::invalid_argument("LumpedMass: every nodal mass must be > 0");
+    if (!(mass_.array() > 0.0).all() || !mass_.allFinite())
+      throw std::invalid_argument("LumpedMass: every nodal mass must be > 0 and finite");
   }
   void apply_inverse_mass(const NodalVectors& f, NodalVectors& a) const override {
     a.noalias() = f * inverse_.asDiagonal();

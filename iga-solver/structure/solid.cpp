@@ -10,6 +10,7 @@
 
 #include "nurbs/assert.h"
 #include "nurbs/gauss_legendre.h"
+#include "nurbs/memory.h"
 
 namespace structure {
 
@@ -42,6 +43,9 @@ Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material)
   functions_ = points_ =
       space.functions_per_element();  // degree + 1 points per direction: as many as functions
   padded_ = padded(functions_);
+  nurbs::expect_memory(sizeof(double) * (3.0 * points_ + 1.0) * padded_ * elements,
+                       fmt::format("a solid of {} elements of degrees {}, {}, {}", elements, space.degree(0),
+                                   space.degree(1), space.degree(2)));
   nodes_.resize(elements * functions_);
   dR_dX_.assign(elements * points_ * 3 * padded_, 0.0);
   wJ_.resize(elements * points_);

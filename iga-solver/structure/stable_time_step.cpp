@@ -25,10 +25,25 @@ NodalVectors start_vector(int nodes) {
   return v;
 }
 
+double mean_element_size(const Solid& solid) {
+  return std::cbrt(solid.volume() / solid.patch().space.element_count());
+}
+
 /// Trial displacement for the derivative of the internal force [length]: strains of about 1e-6, where any law
 /// is linear and rounding still leaves ten digits.
-double small_displacement(const Solid& solid) {
-  return 1e-6 * std::cbrt(solid.volume() / solid.patch().space.element_count());
+double small_displacement(const Solid& solid) { return 1e-6 * mean_element_size(solid); }
+
+/// Numbers that are not finite make no eigenvalues: iterations on them never end.
+void expect_finite(double value, const Solid& solid, const NodalVectors& u, const std::string& where) {
+  if (std::isfinite(value)) return;
+  const Material& material = solid.material();
+  throw std::runtime_error(fmt::format(
+      "stable_time_step: stiffness over mass is no finite number {}; likely cause: {}", where,
+      u.allFinite()
+          ? fmt::format(
+                "sizes that overflow: Young's modulus {:.3g}, density {:.3g}, elements of about {:.3g}",
+                material.youngs_modulus(), material.density(), mean_element_size(solid))
+          : "displacements that are not finite, of a solid that has blown up"));
 }
 
 double dot(const NodalVectors& a, const NodalVectors& b) { return a.cwiseProduct(b).sum(); }
@@ -56,6 +71,7 @@ double largest_eigenvalue(const Solid& solid, const MassOperator& mass, const Su
   mass.apply_inverse_mass(q, z);
   double norm = std::sqrt(dot(q, z)), eigenvalue = 0.0;
   if (norm == 0.0) return 0.0;
+  expect_finite(norm, solid, u, "in the solid");
   std::vector<double> alpha, beta;
   for (int k = 1; k <= kMaxIterations; ++k) {
     q /= norm;
@@ -70,6 +86,7 @@ double largest_eigenvalue(const Solid& solid, const MassOperator& mass, const Su
     mass.apply_inverse_mass(w, z);
     norm = std::sqrt(dot(w, z));
     beta.push_back(norm);
+    expect_finite(alpha.back() + norm, solid, u, "in the solid");
     const bool exhausted = norm <= 1e-9 * alpha.front();  // the iterates span an invariant space
     if (k % kCheckInterval == 0 || exhausted) {
       const double previous = std::exchange(eigenvalue, largest_ritz_value(alpha, beta));
@@ -117,8 +134,10 @@ EigenvalueBounds element_eigenvalue_bounds(const Solid& solid, const Supports& s
       v = (m > 0.0).select(free_e * f / m, 0.0);
       v /= v.abs().maxCoeff();
     }
-    bounds.low = std::max(bounds.low, (f * v).sum() / (m_whole * v * v).sum());
-    bounds.high = std::max(bounds.high, (f * v).sum() / (m * v * v).sum());
+    const double low = (f * v).sum() / (m_whole * v * v).sum(), high = (f * v).sum() / (m * v * v).sum();
+    expect_finite(low + high, solid, u, fmt::format("in element {}", e));
+    bounds.low = std::max(bounds.low, low);
+    bounds.high = std::max(bounds.high, high);
   }
   return bounds;
 }
@@ -126,7 +145,11 @@ EigenvalueBounds element_eigenvalue_bounds(const Solid& solid, const Supports& s
 double stable_time_step(const Solid& solid, const MassOperator& mass, const Supports& supports,
                         const NodalVectors& u) {
   const double eigenvalue = largest_eigenvalue(solid, mass, supports, u);
-  if (eigenvalue == 0.0) return std::numeric_limits<double>::infinity();
+  if (eigenvalue == 0.0) {
+    if (static_cast<int>(supports.fixed_dofs().size()) < 3 * solid.node_count())
+      expect_finite(std::numeric_limits<double>::quiet_NaN(), solid, u, "> 0 in the solid");
+    return std::numeric_limits<double>::infinity();
+  }
   const EigenvalueBounds bounds = element_eigenvalue_bounds(solid, supports, u);
   if (!(eigenvalue > 0.99 * bounds.low && eigenvalue < 1.05 * bounds.high))
     throw std::logic_error(

@@ -17,7 +17,8 @@ constexpr double kStableStepSafety = 0.98;
 /// left out; infinity if every dof is fixed.  By power iteration from a fixed pseudo-random vector,
 /// accelerated after Lanczos: plain power iteration stalls for hundreds of steps below close or hidden top
 /// frequencies, this one takes 30 to 60 evaluations of the internal force.  Throws std::runtime_error if the
-/// iteration does not converge and std::logic_error if the result contradicts the element bounds.
+/// iteration does not converge or meets numbers that are not finite, and std::logic_error if the result
+/// contradicts the element bounds.
 double stable_time_step(const Solid& solid, const MassOperator& mass, const Supports& supports,
                         const NodalVectors& u);
 

@@ -94,6 +94,12 @@ MODEL_FILES = {
     "unknown surface": (GOOD.replace("top", "bottom"), {}, ["bottom", "top"]),
     "probe off the face": (GOOD, in_block("at: [0.5, 0.5]", "at: [0.5, 1.5]"), ["block.yaml:8", "1.5"]),
     "no elements": (GOOD, in_block("elements: [4, 4, 2]", "elements: [4, 0, 2]"), ["elements", "0"]),
+    "elements that fit in no memory": (
+        GOOD, in_block("elements: [4, 4, 2]", "elements: [100000, 100000, 100]"),
+        ["block.yaml:4", "elements", "control points would take", "TB of memory"]),
+    "a solid that fits in no memory": (
+        GOOD, in_block("elements: [4, 4, 2]", "elements: [1000, 1000, 100]"), ["block.yaml:", "elements", "TB of memory"]),
+    "number beyond all sense": (GOOD, in_block("density: 1000.0", "density: 1e101"), ["block.yaml:5", "density", r"1e\+100"]),
     "degree too high": (GOOD, in_block("degree: 2", "degree: 7"), ["degree", "7", "6"]),
     "negative size": (GOOD, in_block("size: [0.004, 0.004", "size: [0.004, -0.004"), ["size", "-0.004"]),
     "knots not open": (RIGID, in_flat("0, 0, 0, 1, 1, 1", "0, 0, 0.1, 1, 1, 1"), ["flat.yaml:6", "knot"]),
@@ -144,6 +150,9 @@ DECK_WORDS = {
     "last word lacks its value": (f"{MODELS} type 2 structure", ["'structure' is the last word"]),
     "material of another word": (GOOD + " material any", ["'any'", "'independent'"]),
     "store_force of another word": (GOOD + " store_force maybe", ["'maybe'", "'yes' or 'no'"]),
+    "contacts beyond all sense": (GOOD + " contacts 1000000", ["id plate", "'1000000'", "1 to 256", "memory"]),
+    "twin beyond all sense": (RIGID + " twin 100000", ["id plate", "'100000'", "1 to 100"]),
+    "number beyond all sense": (RIGID + " motion linear 1e300 0 0", ["id plate", "'1e300'", r"at most 1e\+100"]),
     "search of another word": (GOOD + " search brent", ["'brent'", "'newton' or 'simplex_brent'"]),
     "motion of a deforming wall": (GOOD + " motion linear 1 0 0", ["'motion'", "rigid", "'structure'"]),
     "servo of a deforming wall": (f"{GOOD} {SERVO}", ["'servo'", "rigid", "'structure'"]),
@@ -167,6 +176,9 @@ DECK_WORDS = {
 DECKS = {
     "timestep above the stable step": ("timestep 1e-6\n", "run 1\n", ["id plate", "1e-06", r"2\.\d+e-07"]),
     "timestep raised between runs": ("", "run 1\ntimestep 1e-6\nrun 1\n", ["id plate", "1e-06"]),
+    "motion that leads nowhere": (
+        f"fix w2 all wall/nurbs {RIGID} motion rotate origin 0 0 0 axis 0 0 1 period 1e-308\n", "run 1\n",
+        ["id w2", "step 1:", "not finite", "numbers that move it"]),
     "a structure that blows up": (
         f"fix w2 all wall/nurbs {GOOD.replace('block', 'soft')}\n", "run 100\n",
         ["id w2", "'soft.yaml': step 1:", "blown up at time", "control node .* undeformed at", "likely cause: .*loads.*time step"],

@@ -109,15 +109,37 @@ TEST(RoundTrip, NumbersAtTheLimits) {
   GeometryFile geometry = random_geometry(3, true, false);
   Surface& surface = std::get<Surface>(geometry.patches[0]);
   using Limits = std::numeric_limits<double>;
-  const double hard[] = {
-      -0.0,      Limits::denorm_min(),     Limits::min(),      Limits::max(), -Limits::max(), 0.1 + 0.2,
-      1.0 / 3.0, std::nextafter(1.0, 2.0), 9007199254740993.0, 1e23};
+  const double hard[] = {-0.0,      Limits::denorm_min(),     Limits::min(),      1e100, -1e100, 0.1 + 0.2,
+                         1.0 / 3.0, std::nextafter(1.0, 2.0), 9007199254740993.0, 1e23};
   std::copy(std::begin(hard), std::end(hard), surface.control_points.data());
   geometry.surfaces = {{"wall", {{0, {}}}}};
   for (const Format format : kFormats) {
     SCOPED_TRACE(file_of(format));
     expect_same(geometry, again(geometry, format));
   }
+}
+
+// Of one control point, weight, or knot, whatever the format.
+TEST(RoundTrip, NumbersBeyondTheLimitsAreRefused) {
+  const GeometryFile good = random_geometry(3, true, false);
+  const nurbs::Space<2>& space = std::get<Surface>(good.patches[0]).space;
+  for (const Format format : kFormats) {
+    const auto refused = [&](const std::string& bytes, const char* words) {
+      EXPECT_THAT(
+          [&] { geometry_io::read_geometry(file_of(format), [&](const std::string&) { return bytes; }); },
+          testing::ThrowsMessage<nurbs::InputError>(
+              testing::AllOf(testing::HasSubstr(file_of(format)), testing::HasSubstr(words))));
+    };
+    GeometryFile geometry = good;
+    for (const double beyond : {1.1e100, -1e300}) {
+      std::get<Surface>(geometry.patches[0]).control_points(1, 2) = beyond;
+      refused(geometry_io::write_geometry(geometry, format), "at most 1e+100");
+    }
+  }
+  std::vector<double> weights(space.control_point_count(), 1.0);
+  weights[1] = 1.1e100;
+  EXPECT_THROW(nurbs::Space<2>(space.knots(), weights), std::invalid_argument);
+  EXPECT_THROW(nurbs::KnotVector(1, {0, 0, 1.1e100, 1.1e100}), std::invalid_argument);
 }
 
 TEST(RoundTrip, ExactRoundShapesStayClosedToTheLastBit) {

@@ -4,6 +4,8 @@
 #include <hdf5.h>
 
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -213,6 +215,29 @@ TEST_F(HistoryFile, OfSomethingElseIsLeftAsItIs) {
   EXPECT_THAT([&] { resume(nurbs::Units::cgs, {}); },
               testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("'mm-g-ms', expected 'cgs'")));
   EXPECT_EQ(read_series(base() + ".h5", "time").size(), 6u);
+}
+
+// The model reads a geometry file that its own output would replace: under the same name, another spelling, a
+// link; so would the model file itself.
+TEST_F(HistoryFile, NeverReplacesWhatTheModelIsReadFrom) {
+  const std::string name = (folder_ / "block").string(), text_of_others = "not to be lost";
+  std::ofstream(name + ".h5") << text_of_others;
+  fs::create_symlink(name + ".h5", folder_ / "link.h5");
+  fs::create_hard_link(name + ".h5", folder_ / "twin.h5");
+  for (const std::string& output : {name, (folder_ / "." / ".." / folder_.filename() / "block").string(),
+                                    (folder_ / "link").string(), (folder_ / "twin").string()}) {
+    SCOPED_TRACE(output);
+    io::HistoryOutput asked{1.0, output, "plate.yaml:7", {"plate.yaml", name + ".h5"}};
+    EXPECT_THAT([&] { io::History(asked, nurbs::Units::si, {}); },
+                testing::ThrowsMessage<nurbs::InputError>(
+                    testing::AllOf(testing::StartsWith("plate.yaml:7: output.file is"),
+                                   testing::HasSubstr("would be overwritten"))));
+  }
+  std::ostringstream kept;
+  kept << std::ifstream(name + ".h5").rdbuf();
+  EXPECT_EQ(kept.str(), text_of_others);
+  io::History({1.0, base(), "plate.yaml:7", {name + ".h5"}}, nurbs::Units::si,
+              {});  // another file may be written
 }
 
 TEST_F(HistoryFile, NamesTheFileItCannotCreate) {

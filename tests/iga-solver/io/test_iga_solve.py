@@ -77,5 +77,55 @@ class Divergence(IgaSolve):
                 self.assertTrue(numpy.isfinite(file[name][()]).all(), name)
 
 
+class OwnInput(IgaSolve):
+    def test_is_never_overwritten(self):
+        self.run_model(BLOCK, "--end", "0.001")
+        (self.folder / "block.h5").unlink()
+        geometry = [Path(PROGRAM).with_name("nurbs-convert"), "box.yaml", "block.h5"]
+        (self.folder / "box.yaml").write_text("\n".join(BLOCK.splitlines()[:3]) + "\n")
+        subprocess.run(geometry, cwd=self.folder, check=True, capture_output=True)
+        bytes_before = (self.folder / "block.h5").read_bytes()
+        (self.folder / "link").symlink_to(self.folder)
+        box = next(line for line in BLOCK.splitlines() if "box:" in line)
+        for output in ("block", "./block", "link/block", str(self.folder / "block")):
+            text = changed((box, "  file: block.h5"), ("file: block}", f"file: {output}}}"))
+            done = self.run_model(text, name="model.yaml")
+            self.assert_error(done, "model.yaml:7: output.file is .*block.h5 is the file .*block.h5 .* would be overwritten")
+            self.assertEqual((self.folder / "block.h5").read_bytes(), bytes_before)
+        # a model file that is named as its own output
+        done = self.run_model(BLOCK, name="block.h5")
+        self.assert_error(done, "block.h5:7: output.file is block")
+        self.assertEqual((self.folder / "block.h5").read_text(), BLOCK)
+
+
+class Memory(IgaSolve):
+    """What does not fit is said before it is tried, or where it ends; nothing is killed without a word."""
+
+    def limited(self, text: str, megabytes: int) -> subprocess.CompletedProcess:
+        (self.folder / "block.yaml").write_text(text)
+        limit = ["bash", "-c", f'ulimit -v {1000 * megabytes}; exec "$0" "$@"', PROGRAM, "block.yaml"]
+        return subprocess.run(limit, cwd=self.folder, capture_output=True, text=True, timeout=60, check=False)
+
+    def mesh(self, elements: str) -> str:
+        return changed(("[4, 4, 2]", elements))
+
+    def test_control_points(self):
+        self.assert_error(
+            self.run_model(self.mesh("[100000, 100000, 100]")),
+            r"block.yaml:3: elements \[100000, 100000, 100\]: 1.02e\+12 control points would take 24.5 TB of memory, this "
+            r"process may have [0-9.]+ [MGT]B")
+
+    def test_solid(self):
+        # 27 points with 3 x 28 derivatives of 8 bytes: 18.4 kB per quadratic element, as the README of structure/ says
+        self.assert_error(
+            self.limited(self.mesh("[100, 100, 20]"), 2000),
+            "block.yaml:[23]: geometry: a solid of 200000 elements of degrees 2, 2, 2 would take 3.67 GB of memory, this process "
+            "may have 2.05 GB")
+
+    def test_where_it_ends(self):
+        # the solid alone would fit, but not with what is needed besides
+        self.assert_error(self.limited(self.mesh("[40, 40, 10]"), 300), "block.yaml: out of memory: .*307 MB")
+
+
 if __name__ == "__main__":
     unittest.main()

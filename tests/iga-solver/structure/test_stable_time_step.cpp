@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "models.h"
 #include "structure/stable_time_step.h"
@@ -15,6 +17,8 @@ using nurbs::Face;
 using structure::LumpedMass;
 using structure::Solid;
 using structure::Supports;
+using testing::AllOf;
+using testing::HasSubstr;
 
 double stable_step(const Solid& solid, const Supports& supports) {
   return structure::stable_time_step(solid, LumpedMass(solid.row_sum_mass()), supports,
@@ -102,6 +106,40 @@ TEST(StableTimeStep, RefusesAResultOutsideTheElementBounds) {
   for (double factor : {0.01, 100.0})
     EXPECT_THROW(structure::stable_time_step(solid, LumpedMass(factor * solid.row_sum_mass()), {}, at_rest),
                  std::logic_error);
+}
+
+// Eigenvalues of matrices that are not finite would be sought for ever.
+TEST(StableTimeStep, RefusesNumbersThatAreNotFinite) {
+  const auto message = [](const Solid& solid, const NodalVectors& u) -> std::string {
+    try {
+      structure::stable_time_step(solid, LumpedMass(solid.row_sum_mass()), {}, u);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  const Solid solid(models::block({1, 1, 1}, {2, 1, 1}, 2), models::elastic());
+  NodalVectors u = NodalVectors::Zero(3, solid.node_count());
+  for (double value : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    u(1, 5) = value;
+    EXPECT_THAT(message(solid, u), HasSubstr("displacements that are not finite"));
+  }
+  u.setZero();
+  // Numbers that may be given, but whose quotient is not one: too large, and too small.
+  const Solid stiff(models::block({1e-60, 1e-60, 1e-60}, {2, 1, 1}, 2), models::elastic(1e100, 0.3, 1e-100));
+  EXPECT_THAT(message(stiff, u), AllOf(HasSubstr("no finite number"), HasSubstr("Young's modulus 1e+100"),
+                                       HasSubstr("density 1e-100"), HasSubstr("about 7.94e-61")));
+  const Solid soft(models::block({1e70, 1e70, 1e70}, {2, 1, 1}, 2), models::elastic(1e-100, 0.3, 1e90));
+  EXPECT_THAT(message(soft, u),
+              AllOf(HasSubstr("no finite number > 0"), HasSubstr("Young's modulus 1e-100")));
+}
+
+TEST(ElementEigenvalueBounds, RefuseNumbersThatAreNotFinite) {
+  const Solid solid(models::block({1, 1, 1}, {2, 1, 1}, 2), models::elastic());
+  NodalVectors u = NodalVectors::Zero(3, solid.node_count());
+  u(1, 3) = std::numeric_limits<double>::quiet_NaN();  // of the second element alone
+  EXPECT_THAT([&] { structure::element_eigenvalue_bounds(solid, {}, u); },
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("in element 1")));
 }
 
 TEST(ElementEigenvalueBounds, EncloseTheLargestEigenvalue) {

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/on_every_rank.h"
+
+#include "nurbs/input_error.h"
+#include "nurbs/memory.h"
+
+namespace coupling {
+
+void agree_on_problem(MPI_Comm comm, std::string problem) {
+  int rank, size, first;
+  MPI_Comm_rank(comm, &rank);
+  MPI_Comm_size(comm, &size);
+  const int mine = problem.empty() ? size : rank;
+  MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, comm);
+  if (first == size) return;
+  int length = static_cast<int>(problem.size());
+  MPI_Bcast(&length, 1, MPI_INT, first, comm);
+  problem.resize(length);
+  MPI_Bcast(problem.data(), length, MPI_CHAR, first, comm);
+  throw nurbs::InputError(problem);
+}
+
+std::string out_of_memory(const std::string& file) {
+  return file + ": out of memory: what it describes takes more than this process may have, " +
+         nurbs::size_text(nurbs::memory_limit());
+}
+
+}  // namespace coupling

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Work that each rank does alike, but that may fail on some of them only (a machine with less memory): all or
+// none go on, or those that do would wait for the others for ever.
+#pragma once
+
+#include <mpi.h>
+
+#include <exception>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace coupling {
+
+/// Collective.  Throws nurbs::InputError on every rank if `problem` is not empty on one of them: the problem
+/// of the lowest such rank.
+void agree_on_problem(MPI_Comm comm, std::string problem);
+
+/// What is said where memory ends: "plate.yaml: out of memory: ...".
+std::string out_of_memory(const std::string& file);
+
+/// Collective.  The result of action(), which reads `file`; throws as agree_on_problem if it threw anywhere.
+template <class Action>
+auto on_every_rank(MPI_Comm comm, const std::string& file, Action action) {
+  std::optional<decltype(action())> result;
+  std::string problem;
+  try {
+    result = action();
+  } catch (const std::bad_alloc&) {
+    problem = out_of_memory(file);
+  } catch (const std::exception& error) {
+    problem = error.what();
+  }
+  agree_on_problem(comm, std::move(problem));
+  return std::move(*result);
+}
+
+}  // namespace coupling

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What fails on one rank fails on all of them, with the same words.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <new>
+#include <stdexcept>
+
+#include "coupling/on_every_rank.h"
+#include "nurbs/input_error.h"
+
+namespace {
+
+using coupling::on_every_rank;
+using testing::HasSubstr;
+using testing::StrEq;
+using testing::ThrowsMessage;
+
+int ranks() {
+  int size;
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  return size;
+}
+int rank() {
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+TEST(OnEveryRank, GivesEachItsResult) {
+  EXPECT_EQ(on_every_rank(MPI_COMM_WORLD, "plate.yaml", [] { return rank(); }), rank());
+}
+
+TEST(OnEveryRank, FailsOnAllWhereOneFails) {
+  const auto fail_on = [](int which) {
+    return on_every_rank(MPI_COMM_WORLD, "plate.yaml", [=] {
+      if (rank() == which) throw std::invalid_argument("plate.yaml:3: no such thing");
+      return 0;
+    });
+  };
+  for (int which = 0; which < ranks(); ++which)
+    EXPECT_THAT([&] { fail_on(which); },
+                ThrowsMessage<nurbs::InputError>(StrEq("plate.yaml:3: no such thing")));
+}
+
+TEST(OnEveryRank, SaysWhichFileTheMemoryOfOneDoesNotHold) {
+  const auto fail_on_last = [] {
+    return on_every_rank(MPI_COMM_WORLD, "plate.yaml", [] {
+      if (rank() == ranks() - 1) throw std::bad_alloc();
+      return 0;
+    });
+  };
+  EXPECT_THAT(fail_on_last, ThrowsMessage<nurbs::InputError>(HasSubstr("plate.yaml: out of memory: ")));
+}
+
+}  // namespace
