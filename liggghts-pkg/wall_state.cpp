@@ -26,7 +26,7 @@ class PartReader {
   std::vector<double> part() {
     std::vector<double> numbers(static_cast<std::size_t>(peek()));
     skip_number();
-    std::memcpy(numbers.data(), next_, numbers.size() * sizeof(double));
+    if (!numbers.empty()) std::memcpy(numbers.data(), next_, numbers.size() * sizeof(double));
     next_ += numbers.size() * sizeof(double);
     return numbers;
   }

@@ -2,6 +2,7 @@
 #include "nurbs/basis.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "nurbs/assert.h"
 
@@ -41,7 +42,9 @@ void evaluate_basis(const KnotVector& knots, int span, double xi, int derivative
   const int p = knots.degree();
   NURBS_ASSERT(p <= span && span < knots.control_point_count(), span, p, knots.control_point_count());
   NURBS_ASSERT(U[span] < U[span + 1], span, U[span], U[span + 1]);
-  NURBS_ASSERT(U[span] <= xi && xi <= U[span + 1], xi, U[span], U[span + 1]);
+  // Beyond its span the polynomial goes on; what is far from it was meant for another one.
+  NURBS_ASSERT(std::abs(2.0 * xi - U[span] - U[span + 1]) <= 1.5 * (U[span + 1] - U[span]), xi, U[span],
+               U[span + 1]);
   NURBS_ASSERT(0 <= derivatives && derivatives <= 2, derivatives);
   double N[kMaxDegree + 1][kMaxDegree + 1];  // N[q]: functions of degree q
   N[0][0] = 1.0;
