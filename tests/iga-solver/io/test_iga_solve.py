@@ -92,9 +92,9 @@ class OwnInput(IgaSolve):
             done = self.run_model(text, name="model.yaml")
             self.assert_error(done, "model.yaml:7: output.file is .*block.h5 is the file .*block.h5 .* would be overwritten")
             self.assertEqual((self.folder / "block.h5").read_bytes(), bytes_before)
-        # a model file that is named as its own output
+        # a model file that is named as its own output: no reader takes it for one
         done = self.run_model(BLOCK, name="block.h5")
-        self.assert_error(done, "block.h5:7: output.file is block")
+        self.assert_error(done, "block.h5: is no HDF5 file, expected one by its name")
         self.assertEqual((self.folder / "block.h5").read_text(), BLOCK)
 
 
