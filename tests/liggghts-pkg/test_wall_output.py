@@ -238,7 +238,7 @@ run 400
             "cannot write '/no/such/folder/floor_0.vtu'": (BALLS, wall("/no/such/folder", 50)),
             "field wear needs Finnie's constants": (no_constants, wall(self.folder, 50, "fields wear")),
             "output every is '0', expected a number of steps, 1 or more": (BALLS, wall(self.folder, 0)),
-            "twin is 'x', expected how many cells of triangles": (BALLS, wall(self.folder, 5, "twin x")),
+            "twin is 'x', expected how many cells of two triangles": (BALLS, wall(self.folder, 5, "twin x")),
         }
         for message, (head, line) in cases.items():
             for ranks in (1, 2):
