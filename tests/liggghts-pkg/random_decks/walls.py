@@ -137,7 +137,7 @@ def arc_elements(rng: Random, angle: float) -> int:
 def twin_of(turn: float, radius: float) -> dict[str, float]:
     """Of elements that turn by so much and have this radius of curvature at least: cells per element, and the angle between
     a facet and the surface, half of what the normal turns across a cell, with room for its diagonal and unequal cells."""
-    cells = math.ceil(turn / FACET)
+    cells = min(math.ceil(turn / FACET), 12)  # LIGGGHTS aborts where a ball meets too many triangles at once
     return {"twin": cells, "facet": 0.5 * math.sqrt(2) * 1.3 * turn / cells, "curvature": 1 / radius}
 
 
