@@ -193,7 +193,7 @@ class Collector {
       file_.fail(patches,
                  fmt::format("id_range is '{}', expected its first and last id", fmt::join(given, " ")));
     std::vector<int> range;
-    for (int id = given[0]; id <= given[1]; ++id) range.push_back(id);
+    for (int k = 0; k <= given[1] - given[0]; ++k) range.push_back(given[0] + k);  // the last may be INT_MAX
     return range;
   }
 
