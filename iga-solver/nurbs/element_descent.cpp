@@ -261,11 +261,11 @@ class Descent {
 
   // Takes the last step, too short for S to need more than its tangents, but beside a pole.
   Vector3 finish() {
-    constexpr double kShort = 1e-7;
+    constexpr double kShort = 1e-8;
     if (std::max(std::abs(step_[0]), std::abs(step_[1])) > kShort) {
       move(1.0, next_->at);
       sample(*next_);
-      if (next_->f.phi <= now_->f.phi) std::swap(now_, next_);
+      if (next_->f.phi <= now_->f.phi + phi_round_off()) std::swap(now_, next_);
       return Vector3(now_->f.r);
     }
     Vector3 r(now_->f.r);

@@ -80,7 +80,7 @@ class PoleElement {
       return PoleKind::slope;
     }
     if (high - low <= 2.0 / kPlaces && least >= -flat_)
-      return bends_down(low) || bends_down(high) ? PoleKind::saddle : PoleKind::minimum;
+      return bends_down(low, high) ? PoleKind::saddle : PoleKind::minimum;
     if (high - low < kShortest) return PoleKind::slope;
     double lower[kMaxDegree + 1], upper[kMaxDegree + 1] = {};
     std::copy_n(b, n_ + 1, upper);
@@ -92,9 +92,18 @@ class PoleElement {
     return worse(kind(lower, low, middle), kind(upper, middle, high));
   }
 
-  bool bends_down(double s) const {
+  // Whether phi curves down on a way into the patch from anywhere between two places: there it may differ
+  // from what it is on three by their second difference, so that is made small.
+  bool bends_down(double low, double high) const {
+    const double middle = 0.5 * (low + high);
+    const double a = bend(low), b = bend(middle), c = bend(high), least = std::min({a, b, c});
+    if (!(least > 0.0)) return true;
+    if (least > std::abs(a - 2.0 * b + c) || high - low < kShortest) return false;
+    return bends_down(low, middle) || bends_down(middle, high);
+  }
+  double bend(double s) const {
     const DistanceJet jet = sample(s);
-    return !(jet.hessian[2 * j_] > kLeastCurvature * jet.metric[2 * j_]);
+    return jet.hessian[2 * j_] - kLeastCurvature * jet.metric[2 * j_];
   }
 
   DistanceJet sample(double s) const {
