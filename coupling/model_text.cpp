@@ -5,7 +5,7 @@
 #include <limits>
 #include <system_error>
 
-#include "coupling/on_every_rank.h"
+#include "coupling/all_or_none.h"
 #include "geometry_io/geometry_io.h"
 #include "nurbs/input_error.h"
 #include "nurbs/regular_file.h"

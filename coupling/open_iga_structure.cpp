@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include "coupling/all_or_none.h"
 #include "coupling/iga_structure.h"
 #include "coupling/model_text.h"
-#include "coupling/on_every_rank.h"
 #include "coupling/open_structure.h"
 #include "io/model_file.h"
 

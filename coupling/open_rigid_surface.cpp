@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include "coupling/all_or_none.h"
 #include "coupling/model_text.h"
-#include "coupling/on_every_rank.h"
 #include "coupling/open_structure.h"
 #include "coupling/rigid_surface.h"
 #include "geometry_io/geometry_io.h"

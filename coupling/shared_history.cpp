@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "coupling/on_first_rank.h"
+#include "coupling/all_or_none.h"
 
 namespace coupling {
 

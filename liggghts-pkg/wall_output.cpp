@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "coupling/on_first_rank.h"
+#include "coupling/all_or_none.h"
 
 namespace liggghts_pkg {
 

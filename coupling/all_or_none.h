@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Work that each rank does alike, but that may fail on some of them only (a machine with less memory): all or
-// none go on, or those that do would wait for the others for ever.
+// Work of one rank for all, or of each alike, that may fail on some of them only (a disk, a machine with less
+// memory): all or none go on, or those that do would wait for the others for ever.
 #pragma once
 
 #include <mpi.h>
@@ -34,6 +34,20 @@ auto on_every_rank(MPI_Comm comm, const std::string& file, Action action) {
   }
   agree_on_problem(comm, std::move(problem));
   return std::move(*result);
+}
+
+/// Collective.  Rank 0 acts; throws as agree_on_problem if it threw.
+template <class Action>
+void on_first_rank(MPI_Comm comm, Action action) {
+  int rank;
+  MPI_Comm_rank(comm, &rank);
+  std::string problem;
+  if (rank == 0) try {
+      action();
+    } catch (const std::exception& error) {
+      problem = error.what();
+    }
+  agree_on_problem(comm, std::move(problem));
 }
 
 }  // namespace coupling

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/on_every_rank.h"
+#include "coupling/all_or_none.h"
 
 #include "nurbs/input_error.h"
 #include "nurbs/memory.h"

@@ -6,12 +6,13 @@
 #include <new>
 #include <stdexcept>
 
-#include "coupling/on_every_rank.h"
+#include "coupling/all_or_none.h"
 #include "nurbs/input_error.h"
 
 namespace {
 
 using coupling::on_every_rank;
+using coupling::on_first_rank;
 using testing::HasSubstr;
 using testing::StrEq;
 using testing::ThrowsMessage;
@@ -51,6 +52,19 @@ TEST(OnEveryRank, SaysWhichFileTheMemoryOfOneDoesNotHold) {
     });
   };
   EXPECT_THAT(fail_on_last, ThrowsMessage<nurbs::InputError>(HasSubstr("plate.yaml: out of memory: ")));
+}
+
+TEST(OnFirstRank, ActsThereAlone) {
+  int acted = 0;
+  on_first_rank(MPI_COMM_WORLD, [&] { ++acted; });
+  EXPECT_EQ(acted, rank() == 0 ? 1 : 0);
+}
+
+TEST(OnFirstRank, FailsOnAll) {
+  const auto fail = [] {
+    on_first_rank(MPI_COMM_WORLD, [] { throw std::invalid_argument("no room for wall.pvd"); });
+  };
+  EXPECT_THAT(fail, ThrowsMessage<nurbs::InputError>(StrEq("no room for wall.pvd")));
 }
 
 }  // namespace
