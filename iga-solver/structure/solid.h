@@ -43,7 +43,7 @@ class Solid {
   Matrix3 stress(const NodalVectors& u, const nurbs::Parameter<3>& xi) const;
 
   // Single elements, for estimates that look at one element at a time.  Element values are
-  // [3][padded_functions()].
+  // [3][padded_functions()], 0 beyond the functions: kernels go over whole vectors.
   int padded_functions() const { return padded_; }
   void gather(int element, const NodalVectors& nodal, double* values) const;
   void element_force(int element, const double* u, double* f) const;

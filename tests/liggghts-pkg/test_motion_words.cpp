@@ -166,6 +166,26 @@ TEST(FixModify, WordsOfTheMeshModuleServo) {
   EXPECT_EQ(settings.automatic->ratio, 0.5);
 }
 
+// The integral of a controller with k_i alone is its speed: v = -vel_max * sum(error dt) / target.
+TEST(FixModify, ANewTargetAndNewGainsForgetFormerErrors) {
+  for (const char* line : {"servo/target_val 5", "servo/ctrlParam 0 1 0", "servo/vel_max 1"}) {
+    coupling::RigidSurface wall =
+        wall_with("servo com 0 0 0 ctrlPV force axis 0 0 1 target_val 5 vel_max 1 kp 0 ki 1 kd 0");
+    const auto speed_after_steps = [&](int steps) {  // nothing is felt: the error is -5 in each
+      for (int i = 0; i < steps; ++i) {
+        wall.begin_step();
+        wall.end_step(coupling::NodalVectors::Zero(3, 4));
+      }
+      wall.begin_step();
+      return wall.frame().velocity[2];
+    };
+    EXPECT_NEAR(speed_after_steps(10), 0.1, 1e-15);
+    change(line, wall);
+    const bool remembers = std::string(line).find("vel_max") != std::string::npos;
+    EXPECT_NEAR(speed_after_steps(10), remembers ? 0.2 : 0.1, 1e-15) << line;
+  }
+}
+
 TEST(FixModify, WrongWordsAreRefused) {
   coupling::RigidSurface servo = wall_with("servo com 0 0 0 ctrlPV force axis 0 0 1 target_val 5 vel_max 1");
   coupling::RigidSurface moving = wall_with("motion linear 1 0 0");

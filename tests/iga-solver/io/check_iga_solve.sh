@@ -33,13 +33,16 @@ holds() { awk "BEGIN { exit !($1) }"; }
 kinetic=$(value kinetic) strain=$(value strain) work=$(value 'work of the loads') balance=$(value balance)
 holds "($balance) - ($kinetic + $strain - $work) < 1e-6 && ($balance) - ($kinetic + $strain - $work) > -1e-6" ||
   fail "balance"
-# Steps of 0.9 of the stable one at most, and no fewer than needed: the last ends at 2.
+# Steps of 0.9 of the stable one at most, and no fewer than needed: the last ends at the end.
 stable=$(value 'stable step') step=$(value 'time step') steps=$(sed -nE 's/.*, ([0-9]+) steps$/\1/p' out)
 expect_steps() {
-  holds "$steps >= 2 / ($1) && $steps < 2 / ($1) + 1" || fail "$steps steps of at most $1"
-  holds "$step * $steps > 2 * (1 - 1e-5) && $step * $steps < 2 * (1 + 1e-5)" || fail "$steps steps of $step"
+  holds "$steps >= $2 / ($1) && $steps < $2 / ($1) + 1" || fail "$steps steps of at most $1"
+  holds "$step * $steps > $2 * (1 - 1e-5) && $step * $steps < $2 * (1 + 1e-5)" || fail "$steps steps of $step"
 }
-expect_steps "0.9 * $stable"
+expect_steps "0.9 * $stable" 2
+"$program" fall.yaml --end 20 > out || fail "exit code with an end" # which more steps tell from other steps
+step=$(value 'time step') steps=$(sed -nE 's/.*, ([0-9]+) steps$/\1/p' out)
+expect_steps "0.9 * $stable" 20
 sed "s/^time.*/time: {end: 2, step: 0.0625}/" fall.yaml > steps.yaml
 "$program" steps.yaml > out || fail "exit code with a step"
 step=$(value 'time step') steps=$(sed -nE 's/.*, ([0-9]+) steps$/\1/p' out)

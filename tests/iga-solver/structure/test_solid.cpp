@@ -213,6 +213,17 @@ std::string message_of(const std::function<void()>& action) {
   return "no error";
 }
 
+// Kernels go over whole vectors: what lies beyond an element's functions must be a number, and 0.
+TEST(Solid, GathersZerosBeyondTheFunctions) {
+  const Solid solid(models::block({1, 1, 1}, {2, 2, 2}, 2), models::elastic());
+  const int functions = 27, padded = solid.padded_functions();
+  ASSERT_GT(padded, functions);
+  std::vector<double> values(3 * padded, std::nan(""));
+  solid.gather(3, NodalVectors::Ones(3, solid.node_count()), values.data());
+  for (int i = 0; i < 3; ++i)
+    for (int a = 0; a < padded; ++a) EXPECT_EQ(values[i * padded + a], a < functions ? 1.0 : 0.0);
+}
+
 TEST(Solid, RefusesAPatchWithANegativeJacobianAndSaysWhere) {
   nurbs::Volume mirrored = models::block({1, 1, 1}, {2, 1, 1}, 2);
   mirrored.control_points.row(2) *= -1.0;

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""iga-solve where memory ends.  Not for the address sanitizer, which takes more addresses than the limits here allow."""
+
+import subprocess
+import unittest
+
+from test_iga_solve import PROGRAM, IgaSolve, changed
+
+
+class Memory(IgaSolve):
+    """What does not fit is said before it is tried, or where it ends; nothing is killed without a word."""
+
+    def limited(self, text: str, megabytes: int) -> subprocess.CompletedProcess:
+        (self.folder / "block.yaml").write_text(text)
+        limit = ["bash", "-c", f'ulimit -v {1000 * megabytes}; exec "$0" "$@"', PROGRAM, "block.yaml"]
+        return subprocess.run(limit, cwd=self.folder, capture_output=True, text=True, timeout=60, check=False)
+
+    def mesh(self, elements: str) -> str:
+        return changed(("[4, 4, 2]", elements))
+
+    def test_control_points(self):
+        self.assert_error(
+            self.run_model(self.mesh("[100000, 100000, 100]")),
+            r"block.yaml:3: elements \[100000, 100000, 100\]: 1.02e\+12 control points would take 24.5 TB of memory, this "
+            r"process may have [0-9.]+ [MGT]B")
+
+    def test_solid(self):
+        # 27 points with 3 x 28 derivatives of 8 bytes: 18.4 kB per quadratic element, as the README of structure/ says
+        self.assert_error(
+            self.limited(self.mesh("[100, 100, 20]"), 2000),
+            "block.yaml:[23]: geometry: a solid of 200000 elements of degrees 2, 2, 2 would take 3.67 GB of memory, this process "
+            "may have 2.05 GB")
+
+    def test_where_it_ends(self):
+        # the solid alone would fit, but not with what is needed besides
+        self.assert_error(self.limited(self.mesh("[40, 40, 10]"), 300), "block.yaml: out of memory: .*307 MB")
+
+
+if __name__ == "__main__":
+    unittest.main()
