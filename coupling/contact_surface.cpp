@@ -15,7 +15,7 @@ SurfaceMap SurfaceMap::selection(const std::vector<int>& node, int nodes) {
     S.insert(i, node[i]) = 1.0;
   }
   S.makeCompressed();
-  return SurfaceMap(std::move(S));
+  return SurfaceMap(S);
 }
 
 SurfaceMap SurfaceMap::identity(int nodes) {

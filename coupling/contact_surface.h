@@ -18,7 +18,7 @@ using nurbs::Vector3;
 class SurfaceMap {
  public:
   /// S is n_control_points x n_nodes [-].
-  explicit SurfaceMap(Eigen::SparseMatrix<double, Eigen::RowMajor> S) : S_(std::move(S)) {}
+  explicit SurfaceMap(const Eigen::SparseMatrix<double, Eigen::RowMajor>& S) : S_(S) {}
   /// The control points are the nodes.
   static SurfaceMap identity(int nodes);
   /// Control point i is node[i].

@@ -53,7 +53,7 @@ ContactSurface surface_of(const nurbs::Volume& volume, const std::vector<nurbs::
 }  // namespace
 
 IgaStructure::IgaStructure(structure::ExplicitSolver solver, const std::vector<nurbs::Face>& faces,
-                           std::vector<structure::Probe> probes, std::optional<Vector3> gravity)
+                           std::vector<structure::Probe> probes, const std::optional<Vector3>& gravity)
     : solver_(std::move(solver)),
       faces_(faces),
       surface_(surface_of(solver_.solid().patch(), faces)),

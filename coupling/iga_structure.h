@@ -19,7 +19,7 @@ class IgaStructure final : public StructureSolver {
  public:
   /// Particles see the given faces of the solver's volume patch; faces that share an edge are welded there.
   IgaStructure(structure::ExplicitSolver solver, const std::vector<nurbs::Face>& faces,
-               std::vector<structure::Probe> probes = {}, std::optional<Vector3> gravity = {});
+               std::vector<structure::Probe> probes = {}, const std::optional<Vector3>& gravity = {});
   /// From now on writes histories; before the first run.
   void write_history(SharedHistory history) { history_.emplace(std::move(history)); }
 

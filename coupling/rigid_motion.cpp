@@ -41,7 +41,7 @@ Motion linear(const Vector3& velocity) {
   return {"linear", Translation{[=](double) { return velocity; }}};
 }
 
-Motion linear_variable(Value vx, Value vy, Value vz) {
+Motion linear_variable(const Value& vx, const Value& vy, const Value& vz) {
   return {"linear/variable", Translation{[=](double) { return Vector3(vx(), vy(), vz()); }}};
 }
 
@@ -56,7 +56,7 @@ Motion rotate(const Vector3& centre, const Vector3& axis, double period) {
   return {"rotate", Rotation{centre, axis.normalized(), [=](double) { return omega; }, true}};
 }
 
-Motion rotate_variable(const Vector3& centre, const Vector3& axis, Value rate) {
+Motion rotate_variable(const Vector3& centre, const Vector3& axis, const Value& rate) {
   return {"rotate/variable", Rotation{centre, axis.normalized(), [=](double) { return rate(); }, true}};
 }
 
@@ -67,12 +67,12 @@ Motion riggle(const Vector3& centre, const Vector3& axis, double period, double 
                              [=](double time) { return amplitude * omega * std::cos(omega * time); }, false}};
 }
 
-Motion viblin(const Vector3& axis, Harmonics displacement) {
+Motion viblin(const Vector3& axis, const Harmonics& displacement) {
   const Vector3 direction = axis.normalized();
   return {"viblin", Translation{[=](double time) -> Vector3 { return displacement.rate(time) * direction; }}};
 }
 
-Motion vibrot(const Vector3& centre, const Vector3& axis, Harmonics angle) {
+Motion vibrot(const Vector3& centre, const Vector3& axis, const Harmonics& angle) {
   return {"vibrot",
           Rotation{centre, axis.normalized(), [=](double time) { return angle.rate(time); }, false}};
 }

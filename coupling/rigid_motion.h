@@ -45,15 +45,15 @@ struct Harmonics {
 
 /// The verbs.  Axes need not be unit vectors, but must not be zero; periods must not be zero.
 Motion linear(const Vector3& velocity);
-Motion linear_variable(Value vx, Value vy, Value vz);
+Motion linear_variable(const Value& vx, const Value& vy, const Value& vz);
 /// x(t) = amplitude sin(2 pi t / period)
 Motion wiggle(const Vector3& amplitude, double period);
 Motion rotate(const Vector3& centre, const Vector3& axis, double period);
-Motion rotate_variable(const Vector3& centre, const Vector3& axis, Value rate);
+Motion rotate_variable(const Vector3& centre, const Vector3& axis, const Value& rate);
 /// angle(t) = amplitude sin(2 pi t / period), amplitude in degrees
 Motion riggle(const Vector3& centre, const Vector3& axis, double period, double amplitude_in_degrees);
-Motion viblin(const Vector3& axis, Harmonics displacement);
-Motion vibrot(const Vector3& centre, const Vector3& axis, Harmonics angle);
+Motion viblin(const Vector3& axis, const Harmonics& displacement);
+Motion vibrot(const Vector3& centre, const Vector3& axis, const Harmonics& angle);
 
 /// A body frame that is moved by finite increments; the rotation stays orthogonal for any number of them.
 class MovingFrame {

@@ -38,30 +38,30 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
  public:
   FixWallNurbs(class LAMMPS*, int, char**);
 
-  int setmask();
-  int modify_param(int narg, char** arg);
-  void post_create();
-  void pre_delete(bool unfixflag);
-  void init();
-  void setup(int vflag);
-  void initial_integrate(int vflag);
-  void post_force(int vflag);
-  void final_integrate();
-  void end_of_step();
-  void post_run();
-  void reset_dt();
-  void createMulticontactData();
+  int setmask() override;
+  int modify_param(int narg, char** arg) override;
+  void post_create() override;
+  void pre_delete(bool unfixflag) override;
+  void init() override;
+  void setup(int vflag) override;
+  void initial_integrate(int vflag) override;
+  void post_force(int vflag) override;
+  void final_integrate() override;
+  void end_of_step() override;
+  void post_run() override;
+  void reset_dt() override;
+  void createMulticontactData() override;
 
-  double compute_vector(int column);
-  void write_restart(FILE* file);
-  void restart(char* buffer);
-  int getCreateMeshTriCount();
-  double* getCreateMeshTriNode(const int i);
+  double compute_vector(int column) override;
+  void write_restart(FILE* file) override;
+  void restart(char* buffer) override;
+  int getCreateMeshTriCount() override;
+  double* getCreateMeshTriNode(const int i) override;
 
  protected:
-  void pre_neighbor();
-  void pre_force(int vflag);
-  void post_force_primitive(int vflag);
+  void pre_neighbor() override;
+  void pre_force(int vflag) override;
+  void post_force_primitive(int vflag) override;
 
  private:
   /// Sums over the particles of all ranks.

@@ -62,7 +62,8 @@ std::string read_file(const std::string& path) {
 }
 
 std::string readable(const std::string& path, std::string bytes) {
-  return input_format(path) == Format::hdf5 ? unpacked_hdf5(bytes, path) : bytes;
+  if (input_format(path) == Format::hdf5) return unpacked_hdf5(bytes, path);
+  return bytes;
 }
 
 GeometryFile read_geometry(const std::string& path, const ReadFile& read, nurbs::Units units) {

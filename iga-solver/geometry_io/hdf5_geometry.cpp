@@ -128,7 +128,7 @@ GeometryFile parse_hdf5(const std::string& bytes, const std::string& file_name, 
   if (!file.has("/surfaces")) return geometry;
   for (const std::string& name : file.members("/surfaces")) {
     const std::string path = "/surfaces/" + name;
-    const std::vector<std::string> words = file.texts(path);
+    const std::vector<std::string>& words = file.texts(path);
     geometry.surfaces[name] =
         blame(file, path, [&] { return nurbs::parse_surface(words, geometry.patches); });
   }

@@ -38,13 +38,13 @@ Result SeriesFile::check(Result result, const char* action) const {
 
 SeriesFile::SeriesFile(std::string path, hid_t file) : path_(std::move(path)), file_(file, H5Fclose) {}
 
-SeriesFile::SeriesFile(std::string path) : SeriesFile(path, create_file(path)) {
+SeriesFile::SeriesFile(const std::string& path) : SeriesFile(path, create_file(path)) {
   check<hid_t>(file_, "create this file (does the folder exist, may it be written to?)");
 }
 
-SeriesFile SeriesFile::open(std::string path) {
+SeriesFile SeriesFile::open(const std::string& path) {
   const hid_t opened = open_file(path);
-  SeriesFile file(std::move(path), opened);
+  SeriesFile file(path, opened);
   file.check<hid_t>(file.file_, "open this file to go on with it");
   return file;
 }

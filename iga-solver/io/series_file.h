@@ -15,9 +15,9 @@ using geometry_io::Hdf5Handle;
 class SeriesFile {
  public:
   /// Creates the file, replacing an older one.
-  explicit SeriesFile(std::string path);
+  explicit SeriesFile(const std::string& path);
   /// Opens a file that is there, to go on with it.
-  static SeriesFile open(std::string path);
+  static SeriesFile open(const std::string& path);
   void set_attribute(const std::string& name, const std::string& value);
   std::string attribute(const std::string& name) const;
   /// Data set [rows] (width 1) or [rows][width] of doubles with attribute `unit`; '/' in the name makes
