@@ -139,7 +139,6 @@ void History::record_if_due(const structure::ExplicitSolver& solver) {
 
 void History::record(const structure::ExplicitSolver& solver) {
   Writer& w = *writer_;
-  w.append(w.time, solver.time());
   w.append(w.kinetic_energy, solver.kinetic_energy());
   w.append(w.strain_energy, solver.strain_energy());
   w.append(w.load_work, solver.load_work());
@@ -148,7 +147,7 @@ void History::record(const structure::ExplicitSolver& solver) {
   w.append(w.largest_displacement, solver.displacements().colwise().norm().maxCoeff());
   for (std::size_t i = 0; i < w.probes.size(); ++i)
     w.append(w.probe_displacement[i], solver.displacement(w.probes[i].xi));
-  w.file.flush();
+  w.file.end_row(solver.time());
   last_time_ = solver.time();
 }
 

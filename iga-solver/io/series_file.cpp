@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
+#include <system_error>
 
 #include "nurbs/regular_file.h"
 
@@ -12,15 +14,18 @@ namespace io {
 
 namespace {
 
-constexpr hsize_t kRowsPerChunk = 256;
+// A kill while a chunk is added may leave a file that HDF5 cannot open: not often.
+constexpr hsize_t kRowsPerChunk = 1024;
 
 using SilentErrors = geometry_io::SilentHdf5Errors;
+
+std::string unfinished_name(const std::string& path) { return path + ".part"; }
 
 hid_t create_file(const std::string& path) {
   const std::string problem = nurbs::problem_as_output(path);
   if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
   const SilentErrors silent;
-  return H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  return H5Fcreate(unfinished_name(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
 }
 
 hid_t open_file(const std::string& path) {
@@ -40,6 +45,7 @@ SeriesFile::SeriesFile(std::string path, hid_t file) : path_(std::move(path)), f
 
 SeriesFile::SeriesFile(const std::string& path) : SeriesFile(path, create_file(path)) {
   check<hid_t>(file_, "create this file (does the folder exist, may it be written to?)");
+  unfinished_ = true;
 }
 
 SeriesFile SeriesFile::open(const std::string& path) {
@@ -127,6 +133,7 @@ void SeriesFile::keep_rows(hsize_t rows) {
     const hsize_t size[2] = {rows, s.width};
     check(H5Dset_extent(s.data_set, size), "shorten a data set");
     s.rows = rows;
+    if (&s == &series_.front()) flush();  // from now on the others' rows do not count
   }
 }
 
@@ -141,6 +148,17 @@ void SeriesFile::append(int series, const double* row) {
   const Hdf5Handle in_memory(H5Screate_simple(rank, count, nullptr), H5Sclose);
   check(H5Dwrite(s.data_set, H5T_NATIVE_DOUBLE, in_memory, in_file, H5P_DEFAULT, row), "write a row");
   ++s.rows;
+}
+
+void SeriesFile::end_row(double value) {
+  flush();
+  append(0, &value);
+  flush();
+  if (!unfinished_) return;
+  std::error_code problem;
+  std::filesystem::rename(unfinished_name(path_), path_, problem);
+  if (problem) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path_, problem.message()));
+  unfinished_ = false;
 }
 
 void SeriesFile::flush() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// An HDF5 file of number series that grow row by row.
+// An HDF5 file of number series that grow row by row, and can be read whenever the run is killed.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ using geometry_io::Hdf5Handle;
 /// Every function throws std::runtime_error, naming the file, if HDF5 fails.
 class SeriesFile {
  public:
-  /// Creates the file, replacing an older one.
+  /// Creates the file; it is `path`.part, and an older file stays, until the first row is complete.
   explicit SeriesFile(const std::string& path);
   /// Opens a file that is there, to go on with it.
   static SeriesFile open(const std::string& path);
@@ -26,8 +26,9 @@ class SeriesFile {
   /// A data set that is there; the index as above.  Also throws if its shape is another.
   int find_series(const std::string& name, int width);
   void append(int series, const double* row);
-  /// Everything appended so far reaches the file, which then is complete as it stands.
-  void flush();
+  /// Ends a row: all that was appended reaches the file, and then `value` of the first series, whose rows are
+  /// those that are complete.
+  void end_row(double value);
   /// Rows that every series has: a killed run may have left some with one more.
   hsize_t rows() const;
   /// All rows of a series of width 1.
@@ -44,9 +45,11 @@ class SeriesFile {
   SeriesFile(std::string path, hid_t file);
   template <class Result>
   Result check(Result result, const char* action) const;
+  void flush();
   void write_attribute(hid_t object, const std::string& name, const std::string& value);
 
   std::string path_;
+  bool unfinished_ = false;  // has not its name yet
   Hdf5Handle file_;
   std::vector<Series> series_;
 };

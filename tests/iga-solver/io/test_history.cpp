@@ -139,7 +139,8 @@ TEST_F(HistoryFile, CarriesUnits) {
        {Names{nurbs::Units::si, "si", "s", "m", "J", "kg m/s", "kg m^2/s"},
         Names{nurbs::Units::cgs, "cgs", "s", "cm", "erg", "g cm/s", "g cm^2/s"},
         Names{nurbs::Units::mm_g_ms, "mm-g-ms", "ms", "mm", "mJ", "g mm/ms", "g mm^2/ms"}}) {
-    const io::History history({1.0, base()}, expected.units, model.probes);
+    io::History history({1.0, base()}, expected.units, model.probes);
+    history.record(falling_block(model));
     const auto unit = [&](const char* series) { return read_attribute(history.path(), series, "unit"); };
     EXPECT_EQ(read_attribute(history.path(), "/", "units"), expected.system);
     EXPECT_EQ(unit("time"), expected.time);
