@@ -6,8 +6,8 @@ Kills a coupled run (balls on a solid that bends and beside a roller that turns)
 chooses the restart file as the command page says, continues from it and expects
 
 * the rest of the run to be that of a run which was only split there, to the last bit;
-* every .pvd and the .vtu files that it lists to open right after the kill, and all of them to be those of the split run in
-  the end, with nothing unfinished left.
+* every .pvd, the .vtu files that it lists and the plate's histories to open right after the kill, and all of them to be those
+  of the split run in the end, with nothing unfinished left.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from random import Random
 import numpy as np
 
 import decks
+import histories
 import vtu
 
 END, EVERY = 1500, 50  # steps of the run, and between restart files
@@ -39,6 +40,7 @@ material: {law: saint_venant_kirchhoff, youngs_modulus: 2.0e+7, poissons_ratio: 
 boundary: [{fix: [x, y, z], faces: [xi-, xi+]}]
 surfaces: {top: zeta+}
 probes: {centre: {face: zeta+, at: [0.5, 0.5]}}
+output: {every: 3e-5, file: plate}
 """,
     "roller.yaml": """
 units: si
@@ -150,7 +152,7 @@ def wait_for(process: subprocess.Popen, file: Path) -> float:
 
 
 def check_series(folder: Path) -> None:
-    """Every series there is opens, and so does every state in it; its times are those of its steps."""
+    """Every series there is opens, and so does every state in it; its times are those of its steps.  So do the histories."""
     for index in folder.glob("*.pvd"):
         for moment, path in vtu.series(index).items():
             state = vtu.read(path)
@@ -158,6 +160,12 @@ def check_series(folder: Path) -> None:
                 raise AssertionError(f"{path.name} is empty or not finite")
             if abs(moment - TIMESTEP * int(path.stem.split("_")[1])) > 1e-9 * TIMESTEP:
                 raise AssertionError(f"{index.name} has time {moment} for {path.name}")
+    rows = histories.read(folder / "plate.h5")
+    steps = rows["time"] / TIMESTEP / SERIES["plate"]
+    if len(steps) < 2 or np.abs(steps - np.arange(len(steps))).max() > 1e-9:
+        raise AssertionError(f"plate.h5 has the times {rows['time']}")
+    if {len(values) for values in rows.values()} != {len(steps)}:
+        raise AssertionError("plate.h5 lacks rows that its time has")
 
 
 def same_state(a: vtu.State, b: vtu.State) -> bool:
@@ -176,6 +184,10 @@ def same_series(folder: Path, reference: Path) -> None:
     for path in reference.glob("*.vtu"):
         if not same_state(vtu.read(folder / path.name), vtu.read(path)):
             raise AssertionError(f"{path.name} differs from that of the split run")
+    ours, theirs = (histories.read(f / "plate.h5") for f in (folder, reference))
+    for name, values in theirs.items():
+        if not np.array_equal(ours[name], values):
+            raise AssertionError(f"{name} of plate.h5 differs from that of the split run")
     unfinished = list(folder.glob("*.part"))
     if unfinished:
         raise AssertionError(f"left unfinished: {unfinished}")

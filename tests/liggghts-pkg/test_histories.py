@@ -12,11 +12,11 @@ import time
 import unittest
 from pathlib import Path
 
-import h5py
 import numpy as np
 
 import ball_on_block as bob
 import decks
+import histories
 
 IGA_SOLVE = os.environ.get("IGA_SOLVE", "iga-solve")
 STEP = 2.0**-27  # [s], so that times are exact sums
@@ -69,10 +69,7 @@ class Histories(unittest.TestCase):
         (self.folder / "block.yaml").write_text(text)
 
     def history(self, name: str = "block.h5") -> dict[str, np.ndarray]:
-        with h5py.File(self.folder / name) as file:
-            found = {}
-            file.visititems(lambda key, item: found.update({key: item[()]}) if isinstance(item, h5py.Dataset) else None)
-            return found
+        return histories.read(self.folder / name)
 
     def assert_same(self, seen: dict[str, np.ndarray], expected: dict[str, np.ndarray]):
         self.assertEqual(seen.keys(), expected.keys())
