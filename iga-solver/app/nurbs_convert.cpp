@@ -29,7 +29,7 @@ GeometryFile only(const GeometryFile& geometry, const std::string& surface, cons
   return kept;
 }
 
-void write(const GeometryFile& geometry, const std::string& path) {
+void write(const GeometryFile& geometry, const std::string& path, const std::string& input) {
   const auto format = geometry_io::format_of_path(path);
   if (!format)
     throw std::runtime_error(
@@ -40,10 +40,14 @@ void write(const GeometryFile& geometry, const std::string& path) {
   } catch (const std::exception& error) {
     throw std::runtime_error(fmt::format("{}: {}", path, error.what()));
   }
+  if (nurbs::same_file(path, input))
+    throw std::runtime_error(fmt::format(
+        "{}: is the file {} that is read and would be overwritten, expected another name", path, input));
   const std::string problem = nurbs::problem_as_output(path);
   if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
-  std::ofstream file(path, std::ios::binary);
-  if (!file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush())
+  std::ofstream file(nurbs::unfinished_name(path), std::ios::binary);
+  const bool done = bool(file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush());
+  if (!done || !nurbs::finish_file(path).empty())
     throw std::runtime_error(fmt::format("{}: cannot write this file", path));
   fmt::print("written to {} ({})\n", path, geometry_io::format_name(*format));
 }
@@ -54,7 +58,7 @@ void run(const Options& options) {
   if (!options.surface.empty()) geometry = only(geometry, options.surface, options.in);
   fmt::print("{}: units {}, {} patch{}\n{}", options.in, nurbs::units_name(geometry.units),
              geometry.patches.size(), geometry.patches.size() == 1 ? "" : "es", app::summary(geometry));
-  if (!options.out.empty()) write(geometry, options.out);
+  if (!options.out.empty()) write(geometry, options.out, options.in);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "io/series_file.h"
+#include "nurbs/regular_file.h"
 
 namespace io {
 
@@ -33,8 +34,7 @@ UnitNames unit_names(nurbs::Units units) {
 std::string checked_path(const HistoryOutput& output) {
   const std::string path = output.file + ".h5";
   for (const std::string& input : output.inputs) {
-    std::error_code missing;  // a file that does not exist is no input
-    if (std::filesystem::equivalent(path, input, missing))
+    if (nurbs::same_file(path, input))
       throw nurbs::InputError(
           fmt::format("{}: output.file is {}: {} is the file {} that the model is read from and would be "
                       "overwritten, expected another name",

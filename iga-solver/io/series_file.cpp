@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <stdexcept>
-#include <system_error>
 
 #include "nurbs/regular_file.h"
 
@@ -19,13 +17,11 @@ constexpr hsize_t kRowsPerChunk = 1024;
 
 using SilentErrors = geometry_io::SilentHdf5Errors;
 
-std::string unfinished_name(const std::string& path) { return path + ".part"; }
-
 hid_t create_file(const std::string& path) {
   const std::string problem = nurbs::problem_as_output(path);
   if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
   const SilentErrors silent;
-  return H5Fcreate(unfinished_name(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  return H5Fcreate(nurbs::unfinished_name(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
 }
 
 hid_t open_file(const std::string& path) {
@@ -155,9 +151,8 @@ void SeriesFile::end_row(double value) {
   append(0, &value);
   flush();
   if (!unfinished_) return;
-  std::error_code problem;
-  std::filesystem::rename(unfinished_name(path_), path_, problem);
-  if (problem) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path_, problem.message()));
+  const std::string problem = nurbs::finish_file(path_);
+  if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path_, problem));
   unfinished_ = false;
 }
 

@@ -34,6 +34,14 @@ std::string described(file_type type) {
   }
 }
 
+// The file that a link names, else the path itself.
+std::string target(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path followed = std::filesystem::weakly_canonical(path, error);
+  return error ? path : followed.string();
+}
+
 }  // namespace
 
 FileContent read_regular_file(const std::string& path) {
@@ -65,6 +73,19 @@ std::string problem_as_output(const std::string& path) {
   const file_type type = std::filesystem::status(path, error).type();
   const bool fine = type == file_type::regular || type == file_type::not_found || type == file_type::none;
   return fine ? std::string() : described(type);
+}
+
+std::string unfinished_name(const std::string& path) { return target(path) + ".part"; }
+
+std::string finish_file(const std::string& path) {
+  std::error_code problem;
+  std::filesystem::rename(unfinished_name(path), target(path), problem);
+  return problem ? problem.message() : std::string();
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code missing;  // a file that does not exist is no other
+  return std::filesystem::equivalent(a, b, missing);
 }
 
 }  // namespace nurbs

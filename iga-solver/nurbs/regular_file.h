@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Whole files into memory, and nothing that is no file: a pipe or a device may never answer, or never end.
+// Files that are written are whole or not there, whenever a run is killed.
 #pragma once
 
 #include <string>
@@ -17,5 +18,11 @@ FileContent read_regular_file(const std::string& path);
 /// Why `path` cannot become a file that is written ("is a named pipe"), or empty: it is one already, or
 /// nothing yet.
 std::string problem_as_output(const std::string& path);
+/// Where a file is written until it is complete: path.part, beside the file that a link names.
+std::string unfinished_name(const std::string& path);
+/// Gives what was written there its name, in place of an older file; why that failed, or empty.
+std::string finish_file(const std::string& path);
+/// Whether both names are of one file that exists.
+bool same_file(const std::string& a, const std::string& b);
 
 }  // namespace nurbs

@@ -8,7 +8,8 @@
 #include <filesystem>
 #include <pugixml.hpp>
 #include <stdexcept>
-#include <system_error>
+
+#include "nurbs/regular_file.h"
 
 namespace vtk {
 namespace {
@@ -71,11 +72,10 @@ pugi::xml_node start(pugi::xml_document& document, const char* type, const char*
 }
 
 void save(const pugi::xml_document& document, const std::string& path) {
-  const std::string unfinished = path + ".part";
-  std::error_code problem;
-  bool done = document.save_file(unfinished.c_str(), " ", pugi::format_indent);
-  if (done) std::filesystem::rename(unfinished, path, problem);
-  if (!done || problem)
+  std::string problem = nurbs::problem_as_output(path);
+  if (!problem.empty()) throw std::runtime_error(fmt::format("cannot write '{}': {}", path, problem));
+  const bool done = document.save_file(nurbs::unfinished_name(path).c_str(), " ", pugi::format_indent);
+  if (!done || !nurbs::finish_file(path).empty())
     throw std::runtime_error(fmt::format(
         "cannot write '{}' (does the folder exist, may it be written to, is there room on the disk?)", path));
 }

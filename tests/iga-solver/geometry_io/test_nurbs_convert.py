@@ -359,6 +359,14 @@ class NurbsConvert(unittest.TestCase):
             with self.subTest(words=words):
                 self.assertRegex(self.refused(*words), what)
 
+    def test_own_input_is_never_overwritten(self):
+        write_hdf5(self.folder / "good.h5", SURFACES, {})
+        (self.folder / "link.h5").symlink_to("good.h5")
+        before = (self.folder / "good.h5").read_bytes()
+        for out in ("good.h5", "./good.h5", "link.h5"):
+            self.assertRegex(self.refused("good.h5", out), f"{out}: is the file good.h5 that is read and would be overwritten")
+        self.assertEqual((self.folder / "good.h5").read_bytes(), before)
+
     def test_wrong_input_ends_in_one_line(self):
         write_hdf5(self.folder / "good.h5", SURFACES, {})
         self.write("text.h5", "units: si\n")

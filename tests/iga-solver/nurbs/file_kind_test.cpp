@@ -120,6 +120,24 @@ TEST_F(RegularFile, OthersAreRefusedBeforeTheyAreOpened) {
   EXPECT_THAT(problem_as_output("/dev/full"), HasSubstr("device"));
 }
 
+TEST_F(RegularFile, IsWrittenBesideTheOlderOneAndReplacesItWhenComplete) {
+  std::ofstream(path("file")) << "older";
+  std::filesystem::create_directory(path("elsewhere"));
+  std::filesystem::create_symlink("elsewhere/target", path("link"));
+  std::ofstream(path("elsewhere/target")) << "older";
+  for (const char* name : {"file", "link", "new"}) {
+    std::ofstream(unfinished_name(path(name))) << "newer";
+    EXPECT_EQ(read_regular_file(path(name)).bytes, std::string(name) == "new" ? "" : "older");
+    EXPECT_EQ(finish_file(path(name)), "");
+    EXPECT_EQ(read_regular_file(path(name)).bytes, "newer");
+    EXPECT_THAT(finish_file(path(name)), HasSubstr("No such file")) << "nothing unfinished is left";
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
+  EXPECT_TRUE(same_file(path("link"), path("elsewhere/target")));
+  EXPECT_FALSE(same_file(path("link"), path("file")));
+  EXPECT_FALSE(same_file(path("none"), path("none")));
+}
+
 TEST_F(RegularFile, OfMoreThanTwoGibibytesIsRefusedBeforeItIsRead) {
   std::ofstream(path("sparse")).put('a');
   std::filesystem::resize_file(path("sparse"), std::uintmax_t{1} << 40);

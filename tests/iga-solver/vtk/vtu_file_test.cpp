@@ -3,6 +3,7 @@
 #include "vtk/vtu_file.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
@@ -70,6 +71,12 @@ TEST_F(VtkSeries, HoldsEveryStateAfterEachWrite) {
   EXPECT_THAT(text("wall.pvd"), HasSubstr("timestep=\"0.5\" file=\"wall_50.vtu\""));
   EXPECT_THAT(text("wall.pvd"), HasSubstr("wall_0.vtu"));
   EXPECT_EQ(count(), 3) << "no unfinished file is left";
+}
+
+TEST_F(VtkSeries, IsNotWrittenIntoAPipe) {
+  ASSERT_EQ(mkfifo((*this)("wall_0.vtu").c_str(), 0600), 0);
+  EXPECT_THAT([&] { vtk::Series((*this)("wall")).write<2>(0, 0.0, {square()}); },
+              testing::ThrowsMessage<std::runtime_error>(HasSubstr("wall_0.vtu': Is a named pipe")));
 }
 
 TEST_F(VtkSeries, GoesOnAfterARestart) {
