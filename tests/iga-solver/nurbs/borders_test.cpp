@@ -187,13 +187,29 @@ TEST(Borders, EdgesOfDifferentCourseOrParametrisationStayFree) {
   EXPECT_EQ(find_borders({here, uneven})[0][1].kind, Border::free);
 }
 
-// A tooth between the points at which a coarser edge would be looked at.
+// They meet at their ends and in the middle, where polynomials of these degrees would be the same.
+TEST(Borders, AnArcIsNotTheParabolaThroughItsMiddle) {
+  const Surface round = cylinder(frame({0, 0, 0}, {0, 0, 1}), 1.0, 1.0, arc(0, 90), knots(1, 1));
+  Surface parabolic = cylinder(frame({0, 0, 1}, {0, 0, 1}), 1.0, 1.0, arc(0, 90), knots(1, 1));
+  parabolic.space = Space<2>(parabolic.space.knots());  // no weights
+  for (const int a : {1, 4}) parabolic.control_points.col(a).head<2>().setConstant(std::sqrt(2.0) - 0.5);
+  for (const double t : {0.0, 0.5, 1.0})
+    ASSERT_LT((edge_point(round, 3, t) - edge_point(parabolic, 2, t)).norm(), 1e-14);
+  EXPECT_EQ(find_borders({round, parabolic})[0][3].kind, Border::free);
+  EXPECT_EQ(find_borders({parabolic, round})[0][2].kind, Border::free);
+}
+
+// A tooth between the points at which a coarser edge would be looked at, whichever way its own edge runs.
 TEST(Borders, KnotsOfBothEdgesCount) {
   const Surface here = square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, 1);
-  Surface toothed = square({1, 0, 0}, {1, 0, 0}, {0, 1, 0}, 1, 8);
-  toothed.control_points(2, 3 * toothed.space.control_point_count(0)) = 0.1;
-  for (const auto& patches : {std::vector<Surface>{here, toothed}, std::vector<Surface>{toothed, here}})
-    EXPECT_EQ(find_borders(patches)[0][patches[0].space.element_count() == 1 ? 1 : 0].kind, Border::free);
+  for (const bool reversed : {false, true}) {
+    Surface toothed = plane({1, reversed ? 1.0 : 0.0, 0}, {1, 0, 0}, {0, reversed ? -1.0 : 1.0, 0},
+                            {knots(1, 1), KnotVector(1, {0, 0, 0.1, 0.2, 1, 1})});
+    EXPECT_EQ(find_borders({here, toothed})[0][1].reversed, reversed);
+    toothed.control_points(2, toothed.space.control_point_count(0)) = 0.1;  // at 0.1
+    EXPECT_EQ(find_borders({here, toothed})[0][1].kind, Border::free) << reversed;
+    EXPECT_EQ(find_borders({toothed, here})[0][0].kind, Border::free) << reversed;
+  }
 }
 
 TEST(Borders, OfThreeEdgesTheSmoothestPairWelds) {
@@ -219,6 +235,23 @@ TEST(Borders, FourPiecesOfACylinder) {
   expect_seam(borders[0][3], 2, 2);
   expect_seam(borders[3][2], 1, 3);
   EXPECT_EQ(borders[3][3].kind, Border::free);
+}
+
+// Two patches, one turned round, fill a periodic box: the neighbour's edge, moved, is the patch's own.
+TEST(Borders, TranslationsAcrossPeriodicFaces) {
+  const std::vector<Surface> patches = {square({0, 0, 0}, {1, 0, 0}, {0, 1, 0}),
+                                        square({2, 1, 0}, {-1, 0, 0}, {0, -1, 0}, 3, 2)};
+  const auto borders = find_borders(patches, 1e-9, {{2, 0, 0}, {0, 1, 0}});
+  for (const int patch : {0, 1})
+    for (int side = 0; side < kSideCount; ++side) {
+      const Border& border = borders[patch][side];
+      ASSERT_EQ(border.kind, Border::welded) << patch << ' ' << side_name(side);
+      for (const double t : {0.0, 0.3, 1.0}) {
+        const Vector3 there = edge_point(patches[border.patch], border.side, border.reversed ? 1.0 - t : t);
+        EXPECT_LT((there + border.translation - edge_point(patches[patch], side, t)).norm(), 1e-14)
+            << patch << ' ' << side_name(side);
+      }
+    }
 }
 
 TEST(Borders, NoPatches) { EXPECT_TRUE(find_borders({}).empty()); }
