@@ -28,21 +28,23 @@ std::vector<SurfaceFoot> minima(const MultiPatchProjector& projector, const Vect
 // On a closed surface a foot within round-off of the seam, of one patch or between two, is one minimum:
 // neither two nor none.
 TEST(MultiPatchProjector, MinimaAtASeam) {
-  const auto part = [](double from, double to) {
-    return sphere(frame({0, 0, 0}, {0, 0, 1}), 1.0, refined(arc(from, to), 8, 2), refined(arc(-90, 0), 4, 2));
-  };
-  for (const PatchedSurface& ball : {join({part(0, 360)}), join({part(0, 180), part(180, 360)})}) {
-    MultiPatchProjector projector(ball.topology);
-    projector.set_control_points(ball.control_points);
-    for (const double off : {0.0, 1e-19, 1e-17, 1e-16, 3e-16, 1e-15, 1e-13, 1e-9})
-      for (const double sign : {-1.0, 1.0})
-        for (int k = 1; k < 200; ++k) {
-          const double latitude = -1.57 * k / 200.0;
-          const Vector3 d(0.9 * std::cos(latitude), sign * off, 0.9 * std::sin(latitude));
-          const std::vector<SurfaceFoot> feet = minima(projector, d, 0.11);
-          ASSERT_EQ(feet.size(), 1U) << "y = " << sign * off << ", latitude " << latitude;
-          EXPECT_NEAR(feet[0].distance, 0.1, 1e-13);
-        }
+  for (const Frame& place : {frame({0, 0, 0}, {0, 0, 1}), frame({0.1, 0.2, 0.3}, {1, 2, 2})}) {
+    const auto part = [&place](double from, double to) {
+      return sphere(place, 1.0, refined(arc(from, to), 8, 2), refined(arc(-90, 0), 4, 2));
+    };
+    for (const PatchedSurface& ball : {join({part(0, 360)}), join({part(0, 180), part(180, 360)})}) {
+      MultiPatchProjector projector(ball.topology);
+      projector.set_control_points(ball.control_points);
+      for (const double off : {0.0, 1e-19, 1e-17, 1e-16, 2e-16, 3e-16, 1e-15, 1e-13, 1e-9})
+        for (const double y : {-off, off})
+          for (int k = 1; k < 200; ++k) {
+            const double latitude = -1.57 * k / 200.0;
+            const Vector3 direction(std::cos(latitude), y / 0.9, std::sin(latitude));
+            const auto feet = minima(projector, place.origin + 0.9 * place.axes * direction, 0.11);
+            ASSERT_EQ(feet.size(), 1U) << "y = " << y << ", latitude " << latitude;
+            EXPECT_NEAR(feet[0].distance, 0.1, 1e-13);
+          }
+    }
   }
 }
 
@@ -85,6 +87,30 @@ TEST(MultiPatchProjector, MinimaAtASharedPole) {
               EXPECT_GT((feet[i].foot - Vector3(0.0, 0.0, pole)).norm(), 1e-6) << d.transpose();
           }
     }
+}
+
+// Half of a ball lies on one side of a periodic box, half on the other: its pole, too, has several images.
+TEST(MultiPatchProjector, MinimaAtAPoleOnAPeriodicFace) {
+  const Vector3 period(4, 0, 0);
+  const auto half = [](const Vector3& centre, double from) {
+    return sphere(frame(centre, {0, 0, 1}), 1.0, refined(arc(from, from + 180), 4, 2), arc(-90, 90));
+  };
+  const std::vector<Surface> halves = {half({0, 0, 0}, -90), half(period, 90)};
+  PatchedSurface ball = join(halves);
+  ball.topology.set_borders(find_borders(halves, 1e-9, {period}));
+  MultiPatchProjector projector(ball.topology);
+  projector.set_control_points(ball.control_points);
+  for (const double pole : {-1.0, 1.0})
+    for (const double distance : {0.92, 1.08})
+      for (int k = 0; k < 40; ++k) {
+        const double polar = 0.2 * (k + 1) / 40.0, longitude = 0.61 * k;
+        const Vector3 direction(std::sin(polar) * std::cos(longitude), std::sin(polar) * std::sin(longitude),
+                                pole * std::cos(polar));
+        const std::vector<SurfaceFoot> feet =
+            minima(projector, distance * direction, 0.4, {Vector3::Zero(), -period});
+        ASSERT_EQ(feet.size(), 1U) << "direction " << direction.transpose();
+        EXPECT_LT((feet[0].foot - direction).norm(), 1e-13);
+      }
 }
 
 // Points that circle a ball of eight patches, each in a plane of its own, and an image of it far away: their
