@@ -5,6 +5,7 @@
 #include <mpi.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
 #include "coupling/finnie.h"
@@ -96,7 +97,29 @@ TEST(SurfaceFields, IntegrateToTheTotals) {
   EXPECT_NEAR(integral(result, "pressure")[0], normal, 1e-12 * std::abs(normal));
   EXPECT_LE((integral(result, "shear") - shear).norm(), 1e-12 * shear.norm());
   EXPECT_NEAR(integral(result, "wear")[0], worn, 1e-12 * worn);
-  EXPECT_EQ(field(result[0], "contact_count").sum() + field(result[1], "contact_count").sum(), particles);
+}
+
+TEST(SurfaceFields, CountTheContactsOfEachElement) {
+  SurfaceFields fields = start(surface());
+  const int particles = 50;
+  add_all(fields, particles);
+  const auto result = fields.fields(surface().control_points, kAtRest, kAll);
+  if (my_rank() != 0) return;
+  for (int patch = 0; patch < 2; ++patch) {
+    const nurbs::Space<2>& space = result[patch].patch.space;
+    const auto element_along = [&](int i, double xi) {
+      const std::vector<double>& breaks = space.knots(i).breaks();
+      return static_cast<int>(std::upper_bound(breaks.begin(), breaks.end(), xi) - breaks.begin()) - 1;
+    };
+    Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(1, space.element_count());
+    for (int tag = 1; tag <= particles; ++tag) {
+      const nurbs::SurfacePoint at = contact(tag).foot;
+      if (at.patch == patch)
+        expected(space.element_index({element_along(0, at.xi[0]), element_along(1, at.xi[1])})) += 1.0;
+    }
+    EXPECT_EQ(expected.sum(), particles / 2);
+    EXPECT_EQ(field(result[patch], "contact_count"), expected) << "patch " << patch;
+  }
 }
 
 TEST(SurfaceFields, AnEvenLoadIsAnEvenPressure) {

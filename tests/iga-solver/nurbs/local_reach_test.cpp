@@ -212,5 +212,20 @@ TEST(LocalReach, RadiusOfACylinder) {
   EXPECT_GT(reach(0, e, quarter.control_points), 0.75 * 0.25 * radius);
 }
 
+// Weights that are all multiplied by a number are those of the same surface.
+TEST(LocalReach, IsThatOfTheSurfaceHoweverLargeItsWeights) {
+  const Surface quarter = cylinder(frame({0, 0, 0}, {0, 0, 1}), 2.0, 1.0, refined(arc(0.0, 90.0), 16, 2),
+                                   KnotVector::uniform(2, 4));
+  std::vector<double> weights = quarter.space.weights();
+  for (double& w : weights) w *= 5.0;
+  const Space<2> heavy({quarter.space.knots(0), quarter.space.knots(1)}, weights);
+  const LocalReach reach(quarter.space), reach_of_heavy(heavy);
+  const int e[2] = {3, 1};
+  for (int level = 0; level < LocalReach::kLevels; ++level) {
+    const double rho = reach(level, e, quarter.control_points);
+    EXPECT_NEAR(reach_of_heavy(level, e, quarter.control_points), rho, 1e-6 * rho) << "level " << level;
+  }
+}
+
 }  // namespace
 }  // namespace nurbs
