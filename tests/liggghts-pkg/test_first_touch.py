@@ -141,8 +141,9 @@ class HeldParticles(unittest.TestCase):
             self.rigid(f"motion rotate origin -0.0096 0 0 {words} period {period!r}", pose, 40, 18 * SKIN, seed=5)
 
     def test_a_solid_that_moves(self):
-        """A free block at constant acceleration, which velocity Verlet integrates exactly: z = v t + g t^2/2."""
-        for v, g, steps in ((0.4, 0.0, 400), (0.0, 2e4, 200), (12.0, 0.0, 60), (30.0, 1e5, 40), (55.0, -4e5, 20)):
+        """A free block at constant acceleration, which velocity Verlet integrates exactly: z = v t + g t^2/2.  The one that
+        sinks first, by less than half a skin, is back before LIGGGHTS' lists are rebuilt."""
+        for v, g, steps in ((0.4, 0.0, 400), (-1.0, 6250.0, 100), (0.0, 2e4, 200), (12.0, 0.0, 60), (30.0, 1e5, 40), (55.0, -4e5, 20)):
             balls = places(60, 0.9 * max(v * t + g * t * t / 2 for t in DT * np.arange(steps + 1)), seed=int(v) + 3)
             block = BLOCK.replace("VELOCITY", repr(v)).replace("ACCELERATION", repr(g))
             found = contacts(balls, "structure block.yaml surface top", steps, {"block.yaml": block}, young=10.0)
