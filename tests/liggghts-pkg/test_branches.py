@@ -113,6 +113,19 @@ class Corner(unittest.TestCase):
                 self.assertEqual(ours["n"].max(), 2.0)
                 self.assertLessEqual(difference(ours, stock), 1e-10)
 
+    def test_a_corner_at_a_periodic_face(self):
+        """What makes the corner are images: of the side, which stands at the far face, and of the floor up to a seam a radius
+        off.  The side's edge is so near that feet are found anew in each step."""
+        length = 0.01
+        box = BOX.replace("-0.02 0.02", f"0.0 {length}", 1)
+        start = prelude((3e-3, -5e-3, R), (-0.5, 0.4, 0), boundary="p f f", box=box)
+        floor = quad((R, -L / 2, 0), (length, 0, 0), (0, L, 0), (5, 4))
+        side = quad((length, -L / 2, R / 2), (0, 0, L), (0, L, 0), (4, 5))
+        stock = run(self.START, planes("zplane", "xplane"), program=decks.STOCK).table
+        ours = run(start, nurbs(), model_file(floor, side), more=" v_n").table
+        self.assertEqual(ours["n"].max(), 2.0)
+        self.assertLessEqual(difference(ours, stock), 1e-10)
+
     def test_a_hundred_balls_side_by_side_do_what_one_does(self):
         """More contacts than are resolved together, two of each ball: nobody is forgotten, nobody gets another's."""
         count, long = 100, 0.3
