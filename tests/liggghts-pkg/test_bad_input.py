@@ -260,7 +260,8 @@ class BadInput(unittest.TestCase):
     def test_the_good_deck_is_good(self):
         for words in (GOOD, RIGID, PIPE, GOOD + " material independent store_force yes tangential_damping on"):
             files = {"block.yaml": BLOCK, "flat.yaml": FLAT, "round.yaml": ROUND}
-            decks.good(bob.prelude() + f"fix plate all wall/nurbs {words}\nthermo 1\nrun 1\n", files=files)
+            deck = bob.prelude(ball=(7e9, 0.25)) + f"fix plate all wall/nurbs {words}\nthermo 1\nrun 1\n"
+            decks.good(deck, files=files)  # the ball's material is its own
 
 
 if __name__ == "__main__":
