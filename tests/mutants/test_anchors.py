@@ -19,6 +19,12 @@ class Anchors(unittest.TestCase):
                 wrong.append(str(error))
         self.assertFalse(wrong, "\n" + "\n".join(wrong))
 
+    def test_no_fault_stands_twice(self):
+        seen = {}
+        for fault in self.faults:
+            changed = fault.applied((fault_list.ROOT / fault.file).read_text())
+            self.assertEqual(seen.setdefault((fault.file, changed), fault).where(), fault.where())
+
     def test_few_are_equivalent(self):
         equivalent = [fault.name for fault in self.faults if fault.equivalent]
         self.assertLessEqual(len(equivalent), 0.05 * len(self.faults), equivalent)
