@@ -78,6 +78,9 @@ CHANGES = {
     "displace_far": "run 150\ndisplace_atoms all move 0.011 0.017 0 units box\nrun 200",
     "displace_through": "run 150\ndisplace_atoms all move 0 0 -0.0101 units box\nrun 200",
     "displace_away_and_back": "run 150\ndisplace_atoms all move 0 0 0.0006 units box\nrun 50\ndisplace_atoms all move 0 0 -0.0006 units box\nrun 200",
+    # a new contact; LIGGGHTS' plane keeps the spring of a ball that is put out of its list, so stock gets a new plane
+    "displace_off_the_list_and_back": "run 150\ndisplace_atoms all move 0 0 0.02 units box\nrun 50\n{new_plane}"
+    "displace_atoms all move 0 0 -0.02 units box\nrun 200",
     "set_position_and_velocity": "run 150\nset atom 1 x 0.0 y 0.03 z 0.00495\nset atom 3 vz 3.0\nrun 200",
     "velocity": "run 150\nvelocity all set -0.3 0.4 -0.8 units box\nrun 300",
     "ramp_of_velocity": "run 100\nvelocity all ramp vz -2 2 x -0.06 0.06 units box\nrun 300",
@@ -103,8 +106,9 @@ run 100
 
 def run(program: str, body: str, ranks: int, columns: str = COLUMNS) -> decks.Run:
     head = HEAD.format(wall=WALLS[program], processors="2 1 1" if ranks == 2 else "* * *")
-    lists = "1" if program == decks.STOCK else "1000"
-    deck = head + columns + body.replace("{wall}", WALLS[program]).replace("{lists}", lists) + "\n"
+    lists, new_plane = ("1", "unfix wall\nfix wall all {wall}\n") if program == decks.STOCK else ("1000", "")
+    body = body.replace("{lists}", lists).replace("{new_plane}", new_plane).replace("{wall}", WALLS[program])
+    deck = head + columns + body + "\n"
     return decks.good(deck, files={"floor.yaml": FLOOR}, ranks=ranks, program=program)
 
 
