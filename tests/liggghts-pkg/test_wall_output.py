@@ -11,6 +11,7 @@ import numpy as np
 import ball_on_block as bob
 import decks
 import vtu
+from test_first_touch import about
 
 ELEMENTS, SIDE = 8, 0.008
 FLOOR = f"""
@@ -217,19 +218,19 @@ run 400
         self.assertGreater(after.fields["pressure"].max(), 0.0)
 
     def test_a_turning_wall_is_written_where_it_is(self):
-        """A floor that turns in its plane: its points and the shear turn with it."""
-        turn = "motion rotate origin 0 0 0 axis 0 0 1 period 1e-3"
+        """A floor that turns nearly in its plane: its points, what presses on it and the shear turn with it."""
+        turn = "motion rotate origin 0 0 0 axis -0.01 0.005 1 period 1e-3"
         deck = BALLS + wall(self.folder, 100, f"average no {turn}") + THERMO.format(every=100) + "run 200\n"
         table = self.run_deck(deck).table
         start, after = self.state(0), self.state(100)
-        angle = 2 * np.pi * 100e-6 / 1e-3
-        rotation = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
+        rotation = about((-0.01, 0.005, 1), 2 * np.pi * 100e-6 / 1e-3)
         np.testing.assert_allclose(after.points, start.points @ rotation.T, atol=1e-15)
         k = list(table["Step"]).index(100)
         self.assertGreater(table["wall[7]"][k], 0)
-        expected = [table["wall[1]"][k], table["wall[2]"][k], 0.0]
-        np.testing.assert_allclose(self.total(100, "shear"), expected, rtol=1e-11, atol=1e-15)
-        np.testing.assert_allclose(self.total(100, "pressure"), -table["wall[3]"][k], rtol=1e-12)
+        normal, force = rotation[:, 2], np.array([table[f"wall[{d}]"][k] for d in (1, 2, 3)])
+        pressing = -force @ normal
+        np.testing.assert_allclose(self.total(100, "pressure"), pressing, rtol=1e-12)
+        np.testing.assert_allclose(self.total(100, "shear"), force + pressing * normal, rtol=1e-11, atol=1e-15)
 
     def test_wrong_output_ends_in_one_line(self):
         thermo = THERMO.format(every=50) + "run 50\n"
