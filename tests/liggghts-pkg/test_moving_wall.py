@@ -114,6 +114,20 @@ class BesideStock(unittest.TestCase):
                 self.assertGreater(stock["fz"].max(), 0.05)
                 self.compare(ours, stock, 1e-10)
 
+    def test_an_image_of_a_wall_that_turns_into_the_box(self):
+        """From below; the box is periodic along its axis.  LIGGGHTS' mesh stands where the image is, in a larger box."""
+        turn = "rotate origin 0 0 0 axis 0 1 0 period 0.025"
+        options = dict(balls=((-5e-3, 0.014, 1.8e-3),), velocity=(0, 0, 0), dt=2e-6)
+        small = mw.deck(mw.nurbs_wall(MODELS, "motion " + turn), **options).replace("boundary f f f", "boundary f p f")
+        small = small.replace("-0.02 0.02 -0.02 0.02", "-0.004 0.016 0.0017 0.02", 1)
+        large = mw.deck(mw.stock_wall(MODELS, [turn], drive="move 0 0.02 0"), **options)
+        large = large.replace("-0.02 0.02 -0.02 0.02", "-0.02 0.04 -0.02 0.02", 1)
+        run = mw.output() + "run 800\n"
+        ours = decks.good(small + run, files=mw.FILES).table
+        stock = decks.good(large + run, files=mw.FILES, program=decks.STOCK).table
+        self.assertGreater(stock["fz"].max(), 0.05)
+        self.compare(ours, stock, 1e-10)
+
     def test_servo_with_the_words_of_the_mesh_module(self):
         for name, words in SERVOS.items():
             with self.subTest(name):
