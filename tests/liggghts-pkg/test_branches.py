@@ -91,12 +91,11 @@ def difference(ours: dict, reference: dict) -> float:
 L = 0.03
 FLOOR = quad((0, -L / 2, 0), (L, 0, 0), (0, L, 0))
 SIDE = quad((0, -L / 2, 0), (0, 0, L), (0, L, 0))
-# one patch round the corner: degree 2, a C0 knot in the corner
-FOLDED = patch(
-    [[(0, y, L), (0, y, L / 2), (0, y, 0), (L / 2, y, 0), (L, y, 0)] for y in (-L / 2, 0, L / 2)],
-    degrees=(2, 2),
-    knots=[[0, 0, 0, 0.5, 0.5, 1, 1, 1], [0, 0, 0, 1, 1, 1]],
-)
+# one patch round the corner: degree 2, a C0 knot in the corner; bent along xi or along eta
+ROUND = [[(0, y, L), (0, y, L / 2), (0, y, 0), (L / 2, y, 0), (L, y, 0)] for y in (-L / 2, 0, L / 2)]
+KINK, STRAIGHT = [0, 0, 0, 0.5, 0.5, 1, 1, 1], [0, 0, 0, 1, 1, 1]
+FOLDED = patch(ROUND, degrees=(2, 2), knots=[KINK, STRAIGHT])
+FOLDED_ALONG_ETA = patch(list(zip(*ROUND)), degrees=(2, 2), knots=[STRAIGHT, KINK])
 
 
 class Corner(unittest.TestCase):
@@ -107,7 +106,8 @@ class Corner(unittest.TestCase):
     def test_a_corner_equals_two_planes_of_liggghts(self):
         stock = run(self.START, planes("zplane", "xplane"), program=decks.STOCK).table
         self.assertGreater(stock["fx"].max(), 0.0, "the ball gets to the corner")
-        for name, patches in {"two patches": (FLOOR, SIDE), "one patch with a kink": (FOLDED,)}.items():
+        walls = {"two patches": (FLOOR, SIDE), "a kink along eta": (FOLDED,), "a kink along xi": (FOLDED_ALONG_ETA,)}
+        for name, patches in walls.items():
             with self.subTest(name):
                 ours = run(self.START, nurbs(), model_file(*patches), more=" v_n").table
                 self.assertEqual(ours["n"].max(), 2.0)
