@@ -70,6 +70,14 @@ class PrintedFactor(unittest.TestCase):
             ],
         )
 
+    def test_the_same_in_every_system_of_units(self):
+        for style, unit, in_metres in (("cgs", "cm", 1e-2), ("micro", "um", 1e-6), ("nano", "nm", 1e-9)):
+            factor = 1.741939e-3 / in_metres**0.5
+            deck = contact_deck.ball_on_plane("model penalty/linear", factor=factor).replace("units si", f"units {style}")
+            with self.subTest(style):
+                (line,) = self.lines(deck)
+                self.assertIn(f"penaltyFactor {factor:.6g} {unit}^(1/2) = 0.0550849 mm^(1/2) (types", line)
+
     def test_inverse_root_and_pure_number(self):
         deck = contact_deck.two_balls("model penalty/quadratic", factor=498.327)
         deck += "fix second all wall/gran model penalty/hertz primitive type 1 zplane -0.005\n"
