@@ -7,7 +7,7 @@ import unittest
 import numpy as np
 
 import decks
-from test_branches import MODELS, OUTPUT, R, difference, model_file, nurbs, planes, prelude, quad, run, table
+from branch_decks import MODELS, OUTPUT, R, difference, model_file, nurbs, planes, prelude, quad, run, table
 
 SAME = 1e-10
 PATCH = "fix {id} all wall/nurbs " + MODELS + " type 2 geometry {file}.yaml surface wall {more}\n"

@@ -14,7 +14,7 @@ import numpy as np
 import decks
 import reference_ball as reference
 from rubbing_balls import DENSITY, DT, FRICTION, INERTIA, MASS, R, deck, vectors
-from test_branches import FLOOR, L, SIDE, model_file, quad
+from branch_decks import FLOOR, L, SIDE, model_file, quad
 
 ROUND_OFF = 1e-11
 
