@@ -342,7 +342,11 @@ class NurbsConvert(unittest.TestCase):
             alone = shutil.copy(PROGRAM, elsewhere)
             run = lambda file: subprocess.run([alone, file], cwd=self.folder, capture_output=True, text=True, check=False)
             self.assertEqual(run("own.h5").returncode, 0)
-            self.assertRegex(run("foreign.h5").stderr, "needs the program 'nurbs-read-hdf5' .*: No such file or directory")
+            changed = bytearray((self.folder / "own.h5").read_bytes())
+            changed[-1] ^= 1  # whoever did that: it is not as we wrote it
+            (self.folder / "changed.h5").write_bytes(changed)
+            for name in ("foreign.h5", "changed.h5"):
+                self.assertRegex(run(name).stderr, "needs the program 'nurbs-read-hdf5' .*: No such file or directory")
 
     def test_pipes_and_devices_are_no_files(self):
         os.mkfifo(self.folder / "pipe")
