@@ -71,7 +71,7 @@ class ContactTracker {
     int first = 0, count = 0;  // range in feet_
     bool is_new = true, regular = false, touched = false;
     nurbs::Vector3 centre = nurbs::Vector3::Zero();  // at the last search
-    double clearance = 0.0;                          // no point of the surface was nearer then
+    double clearance = 0.0;  // no point of the surface was nearer then; 0: one touched
     double surface_motion = 0.0;
   };
   static double nearest_distance(const FeetRange& feet, const Query& query) {
@@ -80,8 +80,9 @@ class ContactTracker {
     return nearest;
   }
   void keep_clearance(const Query& query, double clearance, State& state) const {
-    state.clearance = clearance;
-    if (clearance <= query.touch_reach) return;
+    const bool touches = clearance <= query.touch_reach;
+    state.clearance = touches ? 0.0 : clearance;  // contacts are looked at until they have ended
+    if (touches) return;
     state.centre = query.centre;
     state.surface_motion = surface_motion_;
   }

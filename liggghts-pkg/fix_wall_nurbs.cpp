@@ -265,9 +265,9 @@ void FixWallNurbs::fail_in_step(const std::string& problem) const {
 }
 
 /* ----------------------------------------------------------------------
-   global search: since LIGGGHTS built its lists a particle may be half a skin to either side, the wall may
-   move half a skin more, and the particle grow by half a skin; what is faster than that must not slip through
-   unseen
+   global search: from where LIGGGHTS built its lists a particle moves by half a skin to either side (what it
+   grows counts as motion there) before they are built anew, and the wall may move half a skin more; what is
+   faster than that must not slip through unseen
 ------------------------------------------------------------------------- */
 
 void FixWallNurbs::build_candidates() {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "atom.h"
+#include "coupling/all_or_none.h"
 #include "coupling/finnie.h"
 #include "fix_property_global.h"
 #include "fix_wall_nurbs.h"
@@ -61,14 +62,17 @@ void FixWallNurbs::end_of_step() {
    fix mesh/surface ... fix ID: this wall in triangles, as it stands when that fix is created
 ------------------------------------------------------------------------- */
 
-// LIGGGHTS keeps more than a kilobyte of each triangle, on every rank.
+// LIGGGHTS keeps more than a kilobyte of each triangle, on every rank; one may have less memory than another.
 void FixWallNurbs::check_twin_size() const {
   constexpr double kBytesPerTriangle = 1500.0;
   const double triangles = 2.0 * options_.twin * options_.twin * surface_.element_count();
   try {
-    nurbs::expect_memory(kBytesPerTriangle * triangles,
-                         fmt::format("twin {} of a wall of {} elements: {:.3g} triangles", options_.twin,
-                                     surface_.element_count(), triangles));
+    coupling::on_every_rank(world, options_.file, [&] {
+      nurbs::expect_memory(kBytesPerTriangle * triangles,
+                           fmt::format("twin {} of a wall of {} elements: {:.3g} triangles", options_.twin,
+                                       surface_.element_count(), triangles));
+      return true;
+    });
   } catch (const std::exception& problem) {
     fail(problem.what());
   }

@@ -47,9 +47,11 @@ double keyed_period(WordReader& words) {
   return check_period(words.number("period"));
 }
 
+constexpr int kMostHarmonics = 1000;
+
 Harmonics keyed_harmonics(WordReader& words) {
   words.expect("order");
-  const int order = words.count("order", "the number of harmonics");
+  const int order = words.count("order", "the number of harmonics", kMostHarmonics);
   Harmonics harmonics;
   words.expect("amplitude");
   harmonics.amplitude = words.numbers("amplitude", order);

@@ -18,7 +18,9 @@ class Regularity {
   /// Keeps a reference to `surface`, which must outlive it.
   explicit Regularity(const MultiPatch& surface);
 
-  /// New coordinates (3 x n); the matrix must stay as it is until the next call.
+  /// New coordinates (3 x n), kept by reference.  Until the next call they may move by less than what reaches
+  /// allow for (half a skin of the list of particles): elements are measured once, valleys where they now
+  /// are.
   void set_control_points(const NodalVectors& control_points);
 
   /// Whether an element has no free edge, kink or pole within `reach` of d, and its curvature towards d is

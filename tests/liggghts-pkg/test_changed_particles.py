@@ -70,6 +70,9 @@ CHANGES = {
     + GROW.format(factor=1.02, every=5)
     + "run 400",
     "shrinking": GROW.format(factor=0.9995, every=2) + "run 300\nunfix grow\nrun 300",
+    # a contact that ends by shrinking, and what comes after it is another
+    "shrinking_to_a_gap_and_back": "velocity all set 0.2 0 0\nset group all z 0.00505\nunfix integrate\n"
+    'variable size atom "0.01 + 0.0002 * ((step>=100)*(step<200) + (step>=300))"\nfix grow all adapt 1 atom diameter v_size\nrun 400',
     "growth_of_the_gap": "set group all z 0.0052\nvelocity all set 0 0 0\n" + GROW.format(factor=1.0002, every=1) + "run 600",
     "set_diameter": "run 100\nset group all diameter 0.0108\nrun 200\nset group all diameter 0.0096\nrun 200",
     "set_diameter_in_a_run": 'run 300 every 60 "set group all diameter 0.0104" "set atom 2 vx -0.2"',
