@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <fstream>
+#include <ostream>
 #include <stdexcept>
+#include <vector>
 
 #include "command.h"
 #include "geometry_io/geometry_io.h"
@@ -29,7 +30,7 @@ GeometryFile only(const GeometryFile& geometry, const std::string& surface, cons
   return kept;
 }
 
-void write(const GeometryFile& geometry, const std::string& path, const std::string& input) {
+void write(const GeometryFile& geometry, const std::string& path, const std::vector<std::string>& inputs) {
   const auto format = geometry_io::format_of_path(path);
   if (!format)
     throw std::runtime_error(
@@ -40,25 +41,29 @@ void write(const GeometryFile& geometry, const std::string& path, const std::str
   } catch (const std::exception& error) {
     throw std::runtime_error(fmt::format("{}: {}", path, error.what()));
   }
-  if (nurbs::same_file(path, input))
-    throw std::runtime_error(fmt::format(
-        "{}: is the file {} that is read and would be overwritten, expected another name", path, input));
-  const std::string problem = nurbs::problem_as_output(path);
+  for (const std::string& input : inputs)
+    for (const std::string& written : {path, nurbs::unfinished_name(path)})
+      if (nurbs::same_file(written, input))
+        throw std::runtime_error(
+            fmt::format("{}: is the file {} that is read and would be overwritten, expected another name",
+                        written, input));
+  const std::string problem = nurbs::write_file(path, [&](std::ostream& file) { file << bytes; });
   if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
-  std::ofstream file(nurbs::unfinished_name(path), std::ios::binary);
-  const bool done = bool(file.write(bytes.data(), static_cast<std::streamsize>(bytes.size())).flush());
-  if (!done || !nurbs::finish_file(path).empty())
-    throw std::runtime_error(fmt::format("{}: cannot write this file", path));
   fmt::print("written to {} ({})\n", path, geometry_io::format_name(*format));
 }
 
 void run(const Options& options) {
+  std::vector<std::string> inputs;
+  const auto read_and_note = [&](const std::string& path) {
+    inputs.push_back(path);
+    return geometry_io::read_file(path);
+  };
   GeometryFile geometry =
-      geometry_io::read_geometry(options.in, geometry_io::read_file, nurbs::units_from_name(options.units));
+      geometry_io::read_geometry(options.in, read_and_note, nurbs::units_from_name(options.units));
   if (!options.surface.empty()) geometry = only(geometry, options.surface, options.in);
   fmt::print("{}: units {}, {} patch{}\n{}", options.in, nurbs::units_name(geometry.units),
              geometry.patches.size(), geometry.patches.size() == 1 ? "" : "es", app::summary(geometry));
-  if (!options.out.empty()) write(geometry, options.out, options.in);
+  if (!options.out.empty()) write(geometry, options.out, inputs);
 }
 
 }  // namespace

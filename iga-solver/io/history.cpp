@@ -33,13 +33,13 @@ UnitNames unit_names(nurbs::Units units) {
 // The path of the file to write.
 std::string checked_path(const HistoryOutput& output) {
   const std::string path = output.file + ".h5";
-  for (const std::string& input : output.inputs) {
-    if (nurbs::same_file(path, input))
-      throw nurbs::InputError(
-          fmt::format("{}: output.file is {}: {} is the file {} that the model is read from and would be "
-                      "overwritten, expected another name",
-                      output.place, nurbs::shown(output.file), path, input));
-  }
+  for (const std::string& input : output.inputs)
+    for (const std::string& written : {path, nurbs::unfinished_name(path)})
+      if (nurbs::same_file(written, input))
+        throw nurbs::InputError(
+            fmt::format("{}: output.file is {}: {} is the file {} that the model is read from and would be "
+                        "overwritten, expected another name",
+                        output.place, nurbs::shown(output.file), written, input));
   return path;
 }
 

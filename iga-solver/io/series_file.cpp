@@ -44,6 +44,10 @@ SeriesFile::SeriesFile(const std::string& path) : SeriesFile(path, create_file(p
   unfinished_ = true;
 }
 
+SeriesFile::~SeriesFile() {
+  if (unfinished_ && file_ >= 0) nurbs::discard_file(path_);
+}
+
 SeriesFile SeriesFile::open(const std::string& path) {
   const hid_t opened = open_file(path);
   SeriesFile file(path, opened);

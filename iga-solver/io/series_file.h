@@ -16,6 +16,9 @@ class SeriesFile {
  public:
   /// Creates the file; it is `path`.part, and an older file stays, until the first row is complete.
   explicit SeriesFile(const std::string& path);
+  SeriesFile(SeriesFile&&) = default;
+  /// Without a row there is no file.
+  ~SeriesFile();
   /// Opens a file that is there, to go on with it.
   static SeriesFile open(const std::string& path);
   void set_attribute(const std::string& name, const std::string& value);

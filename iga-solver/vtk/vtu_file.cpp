@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <ostream>
 #include <pugixml.hpp>
 #include <stdexcept>
 
@@ -72,12 +73,9 @@ pugi::xml_node start(pugi::xml_document& document, const char* type, const char*
 }
 
 void save(const pugi::xml_document& document, const std::string& path) {
-  std::string problem = nurbs::problem_as_output(path);
+  const std::string problem =
+      nurbs::write_file(path, [&](std::ostream& file) { document.save(file, " ", pugi::format_indent); });
   if (!problem.empty()) throw std::runtime_error(fmt::format("cannot write '{}': {}", path, problem));
-  const bool done = document.save_file(nurbs::unfinished_name(path).c_str(), " ", pugi::format_indent);
-  if (!done || !nurbs::finish_file(path).empty())
-    throw std::runtime_error(fmt::format(
-        "cannot write '{}' (does the folder exist, may it be written to, is there room on the disk?)", path));
 }
 
 // 20 of "wall_20.vtu"

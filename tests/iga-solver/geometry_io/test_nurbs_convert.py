@@ -369,7 +369,23 @@ class NurbsConvert(unittest.TestCase):
         before = (self.folder / "good.h5").read_bytes()
         for out in ("good.h5", "./good.h5", "link.h5"):
             self.assertRegex(self.refused("good.h5", out), f"{out}: is the file good.h5 that is read and would be overwritten")
+        # what a YAML file names is read, too
+        self.write("wall.yaml", "units: cgs\ngeometry: {file: good.h5}\nsurfaces: {b: 0}\n")
+        self.assertRegex(self.refused("wall.yaml", "link.h5", "--surface", "b"), "link.h5: is the file good.h5 that is read")
         self.assertEqual((self.folder / "good.h5").read_bytes(), before)
+        # and what is written has another name until it is complete
+        self.write("out.xml.part", "units: si\ngeometry:\n  box: {origin: [0, 0, 0], size: [1, 1, 1], degree: 1, elements: [1, 1, 1]}\n")
+        self.assertRegex(self.refused("out.xml.part", "out.xml"), "out.xml.part: is the file out.xml.part that is read")
+        self.assertIn("box", (self.folder / "out.xml.part").read_text())
+
+    def test_nothing_unfinished_is_left(self):
+        self.write("in.yaml", "units: si\ngeometry:\n  box: {origin: [0, 0, 0], size: [1, 1, 1], degree: 1, elements: [9, 9, 9]}\n")
+        for out in ("out.yaml", "out.h5", "out.xml"):
+            done = subprocess.run(
+                [PROGRAM, "in.yaml", out], cwd=self.folder, capture_output=True, text=True, check=False,
+                preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000)), restore_signals=False)
+            self.assertEqual((done.returncode, done.stderr), (1, f"ERROR: {out}: cannot write here: File too large\n"))
+        self.assertEqual(os.listdir(self.folder), ["in.yaml"])
 
     def test_wrong_input_ends_in_one_line(self):
         write_hdf5(self.folder / "good.h5", SURFACES, {})
@@ -390,7 +406,7 @@ class NurbsConvert(unittest.TestCase):
             ("chain.yaml",): "units.yaml:2: geometry.file is good.h5 in a file that is itself read for another one",
             ("gone.yaml",): "nowhere.xml: cannot read this file",
             ("good.h5", "out.stl"): "out.stl: unknown extension, expected .yaml, .yml, .h5, .hdf5 or .xml",
-            ("good.h5", "none/out.h5"): "none/out.h5: cannot write this file",
+            ("good.h5", "none/out.h5"): "none/out.h5: cannot write here: No such file or directory",
             ("good.h5", "--surface", "floor"): r"good.h5: unknown surface 'floor', expected one of: \(the file names none\)",
             ("trimmed.xml", "--units", "inch"): "units is 'inch', expected one of: si, cgs, mm-g-ms",
             (): "input is required",

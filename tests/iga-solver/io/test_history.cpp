@@ -237,6 +237,11 @@ TEST_F(HistoryFile, NeverReplacesWhatTheModelIsReadFrom) {
   std::ostringstream kept;
   kept << std::ifstream(name + ".h5").rdbuf();
   EXPECT_EQ(kept.str(), text_of_others);
+  // nor is it what the history is until it has a row
+  io::HistoryOutput unfinished{1.0, base(), "plate.yaml:7", {base() + ".h5.part"}};
+  std::ofstream(unfinished.inputs[0]) << text_of_others;
+  EXPECT_THAT([&] { io::History(unfinished, nurbs::Units::si, {}); },
+              testing::ThrowsMessage<nurbs::InputError>(testing::HasSubstr("would be overwritten")));
   io::History({1.0, base(), "plate.yaml:7", {name + ".h5"}}, nurbs::Units::si,
               {});  // another file may be written
 }

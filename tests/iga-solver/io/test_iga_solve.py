@@ -76,6 +76,11 @@ class Divergence(IgaSolve):
                 self.assertEqual(len(file[name]), len(file["time"]), name)
                 self.assertTrue(numpy.isfinite(file[name][()]).all(), name)
 
+    def test_nothing_unfinished_is_left(self):
+        done = self.run_model(BLOCK + "probes: {'.': {face: zeta+, at: [0, 0]}}\n")
+        self.assert_error(done, "block.h5: HDF5 cannot create the data set 'probes/.'")
+        self.assertEqual(os.listdir(self.folder), ["block.yaml"])
+
 
 class OwnInput(IgaSolve):
     def test_is_never_overwritten(self):

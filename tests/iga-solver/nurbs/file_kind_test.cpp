@@ -120,6 +120,39 @@ TEST_F(RegularFile, OthersAreRefusedBeforeTheyAreOpened) {
   EXPECT_THAT(problem_as_output("/dev/full"), HasSubstr("device"));
 }
 
+// What stands where the unfinished file would be is neither written into nor waited for.
+TEST_F(RegularFile, OthersAreRefusedAsUnfinishedFilesToo) {
+  ASSERT_EQ(mkfifo(path("a.part").c_str(), 0600), 0);
+  std::ofstream(path("file")) << "of somebody";
+  std::filesystem::create_symlink("file", path("b.part"));
+  EXPECT_THAT(problem_as_output(path("a")), AllOf(HasSubstr("a.part: "), HasSubstr("named pipe")));
+  EXPECT_THAT(write_file(path("b"), [](std::ostream& file) { file << "new"; }),
+              HasSubstr("b.part: Is a link"));
+  EXPECT_EQ(read_regular_file(path("file")).bytes, "of somebody");
+}
+
+TEST_F(RegularFile, IsNotLeftUnfinished) {
+  std::filesystem::create_directory(path("folder"));
+  EXPECT_THAT(write_file(path("folder/none/file"), [](std::ostream&) {}), HasSubstr("No such file"));
+  EXPECT_THAT(write_file(path("folder/file"), [](std::ostream& file) { file.setstate(std::ios::badbit); }),
+              HasSubstr("error"));
+  EXPECT_TRUE(std::filesystem::is_empty(path("folder")));
+  EXPECT_EQ(write_file(path("folder/file"), [](std::ostream& file) { file << "whole"; }), "");
+  EXPECT_EQ(read_regular_file(path("folder/file")).bytes, "whole");
+}
+
+TEST_F(RegularFile, TakesThePlaceThatADanglingLinkNames) {
+  std::filesystem::create_directory(path("elsewhere"));
+  std::filesystem::create_symlink("elsewhere/link", path("link"));
+  std::filesystem::create_symlink("target", path("elsewhere/link"));
+  std::filesystem::create_symlink("loop", path("loop"));
+  EXPECT_EQ(write_file(path("link"), [](std::ostream& file) { file << "new"; }), "");
+  EXPECT_TRUE(std::filesystem::is_symlink(path("link")));
+  EXPECT_TRUE(std::filesystem::is_symlink(path("elsewhere/link")));
+  EXPECT_EQ(read_regular_file(path("elsewhere/target")).bytes, "new");
+  EXPECT_FALSE(unfinished_name(path("loop")).empty()) << "comes to an end";
+}
+
 TEST_F(RegularFile, IsWrittenBesideTheOlderOneAndReplacesItWhenComplete) {
   std::ofstream(path("file")) << "older";
   std::filesystem::create_directory(path("elsewhere"));
