@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "nurbs/file_kind.h"
 #include "structure/linear_elastic.h"
 #include "structure/loads.h"
 #include "structure/saint_venant_kirchhoff.h"
@@ -152,7 +153,10 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
 }
 
 ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& read) {
-  return parse_model_file(read(path), path, read);
+  const std::string text = read(path);
+  if (geometry_io::format_of_path(path) == geometry_io::Format::hdf5)  // what was read are its values
+    nurbs::refuse_kind(nurbs::FileKind::hdf5, path);
+  return parse_model_file(text, path, read);
 }
 
 structure::ExplicitSolver build_solver(const ModelFile& model) {

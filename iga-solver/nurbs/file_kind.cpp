@@ -130,12 +130,17 @@ FileKind kind_of_file(const std::string& path, const std::string& bytes) {
   return FileKind::text;
 }
 
+void refuse_kind(FileKind given, const std::string& path) {
+  for (const Kind& kind : kKinds)
+    if (kind.kind == given) throw InputError(one_line(path + ": is " + kind.name + ", " + kind.way_out));
+  throw InputError(one_line(path + ": is text"));
+}
+
 void expect_kind(FileKind expected, const std::string& path, const std::string& bytes) {
   const FileKind given = kind_of_file(path, bytes);
   if (given == expected || given == FileKind::text)
     return;  // a text may be broken XML: its parser says where
-  for (const Kind& kind : kKinds)
-    if (kind.kind == given) throw InputError(one_line(path + ": is " + kind.name + ", " + kind.way_out));
+  refuse_kind(given, path);
 }
 
 }  // namespace nurbs

@@ -12,6 +12,8 @@ enum class FileKind { text, hdf5, xml, step, iges, stl, binary };
 /// By the first bytes, else, for the foreign ones, by the extension; `text` is what shows no other sign.
 FileKind kind_of_file(const std::string& path, const std::string& bytes);
 
+/// Throws InputError, as expect_kind, of a file that is no text.
+[[noreturn]] void refuse_kind(FileKind given, const std::string& path);
 /// Throws InputError "x.step: is a STEP file, expected ..., ..." with the way out, unless `bytes` may be what
 /// a reader of `expected` (text: YAML) can read.
 void expect_kind(FileKind expected, const std::string& path, const std::string& bytes);

@@ -37,17 +37,22 @@ void expect_count(const YamlMap& map, const std::string& key, size_t given, size
   if (given != expected) map.fail(key, fmt::format("{} is a list of {}, expected {}", key, given, expected));
 }
 
+// The key that gives the elements.
+const char* mesh_key(const YamlMap& map) { return map.has("breaks") ? "breaks" : "elements"; }
+
 // Before anything is allocated for them.
 void check_size(const YamlMap& map, const std::vector<int>& elements, const std::vector<int>& degrees) {
+  const std::string key = mesh_key(map), prefix = key == "elements" ? "" : key + ": ";
   double count = 1.0;
   for (size_t d = 0; d < elements.size(); ++d) count *= static_cast<double>(elements[d]) + degrees[d];
-  blame(map, "elements", "", [&] {
+  blame(map, key, prefix, [&] {
     expect_memory(sizeof(Vector3) * count,
                   fmt::format("elements [{}]: {:.3g} control points", fmt::join(elements, ", "), count));
   });
   if (count > kMaxControlPoints)
-    map.fail("elements", fmt::format("elements are {}, about {:.3g} control points, expected at most {:.0f}",
-                                     fmt::join(elements, " x "), count, kMaxControlPoints));
+    map.fail(key,
+             prefix + fmt::format("elements are {}, about {:.3g} control points, expected at most {:.0f}",
+                                  fmt::join(elements, " x "), count, kMaxControlPoints));
 }
 
 // `degree`: one number for all directions or one for each.
@@ -80,6 +85,10 @@ std::vector<KnotVector> read_mesh(const YamlMap& map, int dim) {
   } else {
     const std::vector<std::vector<double>> breaks = map.table("breaks");
     expect_count(map, "breaks", breaks.size(), dim);
+    std::vector<int> elements;
+    for (const std::vector<double>& ends : breaks)
+      elements.push_back(std::max(static_cast<int>(ends.size()), 1) - 1);
+    check_size(map, elements, degrees);
     for (int d = 0; d < dim; ++d) knots.push_back(knots_from_breaks(map, degrees[d], breaks[d], d));
   }
   return knots;
@@ -297,10 +306,10 @@ Shape read_sized(const ShapeKey& shape, const YamlMap& map) {
   try {
     return shape.read(map);
   } catch (const std::bad_alloc&) {
-    map.fail("elements",
-             fmt::format("no memory for a {} of {} elements", shape.key,
-                         map.is_list("elements") ? fmt::format("{}", fmt::join(map.words("elements"), " x "))
-                                                 : "so many"));
+    const std::string key = mesh_key(map);
+    const bool sizes = key == "elements" && map.is_list(key);
+    map.fail(key, fmt::format("{}: no memory for a {} of {} elements", key, shape.key,
+                              sizes ? fmt::format("{}", fmt::join(map.words(key), " x ")) : "so many"));
   }
 }
 

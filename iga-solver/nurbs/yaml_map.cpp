@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "nurbs/file_kind.h"
 #include "nurbs/parse_number.h"
@@ -95,18 +96,12 @@ const YamlNode* YamlMap::find(const std::string& key) const {
 
 void YamlMap::allow_only(std::initializer_list<const char*> keys) const {
   const std::vector<std::string> allowed(keys.begin(), keys.end());
-  std::vector<std::string> seen;
-  for (size_t i = 0; i < node_->children.size(); i += 2) {
-    const YamlNode& entry = *node_->children[i];
-    const std::string key = read_word(entry, "key");
-    if (std::find(seen.begin(), seen.end(), key) != seen.end())
-      fail_at(entry, fmt::format("{} is given twice, expected once", name_of(key)));
-    seen.push_back(key);
+  for (const std::string& key : this->keys()) {
     if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
     const std::string nearest = nearest_word(key, allowed);
     const std::string hint = nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest);
-    fail_at(entry, fmt::format("unknown key '{}'{}, {}expected one of: {}", shown(key),
-                               where_.empty() ? "" : " in " + where_, hint, one_of(allowed)));
+    fail(key, fmt::format("unknown key '{}'{}, {}expected one of: {}", shown(key),
+                          where_.empty() ? "" : " in " + where_, hint, one_of(allowed)));
   }
 }
 
@@ -115,8 +110,13 @@ bool YamlMap::is_list(const std::string& key) const { return value(key).kind == 
 
 std::vector<std::string> YamlMap::keys() const {
   std::vector<std::string> keys;
-  for (size_t i = 0; i < node_->children.size(); i += 2)
-    keys.push_back(read_word(*node_->children[i], "key"));
+  std::set<std::string> seen;
+  for (size_t i = 0; i < node_->children.size(); i += 2) {
+    const YamlNode& entry = *node_->children[i];
+    keys.push_back(read_word(entry, "key"));
+    if (!seen.insert(keys.back()).second)
+      fail_at(entry, fmt::format("{} is given twice, expected once", name_of(keys.back())));
+  }
   return keys;
 }
 

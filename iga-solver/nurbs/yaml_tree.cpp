@@ -31,9 +31,7 @@ class YamlTree::Builder : public YAML::EventHandler {
   // Where a document starts that is no document: the parser has read nothing and would come again for ever.
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (mark.pos == last_start_)
-      fail_at_line(
-          file_, line_of(mark),
-          fmt::format("broken YAML: '{}' where a key or the end is expected", text_.substr(mark.pos, 1)));
+      fail_at_line(file_, line_of(mark), "broken YAML: text where a key or the end is expected");
     last_start_ = mark.pos;
   }
   void OnDocumentEnd() override {}

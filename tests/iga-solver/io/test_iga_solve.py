@@ -102,6 +102,12 @@ class OwnInput(IgaSolve):
         self.assert_error(done, "block.h5: is no HDF5 file, expected one by its name")
         self.assertEqual((self.folder / "block.h5").read_text(), BLOCK)
 
+    def test_of_another_kind_says_how_it_is_taken(self):
+        (self.folder / "box.yaml").write_text("\n".join(BLOCK.splitlines()[:3]) + "\n")
+        convert = [Path(PROGRAM).with_name("nurbs-convert"), "box.yaml", "box.h5"]
+        subprocess.run(convert, cwd=self.folder, check=True, capture_output=True)
+        self.assert_error(self.solve("box.h5"), "box.h5: is an HDF5 file, expected text: .*'geometry: {file: NAME}'")
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -24,6 +24,16 @@ class Memory(IgaSolve):
             r"block.yaml:3: elements \[100000, 100000, 100\]: 1.02e\+12 control points would take 24.5 TB of memory, this "
             r"process may have [0-9.]+ [MGT]B")
 
+    def test_breaks(self):
+        def breaks(count: int) -> str:
+            return changed(("elements: [4, 4, 2]", f"breaks: {3 * [[i / (count - 1) for i in range(count)]]}"))
+
+        self.assert_error(
+            self.limited(breaks(1000), 2000),
+            r"block.yaml:3: breaks: elements \[999, 999, 999\]: 1e\+09 control points would take 24.* GB of memory, this process may")
+        # the control points alone would fit
+        self.assert_error(self.limited(breaks(228), 300), "block.yaml:3: breaks: no memory for a box of so many elements")
+
     def test_solid(self):
         # 27 points with 3 x 28 derivatives of 8 bytes: 18.4 kB per quadratic element, as the README of structure/ says
         self.assert_error(

@@ -263,7 +263,7 @@ TEST(GeometryFile, SaysWhatWasGivenAndWhatWasExpected) {
       {kBox, "zeta+", "top",
        "wall.yaml:4: ", "surfaces.top: unknown face 'top', expected xi-, xi+, eta-, eta+, zeta- or zeta+"},
       {kBox, "side: xi-", "\"s\\nt\": top", "wall.yaml:4: ", "surfaces.s t: unknown face 'top'"},
-      {kBox, "side:", "top:", "wall.yaml:4: ", "surface 'top' is given twice, expected once"},
+      {kBox, "side:", "top:", "wall.yaml:4: ", "surfaces.top is given twice, expected once"},
       {kBox, "surfaces: {top: zeta+, side: xi-}", "surfaces: zeta+",
        "wall.yaml:4: ", "surfaces is zeta+, expected a mapping"},
       {kBox, "units: si\n", "units: si\nunits: cgs\n",

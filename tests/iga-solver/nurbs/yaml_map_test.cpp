@@ -52,6 +52,12 @@ TEST(YamlMap, AnAliasIsWhatItsAnchorNames) {
   EXPECT_THAT(map.numbers("c"), ElementsAre(1.5, 2, 1.5));
 }
 
+std::string in_utf16(const std::u16string& text) {  // the high byte first, as its mark says
+  std::string bytes = "\xFE\xFF";
+  for (const char16_t c : text) bytes += {static_cast<char>(c >> 8), static_cast<char>(c & 0xFF)};
+  return bytes;
+}
+
 struct BadInput {
   std::string text;
   std::function<void(const YamlMap&)> read;
@@ -68,9 +74,13 @@ TEST(YamlMap, SaysWhatWasGivenAndWhatWasExpected) {
       {"just words", nothing, "f.yaml:1: file is just words, expected a mapping (key: value)"},
       {"- 1\n- 2\n", nothing, "f.yaml:1: file is a list of 2, expected a mapping (key: value)"},
       {"a: 1\n---\nb: 2\n", nothing, "f.yaml:3: 2 documents given, expected one"},
-      {",", nothing, "f.yaml:1: broken YAML: ',' where a key or the end is expected"},
-      {"{a: 1},\n", nothing, "f.yaml:1: broken YAML: ',' where a key or the end is expected"},
-      {"a: 1\n...\n, b\n", nothing, "f.yaml:3: broken YAML: ',' where a key or the end is expected"},
+      {",", nothing, "f.yaml:1: broken YAML: text where a key or the end is expected"},
+      {"{a: 1},\n", nothing, "f.yaml:1: broken YAML: text where a key or the end is expected"},
+      {"a: 1\n...\n, b\n", nothing, "f.yaml:3: broken YAML: text where a key or the end is expected"},
+      {"\xEF\xBB\xBF# \xC3\xA9\n,", nothing,
+       "f.yaml:2: broken YAML: text where a key or the end is expected"},
+      {in_utf16(u"# \u6F22\u5B57\u6F22\u5B57\u6F22\u5B57\u6F22\u5B57\n,"), nothing,
+       "f.yaml:2: broken YAML: text where a key or the end is expected"},
       {std::string(1000000, '['), nothing,
        "f.yaml:1: lists or mappings nested too deeply, expected 500 levels at most"},
       {"a: &a [1, *a]\n", nothing, "f.yaml:1: broken YAML: an alias stands inside of what it is an alias of"},
@@ -81,6 +91,7 @@ TEST(YamlMap, SaysWhatWasGivenAndWhatWasExpected) {
        "f.yaml:3: unknown key 'densty', did you mean 'density'? expected one of: density, E, n"},
       {"E: 1\ncolour: 2\n", only, "f.yaml:2: unknown key 'colour', expected one of: density, E, n"},
       {"E: 1\nn: 1\nE: 2\n", only, "f.yaml:3: E is given twice, expected once"},
+      {"E: 1\nn: 1\nE: 2\n", [](const YamlMap& m) { m.keys(); }, "f.yaml:3: E is given twice, expected once"},
       {"[1, 2]: 3\n", only, "f.yaml:1: key is a list of 2, expected a word"},
       {"n: 1\n", number, "f.yaml:1: E is missing"},
       {"n: 1\nE: -1\n", number, "f.yaml:2: E is -1, expected a number > 0"},
