@@ -6,6 +6,8 @@ from __future__ import annotations
 import argparse
 import errno
 import os
+import re
+import shutil
 import subprocess
 import sys
 from fnmatch import fnmatchcase
@@ -19,6 +21,9 @@ ROOT = INPUTS.parent
 SOLVER = ROOT / "build/release/liggghts-pkg/liggghts-nurbs"
 
 EXIT_PASS, EXIT_FAIL, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
+
+FULL = {errno.ENOSPC, errno.EDQUOT}
+NOT_WRITABLE = {errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.EEXIST}
 
 
 def parse(arguments: Sequence[str]) -> argparse.Namespace:
@@ -86,10 +91,17 @@ def set_up(*arguments: str) -> None:
 
 
 def why_not(error: OSError) -> str:
-    """One line about a file or folder that cannot be used."""
+    """One line about a file, folder or program that cannot be used, and a way out where another folder is one."""
+    if isinstance(error, shutil.Error):  # of copytree: [(from, to, "[Errno 28] No space left on device: ..."), ...]
+        number, why = re.match(r"(?:\[Errno (\d+)\] )?(.*)", error.args[0][0][2]).groups()
+        error = OSError(int(number or 0), why)
     where = f"{error.filename}: " if error.filename else ""
-    way_out = "free some space, or name a folder elsewhere" if error.errno == errno.ENOSPC else "name a folder that can be written to"
-    return f"{where}{error.strerror or error}; {way_out} with --out DIR"
+    way_out = ""
+    if error.errno in FULL:
+        way_out = "; free some space, or name a folder elsewhere with --out DIR"
+    elif error.errno in NOT_WRITABLE:
+        way_out = "; name a folder that can be written to with --out DIR"
+    return f"{where}{error.strerror or error}{way_out}"
 
 
 def main(arguments: Sequence[str]) -> int:

@@ -127,8 +127,8 @@ def run_all(
             for run in [run for run in waiting if id(run.after) not in busy]:
                 if room(run):
                     waiting.remove(run)
-                    running.append(run)
                     run.start(solver)
+                    running.append(run)
             watch(done, running)
             time.sleep(0.1)
             for run in [run for run in running if run.finished()]:

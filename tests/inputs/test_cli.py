@@ -186,6 +186,20 @@ class CommandLine(unittest.TestCase):
         self.assertRegex(said, "^inputs/run: .*summary.json: No space left on device; free some space, or .* --out DIR$")
         self.assertNotIn("Traceback", done.stderr)
 
+    def test_a_full_disk_where_decks_are_copied_to(self):
+        full = OSError(errno.ENOSPC, "No space left on device", "in.ball_plate", None, "here")
+        for copy in ("copytree", "copyfile"):  # of which copytree makes a list
+            with self.subTest(copy=copy), mock.patch(f"shutil.{copy}", side_effect=full):
+                done = self.run_study("ball_plate", "--case", "hertz_lambda_0.8")
+                self.assertEqual(done.returncode, 2)
+                self.assertRegex(done.stderr, "^inputs/run: .*No space left on device.*; free some space, or .* --out DIR\n$")
+                self.assertEqual(self.left_behind(), [])
+
+    def test_a_run_that_cannot_start(self):
+        done = self.run_study("ball_plate", "--case", "hertz_lambda_0.8", PATH="/nonexistent")
+        self.assertEqual(done.returncode, 2)
+        self.assertRegex(done.stderr, "^inputs/run: (stdbuf|mpirun): No such file or directory\n$")
+
     def test_no_executable(self):
         command = [RUN, "thin_plate", "--solver", "/no/such"]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
