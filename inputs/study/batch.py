@@ -62,8 +62,6 @@ class Batch:
     def run(self, solver: Solver, jobs: int | None, keep_going: bool, out: Path) -> bool:
         """Runs everything and writes `out`; whether every run and every row went well."""
         out.mkdir(parents=True, exist_ok=True)
-        others = self.rows_of_other_cases(out)
-        self.remove_stale(out, others)
         with tempfile.TemporaryDirectory(prefix=".run-", dir=out) as scratch:
             self.run_cases(self.runs(Path(scratch)), solver, jobs, keep_going, out)
             if not self.complete and not keep_going:
@@ -75,26 +73,31 @@ class Batch:
             for comparison in self.study.comparisons:
                 if set(comparison.cases) <= self.results.keys():
                     rows += [replace(row, of=tuple(comparison.cases)) for row in comparison.rows(self.results)]
-        write_json(out / "summary.json", self.folder.name, self.in_order([*rows, *others]))
+        self.record(self.cases, rows, out)
         print(table(rows))
         return self.complete and all(row.passes is not False for row in rows)
 
-    def rows_of_other_cases(self, out: Path) -> list[dict]:
-        """Of the summary that is there, the rows whose cases are not run again and whose files are there, too."""
-        again = {case.name for case in self.cases}
-        rows = read_json(out / "summary.json")
-        return [row for row in rows if not again & set(row["of"]) and all((out / f"log_{c}.txt").exists() for c in row["of"])]
-
-    def remove_stale(self, out: Path, others: Sequence[dict]) -> None:
-        """What earlier runs of these cases left in summary and figures; a failure leaves the others' rows."""
-        again = {case.name for case in self.cases}
+    def forget(self, cases: Sequence[Case], out: Path) -> None:
+        """What earlier runs of these cases left in summary and figures; that of the others stays."""
         for figure in self.study.figures:
-            if again & set(figure.cases):
+            if {case.name for case in cases} & set(figure.cases):
                 (out / figure.file).unlink(missing_ok=True)
-        if others:
-            write_json(out / "summary.json", self.folder.name, others)
+        self.record(cases, [], out)
+
+    def record(self, cases: Sequence[Case], rows: Sequence[Row], out: Path) -> None:
+        """Rows in place of those of the summary that are about these cases, or whose files are gone."""
+        again = {case.name for case in cases}
+        summary = out / "summary.json"
+        rows = [row for row in read_json(summary) if self.holds(row, again, out)] + [*rows]
+        if rows:
+            write_json(summary, self.folder.name, self.in_order(rows))
         else:
-            (out / "summary.json").unlink(missing_ok=True)
+            summary.unlink(missing_ok=True)
+
+    @staticmethod
+    def holds(row: dict, again: set[str], out: Path) -> bool:
+        """Whether a row of the summary is about none of the cases `again`, and its files are there."""
+        return not again & set(row["of"]) and all((out / f"log_{case}.txt").exists() for case in row["of"])
 
     def in_order(self, rows: Sequence[Row | dict]) -> list[dict]:
         """Rows of single cases in the order of the study, then comparisons."""
@@ -136,7 +139,8 @@ class Batch:
         return None
 
     def publish(self, run: Run, cases: Sequence[Case], out: Path, failure: str | None) -> None:
-        """Logs and force histories under each case's name; a row that says so if it failed."""
+        """Logs and force histories under each case's name, and its rows; a row that says so if it failed."""
+        self.forget(cases, out)
         for case in cases:
             put(run.folder / LOG, out / f"log_{case.name}.txt")
             if failure:
@@ -152,6 +156,8 @@ class Batch:
                 self.keep(run.folder, case, out / case.name)
         if failure:
             print(f"see {out / f'log_{run.name}.txt'}", file=sys.stderr)
+        else:
+            self.record(cases, [row for case in cases for row in self.rows[case.name]], out)
 
     @staticmethod
     def keep(folder: Path, case: Case, out: Path) -> None:

@@ -96,6 +96,23 @@ class BatchOfTwo(unittest.TestCase):
         left = {path.name for path in self.out.iterdir()}
         self.assertEqual(left, {"contact_force_other.csv", "log_one.txt", "log_other.txt", "other.png", "summary.json"})
 
+    def test_a_failure_of_the_last_case_leaves_the_new_rows_of_those_before(self):
+        self.run_cases(0, 1)
+        before = self.summary()
+        with mock.patch.dict(os.environ, FAIL_AT="1.2"):
+            passed, _ = self.run_cases(0, 1, user={"V": "2.0"})
+        self.assertFalse(passed)
+        self.assertEqual(list(self.summary()), [("one", "peak")])
+        self.assertAlmostEqual(self.summary()["one", "peak"] / before["one", "peak"], 2.0**1.2, delta=1e-3)
+
+    def test_a_failure_of_the_first_case_leaves_those_that_were_not_run(self):
+        self.run_cases(0, 1)
+        before = self.summary()
+        with mock.patch.dict(os.environ, FAIL_AT="1.0"):
+            self.run_cases(0, 1)
+        self.assertEqual(self.summary(), {("other", "peak"): before["other", "peak"]})
+        self.assertTrue((self.out / "other.png").exists())
+
     def test_further_files_are_kept_by_case_and_old_ones_are_not(self):
         (self.out / "one").mkdir()
         (self.out / "one/stale.vtu").touch()

@@ -112,7 +112,7 @@ class CommandLine(unittest.TestCase):
         self.assertIn("hertz_lambda_0.8: ERROR: Fix wall/nurbs (id plate): given", done.stderr)
         self.assertNotIn("hertz_lambda_1.2", done.stderr)
         self.assertIn("ERROR", (self.out / "log_hertz_lambda_0.8.txt").read_text())
-        self.assertNotIn("summary.json", self.left_behind())
+        self.assertEqual({case for case, _ in self.rows()}, {"hertz_lambda_0.6"})  # the one that ended before
 
     def test_failing_run_keep_going(self):
         words = ["--case", "hertz_lambda_*", "--keep-going"]
@@ -133,6 +133,18 @@ class CommandLine(unittest.TestCase):
         self.assertNotIn("summary.json", self.left_behind())
 
     def test_interrupt(self):
+        self.interrupt()
+        self.assertEqual(self.left_behind(), [])
+
+    def test_interrupt_leaves_what_was_there(self):
+        self.run_study("ball_plate", "--case", "table2")
+        before = {name: (self.out / name).read_bytes() for name in self.left_behind()}
+        self.assertIn("summary.json", before)
+        self.interrupt()
+        self.assertEqual({name: (self.out / name).read_bytes() for name in self.left_behind()}, before)
+
+    def interrupt(self):
+        """Ctrl-C while a run is under way."""
         process = subprocess.Popen(
             [RUN, *self.words("ball_plate", "--case", "table2")],
             cwd="/",
@@ -147,7 +159,6 @@ class CommandLine(unittest.TestCase):
         _, complaint = process.communicate(timeout=20)
         self.assertEqual(process.returncode, 130)
         self.assertIn("interrupted", complaint)
-        self.assertEqual(self.left_behind(), [])
 
     def test_wrong_words(self):
         table = [
