@@ -2,7 +2,6 @@
 #include "coupling/all_or_none.h"
 
 #include "nurbs/input_error.h"
-#include "nurbs/memory.h"
 
 namespace coupling {
 
@@ -18,11 +17,6 @@ void agree_on_problem(MPI_Comm comm, std::string problem) {
   problem.resize(length);
   MPI_Bcast(problem.data(), length, MPI_CHAR, first, comm);
   throw nurbs::InputError(problem);
-}
-
-std::string out_of_memory(const std::string& file) {
-  return file + ": out of memory: what it describes takes more than this process may have, " +
-         nurbs::size_text(nurbs::memory_limit());
 }
 
 }  // namespace coupling

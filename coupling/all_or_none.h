@@ -11,14 +11,15 @@
 #include <string>
 #include <utility>
 
+#include "nurbs/memory.h"
+
 namespace coupling {
 
 /// Collective.  Throws nurbs::InputError on every rank if `problem` is not empty on one of them: the problem
 /// of the lowest such rank.
 void agree_on_problem(MPI_Comm comm, std::string problem);
 
-/// What is said where memory ends: "plate.yaml: out of memory: ...".
-std::string out_of_memory(const std::string& file);
+using nurbs::out_of_memory;
 
 /// Collective.  The result of action(), which reads `file`; throws as agree_on_problem if it threw anywhere.
 template <class Action>

@@ -28,9 +28,7 @@ int run_command(CLI::App& command, int argc, char** argv, const std::string& fil
   } catch (const CLI::Success& success) {  // help
     return command.exit(success);
   } catch (const std::bad_alloc&) {
-    return print_error(
-        fmt::format("{}: out of memory: what it describes takes more than this process may have, {}", file,
-                    nurbs::size_text(nurbs::memory_limit())));
+    return print_error(nurbs::out_of_memory(file));
   } catch (const std::exception& error) {
     return print_error(error.what());
   }

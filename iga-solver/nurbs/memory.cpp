@@ -22,6 +22,11 @@ double memory_limit() {
   return limit;
 }
 
+std::string out_of_memory(const std::string& file) {
+  return fmt::format("{}: out of memory: what it describes takes more than this process may have, {}", file,
+                     size_text(memory_limit()));
+}
+
 std::string size_text(double bytes) {
   constexpr const char* kUnits[] = {"bytes", "kB", "MB", "GB", "TB"};
   int unit = 0;

@@ -15,6 +15,9 @@ double memory_limit();
 /// fit.
 void expect_memory(double bytes, const std::string& what);
 
+/// What is said where memory ends: "plate.yaml: out of memory: ...".
+std::string out_of_memory(const std::string& file);
+
 /// 1.5e9 -> "1.5 GB".
 std::string size_text(double bytes);
 
