@@ -10,7 +10,7 @@ namespace {
 constexpr double kBeside = 1e-5;    // of an element
 constexpr double kOnePoint = 1e-9;  // of an element's size: an edge shorter than that is a pole
 constexpr double kFlat = 3e-8;      // a slope, relative, that counts as none
-constexpr int kPlaces = 16;         // per element, where curvatures are looked at
+constexpr int kPlaces = 16;         // parts of an element, where curvatures are looked at
 constexpr double kShortest = 1e-4;  // of an element: below it a slope that may be negative is
 
 // Of the kinds of two parts of a pole that of the whole: a slope outweighs all.

@@ -22,7 +22,8 @@ struct Pole {
 
 /// The pole beside `near` (less than 1e-5 of an element away).  The slopes of the ways into the patch are
 /// proved by their Bernstein coefficients; where they are none (relative to |r|, below the root of round-off:
-/// d is on the axis of a cap), curvatures decide at 17 places per element.
+/// d is on the axis of a cap), curvatures decide: at 33 places per element, and at more between those where
+/// their second difference is not below the least of them.
 Pole pole_beside(const ElementStore& elements, const Vector3& d, const LocalPoint& near);
 
 }  // namespace nurbs
