@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace structure {
@@ -74,7 +75,9 @@ double smallest_volume_ratio(const ElementGeometry& element, const double* u) {
   double smallest = std::numeric_limits<double>::infinity();
   for (int q = 0; q < element.points; ++q) {
     const Matrix3 H = displacement_gradient(u, element.dR_dX + 3 * n * q, n);
-    smallest = std::min(smallest, (Matrix3::Identity() + H).determinant());
+    const double ratio = (Matrix3::Identity() + H).determinant();
+    if (std::isnan(ratio)) return ratio;
+    smallest = std::min(smallest, ratio);
   }
   return smallest;
 }

@@ -33,7 +33,7 @@ ForceKernel force_kernel(int padded);
 /// Stored energy [energy] of one element.
 double element_energy(const Material& material, const ElementGeometry& element, const double* u);
 
-/// Smallest det(I + H) [-] at the quadrature points; not a number if a displacement is not finite.
+/// Smallest det(I + H) [-] at the quadrature points; not a number if it is none at one of them.
 double smallest_volume_ratio(const ElementGeometry& element, const double* u);
 
 }  // namespace structure

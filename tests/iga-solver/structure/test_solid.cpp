@@ -224,6 +224,18 @@ TEST(Solid, GathersZerosBeyondTheFunctions) {
     for (int a = 0; a < padded; ++a) EXPECT_EQ(values[i * padded + a], a < functions ? 1.0 : 0.0);
 }
 
+// A displacement that is no number at one of two quadrature points, whichever it is.
+TEST(Solid, HasNoSmallestVolumeRatioWhereItIsNoNumber) {
+  constexpr int kPadded = 4;
+  const double u[3 * kPadded] = {}, wJ[2] = {1.0, 1.0};
+  for (const int point : {0, 1}) {
+    double dR_dX[2 * 3 * kPadded] = {};
+    EXPECT_EQ(structure::smallest_volume_ratio({dR_dX, wJ, 2, kPadded}, u), 1.0);
+    dR_dX[3 * kPadded * point] = std::nan("");
+    EXPECT_TRUE(std::isnan(structure::smallest_volume_ratio({dR_dX, wJ, 2, kPadded}, u))) << point;
+  }
+}
+
 TEST(Solid, RefusesAPatchWithANegativeJacobianAndSaysWhere) {
   nurbs::Volume mirrored = models::block({1, 1, 1}, {2, 1, 1}, 2);
   mirrored.control_points.row(2) *= -1.0;
