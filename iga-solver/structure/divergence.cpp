@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -41,9 +42,12 @@ std::string symptom(const ExplicitSolver& solver, double energy_given) {
   const Eigen::VectorXd energies =
       solver.velocities().colwise().squaredNorm().transpose().cwiseProduct(solver.mass().nodal_mass());
   energies.maxCoeff(&node);
+  const double kinetic = solver.kinetic_energy();
+  if (!std::isfinite(kinetic))
+    return fmt::format("its kinetic energy is not finite, most at {}", node_text(solver, node));
   return fmt::format(
-      "its kinetic energy {:.3g} is more than {} times the {:.3g} that it was given, most at {}",
-      solver.kinetic_energy(), EnergyBudget::kExcess, energy_given, node_text(solver, node));
+      "its kinetic energy {:.3g} is more than {} times the {:.3g} that it was given, most at {}", kinetic,
+      EnergyBudget::kExcess, energy_given, node_text(solver, node));
 }
 
 /// The element that is squeezed most, if it is folded: nothing is said of displacements that are not finite.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -38,8 +39,10 @@ class EnergyBudget {
     most_ = std::max(most_, given_);
   }
   double most() const { return most_; }
-  /// False also for what is not a number.
-  bool allows(double kinetic_energy) const { return kinetic_energy <= kExcess * most_; }
+  /// False also for what is not finite.
+  bool allows(double kinetic_energy) const {
+    return std::isfinite(kinetic_energy) && kinetic_energy <= kExcess * most_;
+  }
 
   static constexpr double kExcess = 10.0;
 

@@ -124,6 +124,21 @@ TEST(Divergence, IsWhatCannotBeSquared) {
   }
 }
 
+// The energy that it was given is not finite either.
+TEST(Divergence, IsAKineticEnergyThatOverflows) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_FALSE(structure::EnergyBudget(kInfinity, 0.0).allows(kInfinity));
+  EXPECT_TRUE(structure::EnergyBudget(kInfinity, 0.0).allows(1e300));
+  ExplicitSolver solver = cubes(1, models::elastic(1.0, 0.3, 1e120));
+  NodalVectors v = no_forces(solver);
+  v.row(0).setConstant(1e100);
+  solver.set_velocities(v);
+  solver.set_time_step(0.1);
+  EXPECT_THAT([&] { solver.initialise_forces(no_forces(solver)); },
+              testing::ThrowsMessage<Diverged>(
+                  AllOf(HasSubstr("kinetic energy is not finite"), HasSubstr("initial velocities"))));
+}
+
 // Forces that change at random from step to step, at the longest step that users may take: whatever they do,
 // the kinetic energy is never above what was given.
 TEST(Divergence, IsNotSeenInAStableSolid) {
