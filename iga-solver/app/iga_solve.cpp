@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <new>
 #include <stdexcept>
 
 #include "command.h"
@@ -31,12 +32,14 @@ double end_time(const Options& options, const io::ModelFile& model) {
       fmt::format("{}: no end time, expected 'time: {{end: T}}' in it or --end T", model.file));
 }
 
-double stable_step(const ExplicitSolver& solver, const io::ModelFile& model) {
-  try {
-    return solver.stable_time_step();
-  } catch (const std::exception& problem) {
-    throw std::runtime_error(fmt::format("{}: {}", model.file, problem.what()));
-  }
+// What action() returns; an error names the file.
+template <class Action>
+auto with_name(const io::ModelFile& model, Action action) try {
+  return action();
+} catch (const std::bad_alloc&) {
+  throw;  // run_command names it
+} catch (const std::exception& problem) {
+  throw std::runtime_error(fmt::format("{}: {}", model.file, problem.what()));
 }
 
 double time_step(const Options& options, const io::ModelFile& model, double stable) {
@@ -104,15 +107,15 @@ void run(const Options& options) {
   const double end = end_time(options, model);
   ExplicitSolver solver = io::build_solver(model);
   if (!options.quiet) print_model(model, solver);
-  const double stable = stable_step(solver, model);
+  const double stable = with_name(model, [&] { return solver.stable_time_step(); });
   if (!options.quiet) fmt::print("  stable step  {:.6g}\n", stable);
   const double largest_step = time_step(options, model, stable);
-  const long steps = step_count(end, largest_step);
+  const long steps = with_name(model, [&] { return step_count(end, largest_step); });
   solver.set_time_step(end / steps);  // never longer than asked for, and the last step ends at `end`
   if (!options.quiet) fmt::print("  time step    {:.6g}, {} steps\n", solver.time_step(), steps);
 
   const structure::NodalVectors no_forces = structure::NodalVectors::Zero(3, solver.solid().node_count());
-  solver.initialise_forces(no_forces);
+  with_name(model, [&] { solver.initialise_forces(no_forces); });
   std::optional<io::History> history;
   if (model.output) history.emplace(*model.output, model.geometry.units, model.probes);
   if (history) history->record_if_due(solver);

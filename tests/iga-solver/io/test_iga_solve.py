@@ -66,6 +66,14 @@ class Divergence(IgaSolve):
                     "likely cause: .*loads.*time step", r"stable step was 0\.00\d+", "histories before it are in block.h5")
                 self.assertNotIn("nan", done.stdout + done.stderr)
 
+    def test_a_run_that_has_diverged_before_its_first_step_names_its_file(self):
+        fast = changed(("[1, 1, 0.2]", "[1e10, 1e10, 1e10]"), ("density: 1000", "density: 1e100"),
+                       ("loads: {tractions: [{face: zeta+, value: [0, 0, -1e3]}]}", "initial: {velocity: [1e100, 0, 0]}"))
+        self.assert_error(self.run_model(fast), "block.yaml: the solid has blown up at time 0: its kinetic energy is not finite")
+
+    def test_too_many_steps(self):
+        self.assert_error(self.run_model(BLOCK, "--step", "1e-99"), r"block.yaml: 1e\+98 steps of 1e-99 to time 0.1, expected")
+
     def test_histories_up_to_then_are_kept(self):
         # Tension that the block bears for some steps.
         done = self.run_model(changed(("-1e3", "3e5")))
