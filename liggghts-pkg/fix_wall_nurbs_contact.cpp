@@ -192,17 +192,8 @@ inline void FixWallNurbs::call_contact_model(int i, const SurfaceFoot& foot, con
 // direction: the equivalent radius of Johnson (1985), section 4.2; exact where both are equal, as on a
 // sphere.
 double FixWallNurbs::effective_radius(int i, const SurfaceFoot& foot, const Vector3& delta) const {
-  constexpr double kLeast = 0.1;    // of 1/r: in a hollow of nearly the particle's radius Hertz' theory ends
-  constexpr double kBeside = 1e-3;  // of the way to the patch's middle
-  nurbs::SurfacePoint at = foot.at();
-  nurbs::SurfaceShape shape = nurbs::shape_at(surface_, exchange_.positions(), at);
-  if (!std::isfinite(shape.curvature[1])) {  // a pole has none: what is beside it counts
-    for (int d = 0; d < 2; ++d) {
-      const nurbs::KnotVector& knots = surface_.patch(at.patch).knots(d);
-      at.xi[d] += kBeside * (0.5 * (knots.front() + knots.back()) - at.xi[d]);
-    }
-    shape = nurbs::shape_at(surface_, exchange_.positions(), at);
-  }
+  constexpr double kLeast = 0.1;  // of 1/r: in a hollow of nearly the particle's radius Hertz' theory ends
+  const nurbs::SurfaceShape shape = nurbs::shape_near(surface_, exchange_.positions(), foot.at());
   const double r = atom->radius[i];
   const double side = shape.normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1.0 : 1.0;
   double product = 1.0;

@@ -13,6 +13,17 @@ SurfaceShape shape_at(const MultiPatch& surface, const NodalVectors& control_poi
                           at.xi);
 }
 
+SurfaceShape shape_near(const MultiPatch& surface, const NodalVectors& control_points, SurfacePoint at) {
+  constexpr double kBeside = 1e-3;  // of the way to the patch's middle
+  const SurfaceShape shape = shape_at(surface, control_points, at);
+  if (std::isfinite(shape.curvature[1])) return shape;
+  for (int d = 0; d < 2; ++d) {
+    const KnotVector& knots = surface.patch(at.patch).knots(d);
+    at.xi[d] += kBeside * (0.5 * (knots.front() + knots.back()) - at.xi[d]);
+  }
+  return shape_at(surface, control_points, at);
+}
+
 SurfaceShape shape_on_element(const MultiPatch& surface, const NodalVectors& control_points, int patch,
                               int element_of_patch, const Parameter<2>& xi) {
   constexpr double kNoArea = 1e-16, kNoLength = 1e-12;

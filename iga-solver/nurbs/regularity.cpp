@@ -37,8 +37,7 @@ bool Regularity::is_regular(const Vector3& d, double reach, int element) const {
 
 bool Regularity::in_valley(const Vector3& d, const SurfacePoint& foot, double distance) const {
   constexpr double kFlat = 1e-6;
-  const SurfaceShape shape = shape_at(surface_, *control_points_, foot);
-  if (!std::isfinite(shape.curvature[1])) return true;
+  const SurfaceShape shape = shape_near(surface_, *control_points_, foot);
   const double side = shape.normal.dot(d - shape.point) < 0.0 ? -1.0 : 1.0;
   const auto flat = [&](double curvature) { return std::abs(1.0 - side * distance * curvature) <= kFlat; };
   return flat(shape.curvature[0]) || flat(shape.curvature[1]);

@@ -29,8 +29,7 @@ class Regularity {
   bool is_regular(const Vector3& d, double reach, int element) const;
 
   /// Whether a foot of d, `distance` away, lies in a valley: the distance does not rise along the surface to
-  /// second order, as d is a centre of curvature.  Poles count as such: they do where the surface is a
-  /// sphere.
+  /// second order, as d is a centre of curvature.  Of a pole counts what is beside it.
   bool in_valley(const Vector3& d, const SurfacePoint& foot, double distance) const;
 
  private:

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nurbs/curvature.h"
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
 
@@ -25,6 +26,10 @@ class Subject {
         surface_.topology.first_element(patch) + surface_.topology.patch(patch).element_at(xi);
     return regularity_.is_regular(d, reach, element);
   }
+  bool in_valley(const Vector3& d, const SurfacePoint& foot) const {
+    const Vector3 S = shape_at(surface_.topology, surface_.control_points, foot).point;
+    return regularity_.in_valley(d, foot, (d - S).norm());
+  }
   void move(const NodalVectors& points) {
     surface_.control_points = points;
     regularity_.set_control_points(surface_.control_points);
@@ -38,6 +43,22 @@ class Subject {
 
 std::array<KnotVector, 2> knots(int n, int m) {
   return {KnotVector::uniform(2, n), KnotVector::uniform(2, m)};
+}
+
+// Of a sphere all is a valley from its centre, and nothing from elsewhere; its poles are like other places.
+TEST(Regularity, ValleysOfASphere) {
+  const Vector3 centre(1, 2, 3);
+  const Subject ball(
+      join({sphere(frame(centre, {0, 0, 1}), 2.0, refined(arc(0, 360), 8, 2), refined(arc(-90, 90), 4, 2))}));
+  for (const double eta : {0.0, 0.3, 1.0})
+    for (const double xi : {0.0, 0.6}) {
+      const SurfacePoint foot{0, {xi, eta}};
+      EXPECT_TRUE(ball.in_valley(centre, foot)) << xi << ' ' << eta;
+      const double latitude = eta == 0.0 ? -1.0 : 1.0;
+      if (eta == 0.3) continue;
+      for (const double height : {1.0, 1.9, 2.1, 5.0})
+        EXPECT_FALSE(ball.in_valley(centre + Vector3(0, 0, latitude * height), foot)) << eta << ' ' << height;
+    }
 }
 
 // Inside a tube of radius R the reach must be below R / 2; outside it bends away, and any reach will do.
