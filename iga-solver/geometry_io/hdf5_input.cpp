@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <new>
 
 #include "geometry_io/hdf5_file.h"
 #include "geometry_io/hdf5_process.h"
@@ -36,6 +37,10 @@ void expect_hdf5(const std::string& bytes, const std::string& file) {
   throw nurbs::InputError(file + ": is no HDF5 file, expected one by its name");
 }
 
+[[noreturn]] void refuse_size(const std::string& file) {
+  throw nurbs::InputError(file + ": needs more memory than this process may have");
+}
+
 }  // namespace
 
 std::string shape_text(const std::vector<std::uint64_t>& shape) {
@@ -48,6 +53,8 @@ std::string unpacked_hdf5(const std::string& bytes, const std::string& file) {
   expect_hdf5(bytes, file);
   try {
     return is_sealed(bytes) ? encoded(unpack_hdf5(bytes)) : unpack_in_own_process(bytes);
+  } catch (const std::bad_alloc&) {
+    refuse_size(file);
   } catch (const std::runtime_error& error) {
     throw nurbs::InputError(nurbs::one_line(file + ": " + error.what()));
   }
@@ -58,6 +65,8 @@ Hdf5Input::Hdf5Input(const std::string& bytes, std::string file) : file_name_(st
     contents_ = decoded(is_encoded(bytes) ? bytes : unpacked_hdf5(bytes, file_name_));
   } catch (const nurbs::InputError&) {
     throw;
+  } catch (const std::bad_alloc&) {
+    refuse_size(file_name_);
   } catch (const std::runtime_error& error) {
     throw nurbs::InputError(file_name_ + ": " + error.what());
   }

@@ -129,6 +129,8 @@ std::string unpack_in_own_process(const std::string& bytes) {
   const int status = wait_for(start(find_reader(), in, out));
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM))
     throw std::runtime_error("damaged: HDF5 comes to no end with it");
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
+    throw std::runtime_error(fmt::format("{} was killed: more time or memory than allowed", kReader));
   if (WIFSIGNALED(status))
     throw std::runtime_error(fmt::format("damaged: HDF5 crashes on it ({})", strsignal(WTERMSIG(status))));
   std::string answer = out.read();

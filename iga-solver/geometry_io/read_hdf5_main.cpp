@@ -7,6 +7,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 
 #include "geometry_io/hdf5_contents.h"
@@ -14,14 +15,15 @@
 namespace {
 
 constexpr unsigned kPatience = 600;  // seconds
+constexpr rlim_t kGrace = 5;         // seconds between SIGXCPU, which says what it was, and SIGKILL
 #ifdef NURBS_ADDRESS_SANITIZER       // which takes terabytes of addresses
 constexpr rlim_t kMemory = RLIM_INFINITY;
 #else
 constexpr rlim_t kMemory = rlim_t{8} << 30;  // bytes
 #endif
 
-void limit(int resource, rlim_t most) {
-  const rlimit both{most, most};
+void limit(int resource, rlim_t most, rlim_t grace = 0) {
+  const rlimit both{most, most + grace};
   setrlimit(resource, &both);
 }
 
@@ -52,8 +54,10 @@ int main() {
   limit_myself();
   try {
     const std::string bytes = standard_input();
-    limit(RLIMIT_CPU, seconds_for(bytes.size()));
+    limit(RLIMIT_CPU, seconds_for(bytes.size()), kGrace);
     return write(geometry_io::encoded(geometry_io::unpack_hdf5(bytes)), 0);
+  } catch (const std::bad_alloc&) {
+    return write("needs more memory than it may have", 1);
   } catch (const std::exception& error) {
     return write(error.what(), 1);
   }

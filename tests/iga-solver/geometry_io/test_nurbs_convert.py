@@ -348,6 +348,28 @@ class NurbsConvert(unittest.TestCase):
             for name in ("foreign.h5", "changed.h5"):
                 self.assertRegex(run(name).stderr, "needs the program 'nurbs-read-hdf5' .*: No such file or directory")
 
+    def test_the_program_that_reads_foreign_files_ends_early(self):
+        """Stand-ins of that program, killed as the system does it."""
+        write_hdf5(self.folder / "foreign.h5", SURFACES[:1], {})
+        alone = shutil.copy(PROGRAM, self.folder)
+        stand_in = self.folder / "nurbs-read-hdf5"
+        for signal, what in {"XCPU": "damaged: HDF5 comes to no end with it", "KILL": "nurbs-read-hdf5 was killed: more time or memory",
+                             "SEGV": "damaged: HDF5 crashes on it"}.items():
+            stand_in.write_text(f"#!/bin/sh\nkill -{signal} $$\n")
+            stand_in.chmod(0o755)
+            done = subprocess.run([alone, "foreign.h5"], cwd=self.folder, capture_output=True, text=True, check=False)
+            self.assertRegex(done.stderr, rf"\AERROR: foreign.h5: {what}")
+
+    @unittest.skipIf(SANITIZED, "takes more addresses than any limit")
+    def test_values_beyond_the_memory_are_no_damage(self):
+        write_hdf5(self.folder / "large.h5", SURFACES[:1], {})
+        with h5py.File(self.folder / "large.h5", "r+") as file:
+            del file["patches/0/knots_xi"]
+            file["patches/0"].create_dataset("knots_xi", data=numpy.zeros(50_000_000, "u1"), chunks=(10**6,), compression="gzip")
+        done = subprocess.run(["bash", "-c", 'ulimit -v 400000; exec "$0" large.h5', PROGRAM], cwd=self.folder, capture_output=True,
+                              text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (1, "ERROR: large.h5: needs more memory than it may have\n"))
+
     def test_pipes_and_devices_are_no_files(self):
         os.mkfifo(self.folder / "pipe")
         os.mkfifo(self.folder / "pipe.h5")
