@@ -29,6 +29,9 @@ class Hdf5Handle {
 /// Files in memory need a name, too; HDF5 refuses one that is a file on the disk, and no file can have this.
 constexpr const char* kNameInMemory = "/dev/null/geometry";
 
+/// Bytes from one byte of a file: the most that deflate can do.
+constexpr hsize_t kMaxPacking = 1032;
+
 /// HDF5 prints its error stack unless told not to; a library must leave that to its caller.
 class SilentHdf5Errors {
  public:

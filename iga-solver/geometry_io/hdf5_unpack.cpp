@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The only place where HDF5's library reads.
+// The only place where HDF5's library reads geometry (histories: io/series_file.h).
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
@@ -13,8 +13,7 @@ namespace {
 using Kind = Hdf5Value::Kind;
 
 constexpr hsize_t kMaxValues = std::numeric_limits<int>::max();
-constexpr hsize_t kMaxPacking = 1032;  // bytes from one byte: the most that deflate can do
-constexpr int kDepth = 3;              // /patches/0/knots_xi
+constexpr int kDepth = 3;  // /patches/0/knots_xi
 
 // The file lives in memory: HDF5's "core" driver on a copy of the bytes.
 hid_t open_image(const std::string& bytes) {

@@ -60,7 +60,10 @@ std::string SeriesFile::attribute(const std::string& name) const {
   const Hdf5Handle attribute(H5Aopen(file_, name.c_str(), H5P_DEFAULT), H5Aclose);
   check<hid_t>(attribute, ("find the attribute '" + name + "'").c_str());
   const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
-  if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0) return "";
+  const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
+  const bool one_text = H5Tget_class(type) == H5T_STRING && H5Tis_variable_str(type) == 0 &&
+                        H5Sget_simple_extent_npoints(space) == 1;
+  if (!one_text) return "";
   std::string text(H5Tget_size(type), '\0');
   check(H5Aread(attribute, type, text.data()), "read an attribute");
   return text.c_str();  // up to the first NUL
@@ -121,6 +124,11 @@ hsize_t SeriesFile::rows() const {
 std::vector<double> SeriesFile::values(int series) const {
   const SilentErrors silent;
   const Series& s = series_.at(series);
+  // A killed run may have left rows whose chunk is not there yet.
+  const hsize_t stored = H5Dget_storage_size(s.data_set);
+  if (s.rows > kRowsPerChunk + geometry_io::kMaxPacking * stored / sizeof(double))
+    throw std::runtime_error(fmt::format("{}: a data set has {} rows in {} bytes of the file, expected fewer",
+                                         path_, s.rows, stored));
   std::vector<double> values(s.rows * s.width);
   check(H5Dread(s.data_set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()),
         "read a data set");

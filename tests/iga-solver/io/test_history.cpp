@@ -218,6 +218,46 @@ TEST_F(HistoryFile, OfSomethingElseIsLeftAsItIs) {
   EXPECT_EQ(read_series(base() + ".h5", "time").size(), 6u);
 }
 
+// What a damaged file says of sizes is not believed: neither an attribute of many texts nor rows that no
+// file holds.
+TEST_F(HistoryFile, OfDamagedSizesIsRefused) {
+  const io::ModelFile model = io::parse_model_file(kFalling, "falling.yaml");
+  const io::HistoryOutput output{kStep, base()};
+  const std::string path = base() + ".h5";
+  const auto write_good = [&] {
+    structure::ExplicitSolver solver = falling_block(model);
+    io::History history(output, model.geometry.units, {});
+    run(solver, history, 5);
+  };
+  const auto expect_refused = [&](const char* why) {
+    EXPECT_THAT([&] { io::History::resume(output, model.geometry.units, {}, 0.0); },
+                testing::ThrowsMessage<std::runtime_error>(
+                    testing::AllOf(testing::HasSubstr("falling.h5"), testing::HasSubstr(why))));
+  };
+  write_good();
+  hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  H5Adelete(file, "units");
+  const std::vector<char> texts(8000, 'm');
+  const hsize_t count = texts.size() / 8;
+  const hid_t type = H5Tcopy(H5T_C_S1), space = H5Screate_simple(1, &count, nullptr);
+  H5Tset_size(type, 8);
+  const hid_t attribute = H5Acreate2(file, "units", type, space, H5P_DEFAULT, H5P_DEFAULT);
+  EXPECT_GE(H5Awrite(attribute, type, texts.data()), 0);
+  H5Aclose(attribute), H5Sclose(space), H5Tclose(type), H5Fclose(file);
+  expect_refused("units are '', expected");
+
+  write_good();
+  file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  for (const char* name : {"time", "load_work"}) {
+    const hsize_t rows = hsize_t{1} << 40;
+    const hid_t data_set = H5Dopen2(file, name, H5P_DEFAULT);
+    EXPECT_GE(H5Dset_extent(data_set, &rows), 0);
+    H5Dclose(data_set);
+  }
+  H5Fclose(file);
+  expect_refused("1099511627776 rows in 8192 bytes of the file");
+}
+
 // The model reads a geometry file that its own output would replace: under the same name, another spelling, a
 // link; so would the model file itself.
 TEST_F(HistoryFile, NeverReplacesWhatTheModelIsReadFrom) {
