@@ -37,6 +37,11 @@ void expect_hdf5(const std::string& bytes, const std::string& file) {
   throw nurbs::InputError(file + ": is no HDF5 file, expected one by its name");
 }
 
+// h5repack keeps the user block, and with it the checksum.
+constexpr const char* kChanged =
+    "changed since it was written (its checksum differs): damaged or incomplete, or edited by another "
+    "program; 'h5unjam --delete -i FILE -o NEW' (or h5py: copy into a new file) makes one without a checksum";
+
 [[noreturn]] void refuse_size(const std::string& file) {
   throw nurbs::InputError(file + ": needs more memory than this process may have");
 }
@@ -52,7 +57,9 @@ std::string shape_text(const std::vector<std::uint64_t>& shape) {
 std::string unpacked_hdf5(const std::string& bytes, const std::string& file) {
   expect_hdf5(bytes, file);
   try {
-    return is_sealed(bytes) ? encoded(unpack_hdf5(bytes)) : unpack_in_own_process(bytes);
+    if (is_sealed(bytes)) return encoded(unpack_hdf5(bytes));
+    if (begins_with_seal(bytes)) throw std::runtime_error(kChanged);
+    return unpack_in_own_process(bytes);
   } catch (const std::bad_alloc&) {
     refuse_size(file);
   } catch (const std::runtime_error& error) {

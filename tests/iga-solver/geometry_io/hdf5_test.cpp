@@ -157,9 +157,9 @@ TEST(Hdf5, FilesThatAreNoneOrBroken) {
   for (const Broken& broken : {
            Broken{"", "wall.h5: is no HDF5 file"},
            Broken{"units: si\n", "wall.h5: is no HDF5 file"},
-           Broken{good.substr(0, 8), "wall.h5: damaged or incomplete"},
-           Broken{good.substr(0, good.size() / 2), "wall.h5: damaged or incomplete"},
-           Broken{good.substr(0, good.size() - 1), "wall.h5: damaged or incomplete"},
+           Broken{good.substr(0, 8), "wall.h5: changed since it was written"},
+           Broken{good.substr(0, good.size() / 2), "wall.h5: changed since it was written"},
+           Broken{good.substr(0, good.size() - 1), "wall.h5: changed since it was written"},
        })
     EXPECT_THAT([&] { parsed(broken.bytes); },
                 testing::ThrowsMessage<nurbs::InputError>(HasSubstr(broken.message)))

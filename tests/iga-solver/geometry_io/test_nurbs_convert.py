@@ -324,6 +324,8 @@ class NurbsConvert(unittest.TestCase):
                 with self.subTest(name, seed=seed):
                     done = subprocess.run([PROGRAM, "bad.h5"], cwd=self.folder, capture_output=True, check=False, timeout=300)
                     self.assertIn(done.returncode, (0, 1))
+                    if name == "own.h5" and bad != good and bad[:8] == good[:8]:  # else it is no file of ours
+                        self.assertIn(b"bad.h5: changed since it was written (its checksum differs)", done.stderr)
                     if done.returncode == 1:
                         self.assertRegex(done.stderr, rb"\AERROR: bad.h5: [^\n]+\n\Z")
 
@@ -345,8 +347,27 @@ class NurbsConvert(unittest.TestCase):
             changed = bytearray((self.folder / "own.h5").read_bytes())
             changed[-1] ^= 1  # whoever did that: it is not as we wrote it
             (self.folder / "changed.h5").write_bytes(changed)
-            for name in ("foreign.h5", "changed.h5"):
-                self.assertRegex(run(name).stderr, "needs the program 'nurbs-read-hdf5' .*: No such file or directory")
+            self.assertRegex(run("foreign.h5").stderr, "needs the program 'nurbs-read-hdf5' .*: No such file or directory")
+            self.assertIn("changed.h5: changed since it was written", run("changed.h5").stderr)
+
+    def test_an_own_file_that_has_changed_is_read_as_a_copy_without_its_checksum(self):
+        write_hdf5(self.folder / "in.h5", SURFACES[:1], {"shell": ["all"]})
+        self.convert("in.h5", "own.h5")
+        good = (self.folder / "own.h5").read_bytes()
+        at = good.find(SURFACES[0].points.tobytes())
+        for changed in (good[:at] + bytes([good[at] ^ 1]) + good[at + 1 :], good + b" ", good[:-1]):  # one bit of a point, longer, cut
+            (self.folder / "own.h5").write_bytes(changed)
+            self.assertIn("own.h5: changed since it was written (its checksum differs): damaged or incomplete, or edited", self.refused("own.h5"))
+        (self.folder / "own.h5").write_bytes(good)
+        with h5py.File(self.folder / "own.h5", "r+") as file, h5py.File(self.folder / "copy.h5", "w") as copy:
+            file["patches/0/weights"][0, 0] = 1.0
+            for name in file:
+                file.copy(name, copy)
+            copy.attrs.update(file.attrs)
+        self.assertIn("own.h5: changed since", self.refused("own.h5"))
+        self.convert("copy.h5", "out.h5")
+        with h5py.File(self.folder / "out.h5") as file:
+            self.assertEqual(file["patches/0/weights"][0, 0], 1.0)
 
     def test_the_program_that_reads_foreign_files_ends_early(self):
         """Stand-ins of that program, killed as the system does it."""
