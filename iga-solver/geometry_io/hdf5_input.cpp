@@ -9,6 +9,7 @@
 #include "geometry_io/hdf5_seal.h"
 #include "nurbs/file_kind.h"
 #include "nurbs/input_error.h"
+#include "nurbs/memory.h"
 
 namespace geometry_io {
 namespace {
@@ -42,10 +43,6 @@ constexpr const char* kChanged =
     "changed since it was written (its checksum differs): damaged or incomplete, or edited by another "
     "program; 'h5unjam --delete -i FILE -o NEW' (or h5py: copy into a new file) makes one without a checksum";
 
-[[noreturn]] void refuse_size(const std::string& file) {
-  throw nurbs::InputError(file + ": needs more memory than this process may have");
-}
-
 }  // namespace
 
 std::string shape_text(const std::vector<std::uint64_t>& shape) {
@@ -61,7 +58,7 @@ std::string unpacked_hdf5(const std::string& bytes, const std::string& file) {
     if (begins_with_seal(bytes)) throw std::runtime_error(kChanged);
     return unpack_in_own_process(bytes);
   } catch (const std::bad_alloc&) {
-    refuse_size(file);
+    throw nurbs::InputError(nurbs::out_of_memory(file));
   } catch (const std::runtime_error& error) {
     throw nurbs::InputError(nurbs::one_line(file + ": " + error.what()));
   }
@@ -73,7 +70,7 @@ Hdf5Input::Hdf5Input(const std::string& bytes, std::string file) : file_name_(st
   } catch (const nurbs::InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
-    refuse_size(file_name_);
+    throw nurbs::InputError(nurbs::out_of_memory(file_name_));
   } catch (const std::runtime_error& error) {
     throw nurbs::InputError(file_name_ + ": " + error.what());
   }
