@@ -140,6 +140,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
 
   // fix_wall_nurbs_fields.cpp
   void open_output();
+  void refuse_shared_output() const;
   void check_twin_size() const;
   void init_wear();
   void tell_output(int particle, const nurbs::SurfacePoint& foot, const nurbs::Vector3& delta,

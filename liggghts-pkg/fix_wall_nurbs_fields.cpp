@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <filesystem>
 
 #include "atom.h"
 #include "coupling/all_or_none.h"
@@ -18,9 +19,21 @@ using nurbs::Vector3;
 
 void FixWallNurbs::open_output() {
   if (options_.output.file.empty()) return;
+  refuse_shared_output();
   output_ =
       std::make_unique<liggghts_pkg::WallOutput>(world, options_.output, surface_, exchange_.positions());
   nevery = output_->every();
+}
+
+// Each fix would replace the other's files.
+void FixWallNurbs::refuse_shared_output() const {
+  const auto normal = [](const std::string& file) { return std::filesystem::path(file).lexically_normal(); };
+  for (int i = 0; i < modify->nfix; ++i) {
+    const auto* const other = dynamic_cast<const FixWallNurbs*>(modify->fix[i]);
+    if (other && other->output_ && normal(options_.output.file) == normal(other->options_.output.file))
+      fail(fmt::format("output '{}': {}.pvd is being written by fix {}, expected another name",
+                       options_.output.file, options_.output.file, other->id));
+  }
 }
 
 void FixWallNurbs::init_wear() {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 #include "io/series_file.h"
@@ -30,6 +31,17 @@ UnitNames unit_names(nurbs::Units units) {
   return {"s", "m", "J", "kg m/s", "kg m^2/s"};
 }
 
+// The files of all histories of this process, each for as long as it is written.
+std::set<std::string>& open_files() {
+  static std::set<std::string> files;
+  return files;
+}
+
+// One name for every spelling, and for links, also to a file that is not there yet.
+std::string full_name(const std::string& path) {
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(nurbs::unfinished_name(path))).string();
+}
+
 // The path of the file to write.
 std::string checked_path(const HistoryOutput& output) {
   const std::string path = output.file + ".h5";
@@ -40,6 +52,10 @@ std::string checked_path(const HistoryOutput& output) {
             fmt::format("{}: output.file is {}: {} is the file {} that the model is read from and would be "
                         "overwritten, expected another name",
                         output.place, nurbs::shown(output.file), written, input));
+  if (open_files().count(full_name(path)) > 0)
+    throw nurbs::InputError(
+        fmt::format("{}: output.file is {}: {} is being written by another solid, expected another name",
+                    output.place, nurbs::shown(output.file), path));
   return path;
 }
 
@@ -47,12 +63,17 @@ std::string checked_path(const HistoryOutput& output) {
 
 struct History::Writer {
   SeriesFile file;
+  std::string full_path;  // since the current directory may change
   std::vector<structure::Probe> probes;
   int time, kinetic_energy, strain_energy, load_work, linear_momentum, angular_momentum, largest_displacement;
   std::vector<int> probe_displacement;
 
   Writer(SeriesFile file_in, std::vector<structure::Probe> probes_in)
-      : file(std::move(file_in)), probes(std::move(probes_in)) {}
+      : file(std::move(file_in)), full_path(full_name(file.path())), probes(std::move(probes_in)) {
+    open_files().insert(full_path);
+  }
+  ~Writer() { open_files().erase(full_path); }
+  Writer(const Writer&) = delete;
 
   /// `series(name, width, unit)` gives a series' index.
   template <class Series>

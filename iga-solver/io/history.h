@@ -27,7 +27,8 @@ class OutputTimes {
 class History {
  public:
   /// Creates `<output.file>.h5`, replacing an older one.  Throws std::runtime_error, naming the file, if that
-  /// fails, and nurbs::InputError if it is one of `output.inputs`, by whatever name or link.
+  /// fails, and nurbs::InputError if it is one of `output.inputs`, by whatever name or link, or the file of
+  /// another history that is there.
   History(const HistoryOutput& output, nurbs::Units units, std::vector<structure::Probe> probes);
   /// Goes on with the file of an earlier run, from `time`: later rows are dropped, and come anew.  Without
   /// such a file as above.  Throws std::runtime_error if it is the file of something else, which it leaves as

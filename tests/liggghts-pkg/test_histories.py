@@ -151,6 +151,19 @@ class Histories(unittest.TestCase):
                 self.assertRegex(error, pattern)
             self.assertEqual((self.folder / "block.h5").read_bytes(), before)
 
+    def test_two_solids_do_not_share_a_file(self):
+        self.write(model())
+        (self.folder / "copy.yaml").write_text(model().replace("file: block", "file: ./block"))
+        second = bob.wall(rest="structure copy.yaml surface top").replace("fix plate", "fix again")
+        for ranks in (1, 2):
+            printed = self.liggghts(deck(second + "run 10\n", **FAR), ranks)
+            self.assertNotEqual(self.code, 0)
+            (error,) = [line for line in printed.splitlines() if line.startswith("ERROR")]
+            self.assertRegex(error, r"id again.*copy.yaml:\d+: .*block.h5 is being written by another solid.*another name")
+        one_after_the_other = bob.prelude(timestep=STEP, **FAR) + bob.wall() + "run 10\nunfix plate\n" + second + "run 10\n"
+        for ending in ("", "clear\n" + one_after_the_other):
+            self.good(one_after_the_other + ending)
+
     def test_a_killed_run_keeps_its_rows(self):
         self.write(model())
         (self.folder / "in.deck").write_text(deck("run 100000000\n", **HIT))

@@ -138,6 +138,16 @@ class WallOutput(unittest.TestCase):
         np.testing.assert_allclose(list(listed), [0.0, 5e-5, 1e-4], rtol=1e-12)
         self.assertEqual(len(list(Path(self.folder).iterdir())), 4, "no unfinished file")
 
+    def test_two_walls_do_not_share_a_series(self):
+        for name, ranks in (("floor", 1), ("./floor", 1), ("floor", 2)):
+            second = wall(self.folder, 50).replace("fix wall", "fix again").replace("/floor every", f"/{name} every")
+            first = BALLS + wall(self.folder, 50)
+            run = decks.run(first + second + "run 1\n", files={"floor.yaml": FLOOR}, ranks=ranks)
+            self.assertNotEqual(run.code, 0)
+            (error,) = run.errors
+            self.assertRegex(error, r"id again.*floor.pvd is being written by fix wall, expected another name")
+            self.run_deck(first + "unfix wall\n" + second + "run 1\n", ranks=ranks)
+
     def test_wear_is_that_of_a_stock_mesh(self):
         """Of a grazing and of a steep impact (LIGGGHTS has 0.33333 for 1/3 there): volume worn off."""
         for vx, vz, tolerance in ((1.0, -0.2, 1e-9), (0.1, -0.6, 2e-5)):

@@ -286,6 +286,23 @@ TEST_F(HistoryFile, NeverReplacesWhatTheModelIsReadFrom) {
               {});  // another file may be written
 }
 
+// Of two that write one file one would be lost.
+TEST_F(HistoryFile, IsThatOfOneSolid) {
+  const io::HistoryOutput one{1.0, base()},
+      two{1.0, (folder_ / "." / "falling").string(), "plate.yaml:7", {}};
+  const auto refused = testing::ThrowsMessage<nurbs::InputError>(testing::AllOf(
+      testing::StartsWith("plate.yaml:7: output.file is"),
+      testing::EndsWith("falling.h5 is being written by another solid, expected another name")));
+  {
+    io::History history(one, nurbs::Units::si, {});
+    EXPECT_THAT([&] { io::History(two, nurbs::Units::si, {}); }, refused);
+    history.record(falling_block(io::parse_model_file(kFalling, "falling.yaml")));  // has its name now
+    EXPECT_THAT([&] { io::History(two, nurbs::Units::si, {}); }, refused);
+    EXPECT_THAT([&] { io::History::resume(two, nurbs::Units::si, {}, 0.0); }, refused);
+  }
+  io::History(two, nurbs::Units::si, {});  // the other is closed
+}
+
 TEST_F(HistoryFile, NamesTheFileItCannotCreate) {
   EXPECT_THAT(([&] {
                 io::History({1.0, base() + "_missing/history"}, nurbs::Units::si, {});
