@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -115,13 +116,14 @@ struct History::Writer {
   void append(int series, const Vector3& value) { file.append(series, value.data()); }
 };
 
-OutputTimes::OutputTimes(double every, std::optional<double> last)
-    : every_(every), next_time_(last ? every * (std::round(*last / every) + 1.0) : 0.0), last_(last) {}
+double OutputTimes::next_after(double reached) const { return every_ * (std::floor(reached / every_) + 1.0); }
 
 bool OutputTimes::take(const structure::ExplicitSolver& solver) {
   const double reached = solver.time() + 0.5 * solver.time_step();
+  // The row that is there may be of another interval, or of none.
+  if (last_) next_time_ = std::max(next_time_, next_after(*last_ + 0.5 * solver.time_step()));
   if (reached < next_time_ || (last_ && solver.time() <= *last_)) return false;
-  next_time_ = every_ * (std::floor(reached / every_) + 1.0);
+  next_time_ = next_after(reached);
   return true;
 }
 

@@ -15,11 +15,13 @@ namespace io {
 class OutputTimes {
  public:
   /// `last`: the time of a row that is there already.
-  explicit OutputTimes(double every, std::optional<double> last = {});
+  explicit OutputTimes(double every, std::optional<double> last = {}) : every_(every), last_(last) {}
   /// Whether the solver has reached the next one, to within half a step; if so, it lies behind from now on.
   bool take(const structure::ExplicitSolver& solver);
 
  private:
+  double next_after(double reached) const;
+
   double every_, next_time_ = 0.0;
   std::optional<double> last_;
 };

@@ -198,6 +198,29 @@ TEST_F(HistoryFile, GoesOnFromASavedState) {
   EXPECT_FALSE(anew.last_time());
 }
 
+// The rows that are there lie on other output times, or on none.
+TEST_F(HistoryFile, GoesOnWithAnotherInterval) {
+  const io::ModelFile model = io::parse_model_file(kFalling, "falling.yaml");
+  structure::ExplicitSolver solver = falling_block(model);
+  {
+    io::History history({kStep, base()}, model.geometry.units, model.probes);
+    run(solver, history, 37);
+  }
+  const auto go_on = [&](double every, int steps) {
+    io::History history =
+        io::History::resume({every, base()}, model.geometry.units, model.probes, solver.time());
+    run(solver, history, steps);
+    return read_series(history.path(), "time");
+  };
+  std::vector<double> time = go_on(10 * kStep, 26);  // from 37 to 63
+  ASSERT_EQ(time.size(), 38u + 3u);
+  EXPECT_NEAR(time[38], 40 * kStep, 1e-12);
+  EXPECT_NEAR(time[40], 60 * kStep, 1e-12);
+  time = go_on(8 * kStep, 15);  // to 78
+  ASSERT_EQ(time.size(), 41u + 2u);
+  EXPECT_NEAR(time[41], 64 * kStep, 1e-12);
+}
+
 TEST_F(HistoryFile, OfSomethingElseIsLeftAsItIs) {
   const io::ModelFile model = io::parse_model_file(kFalling, "falling.yaml");
   const io::HistoryOutput output{kStep, base()};
