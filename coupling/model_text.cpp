@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/model_text.h"
 
-#include <filesystem>
 #include <limits>
-#include <system_error>
+#include <new>
 
 #include "coupling/all_or_none.h"
 #include "geometry_io/geometry_io.h"
@@ -50,8 +49,7 @@ std::string read_text_on_all_ranks(MPI_Comm comm, const std::string& path) {
 bool is_same_file(MPI_Comm comm, const std::string& path, const std::string& other) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  std::error_code missing;  // a file that has gone since it was read is no other's
-  int same = rank == 0 && std::filesystem::equivalent(path, other, missing) && !missing;
+  int same = rank == 0 && nurbs::same_file(path, other);
   MPI_Bcast(&same, 1, MPI_INT, 0, comm);
   return same != 0;
 }
