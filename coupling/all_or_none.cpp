@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/all_or_none.h"
 
+#include <new>
+
 #include "nurbs/input_error.h"
 
 namespace coupling {
@@ -17,6 +19,14 @@ void agree_on_problem(MPI_Comm comm, std::string problem) {
   problem.resize(length);
   MPI_Bcast(problem.data(), length, MPI_CHAR, first, comm);
   throw nurbs::InputError(problem);
+}
+
+std::string in_words(const std::exception& error, const std::string& file) {
+  if (dynamic_cast<const std::bad_alloc*>(&error))
+    return file.empty() ? "out of memory: this process may have " + nurbs::size_text(nurbs::memory_limit())
+                        : out_of_memory(file);
+  const std::string words = error.what();
+  return words.empty() ? file + (file.empty() ? "" : ": ") + "an error without a message" : words;
 }
 
 }  // namespace coupling

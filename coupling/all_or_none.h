@@ -6,7 +6,6 @@
 #include <mpi.h>
 
 #include <exception>
-#include <new>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,6 +20,9 @@ void agree_on_problem(MPI_Comm comm, std::string problem);
 
 using nurbs::out_of_memory;
 
+/// What an error says, which is never nothing; `file`: what was read, if anything.
+std::string in_words(const std::exception& error, const std::string& file = {});
+
 /// Collective.  The result of action(), which reads `file`; throws as agree_on_problem if it threw anywhere.
 template <class Action>
 auto on_every_rank(MPI_Comm comm, const std::string& file, Action action) {
@@ -28,10 +30,8 @@ auto on_every_rank(MPI_Comm comm, const std::string& file, Action action) {
   std::string problem;
   try {
     result = action();
-  } catch (const std::bad_alloc&) {
-    problem = out_of_memory(file);
   } catch (const std::exception& error) {
-    problem = error.what();
+    problem = in_words(error, file);
   }
   agree_on_problem(comm, std::move(problem));
   return std::move(*result);
@@ -46,7 +46,7 @@ void on_first_rank(MPI_Comm comm, Action action) {
   if (rank == 0) try {
       action();
     } catch (const std::exception& error) {
-      problem = error.what();
+      problem = in_words(error);
     }
   agree_on_problem(comm, std::move(problem));
 }

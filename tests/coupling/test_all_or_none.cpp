@@ -67,4 +67,18 @@ TEST(OnFirstRank, FailsOnAll) {
   EXPECT_THAT(fail, ThrowsMessage<nurbs::InputError>(StrEq("no room for wall.pvd")));
 }
 
+TEST(OnFirstRank, SaysThatMemoryEnded) {
+  const auto fail = [] { on_first_rank(MPI_COMM_WORLD, [] { throw std::bad_alloc(); }); };
+  EXPECT_THAT(fail, ThrowsMessage<nurbs::InputError>(HasSubstr("out of memory: this process may have")));
+}
+
+TEST(AllOrNone, TakeAnErrorWithoutWordsForOne) {
+  const auto every = [] {
+    return on_every_rank(MPI_COMM_WORLD, "plate.yaml", []() -> int { throw std::runtime_error(""); });
+  };
+  const auto first = [] { on_first_rank(MPI_COMM_WORLD, [] { throw std::runtime_error(""); }); };
+  EXPECT_THAT(every, ThrowsMessage<nurbs::InputError>(HasSubstr("without a message")));
+  EXPECT_THAT(first, ThrowsMessage<nurbs::InputError>(HasSubstr("without a message")));
+}
+
 }  // namespace
