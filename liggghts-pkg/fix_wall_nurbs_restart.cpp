@@ -3,7 +3,12 @@
 // it belongs to, the surface fields; contact memory restarts with its fix property/atom.
 #include <fmt/format.h>
 
-#include "comm.h"
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+
+#include "coupling/all_or_none.h"
 #include "coupling/model_text.h"
 #include "fix_wall_nurbs.h"
 #include "modify.h"
@@ -39,15 +44,18 @@ WallState::Origin FixWallNurbs::origin() const {
 void FixWallNurbs::write_restart(FILE* file) {
   const std::vector<double> fields = output_ ? output_->save(update->get_cur_time()) : std::vector<double>();
   const std::vector<double> all = liggghts_pkg::pack({structure_.save(), fields, origin()});
-  int bytes = 0;
   try {
-    bytes = liggghts_pkg::restart_bytes(all.size());
+    const int bytes = liggghts_pkg::restart_bytes(all.size());
+    coupling::on_first_rank(world, [&] {
+      if (std::fwrite(&bytes, sizeof(int), 1, file) != 1 ||
+          std::fwrite(all.data(), sizeof(double), all.size(), file) != all.size() || std::fflush(file) != 0)
+        throw std::runtime_error(fmt::format(
+            "cannot write its {} bytes to the restart file: {}; make room, or write the file elsewhere",
+            bytes, std::strerror(errno)));
+    });
   } catch (const std::exception& problem) {
     fail(problem.what());
   }
-  if (comm->me != 0) return;
-  std::fwrite(&bytes, sizeof(int), 1, file);
-  std::fwrite(all.data(), sizeof(double), all.size(), file);
 }
 
 void FixWallNurbs::restart(char* buffer) {

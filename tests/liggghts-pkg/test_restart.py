@@ -140,6 +140,15 @@ class Restart(unittest.TestCase):
         self.check_refused(self.read(reader(STRUCTURE + " contacts 3"), self.of_solid), "use 'contacts 4'")
         self.check_continues(self.read(reader(STRUCTURE + " contacts 6"), self.of_solid), self.solid)
 
+    def test_a_full_disk_is_told(self):
+        full = "shell ln -s /dev/full contact\n"
+        for words in (STRUCTURE, RIGID):
+            for ranks in (1, 2):
+                with self.subTest(words, ranks=ranks):
+                    files = {"block.yaml": BLOCK, "floor.yaml": FLOOR}
+                    run = decks.run(full + writer(words).replace("run 260", "run 1"), files=files, ranks=ranks)
+                    self.check_refused(run, "cannot write", "No space left on device", "make room")
+
     def test_another_id_is_told_that_nothing_was_taken(self):
         for words, restart in ((STRUCTURE, self.of_solid), (RIGID, self.of_floor)):
             run = self.read(reader(words, name="slab"), restart)
