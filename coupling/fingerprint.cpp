@@ -54,16 +54,16 @@ class NumberReader {
 
   bool at_end() const { return next_ == numbers_.size(); }
   std::vector<double> numbers() {
-    const std::size_t count = at_end() ? 1 : static_cast<std::size_t>(numbers_[next_++]);
-    if (count > numbers_.size() - next_)
-      throw std::invalid_argument("the fingerprint in the restart file is cut off");
+    if (at_end()) fail_as_damaged();
+    const double size = numbers_[next_++];
+    const std::size_t count = saved_size(size, numbers_.size() - next_);
     const auto first = numbers_.begin() + next_;
     next_ += count;
     return {first, first + count};
   }
   std::string text() {
     std::string text;
-    for (const double c : numbers()) text += static_cast<char>(static_cast<unsigned char>(c));
+    for (const double c : numbers()) text += static_cast<char>(saved_size(c, 255));
     return text;
   }
 
@@ -156,6 +156,18 @@ Fingerprint fingerprint_from(const std::vector<double>& numbers) {
     fingerprint.push_back(std::move(part));
   }
   return fingerprint;
+}
+
+void fail_as_damaged() {
+  throw std::invalid_argument(
+      "the wall's state in the restart file is damaged; use another restart file, or give the fix another "
+      "ID, which starts the wall anew");
+}
+
+std::size_t saved_size(double number, std::size_t most) {
+  if (!(number >= 0.0 && number <= static_cast<double>(most)) || number != std::floor(number))
+    fail_as_damaged();
+  return static_cast<std::size_t>(number);
 }
 
 }  // namespace coupling

@@ -3,6 +3,7 @@
 // supports; not loads, output or the names of files.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,13 @@ FingerprintPart word_part(const std::string& name, const std::string& word);
 /// What differs, for a message: "material: ... then, ... now; supports: ..."; empty if all agrees.
 std::string difference(const Fingerprint& then, const Fingerprint& now);
 
-/// As numbers, for restart files, and back.  Throws std::invalid_argument if the numbers are cut off.
+/// As numbers, for restart files, and back.  Throws std::invalid_argument if the numbers are damaged.
 std::vector<double> to_numbers(const Fingerprint& fingerprint);
 Fingerprint fingerprint_from(const std::vector<double>& numbers);
+
+/// Throws std::invalid_argument: a restart file holds what no wall wrote.
+[[noreturn]] void fail_as_damaged();
+/// A size, or another count, that a restart file holds; damaged unless it is whole, from 0 to `most`.
+std::size_t saved_size(double number, std::size_t most);
 
 }  // namespace coupling

@@ -12,6 +12,7 @@ namespace liggghts_pkg {
 namespace {
 
 constexpr double kVersion = 2.0;
+constexpr std::size_t kMostBytes = std::numeric_limits<int>::max();
 
 class PartReader {
  public:
@@ -24,7 +25,8 @@ class PartReader {
   }
   void skip_number() { next_ += sizeof(double); }
   std::vector<double> part() {
-    std::vector<double> numbers(static_cast<std::size_t>(peek()));
+    std::vector<double> numbers(coupling::saved_size(peek(), left_));
+    left_ -= numbers.size();
     skip_number();
     if (!numbers.empty()) std::memcpy(numbers.data(), next_, numbers.size() * sizeof(double));
     next_ += numbers.size() * sizeof(double);
@@ -33,6 +35,7 @@ class PartReader {
 
  private:
   const char* next_;
+  std::size_t left_ = kMostBytes / sizeof(double);  // at most: LIGGGHTS does not tell
 };
 
 }  // namespace
@@ -64,7 +67,11 @@ WallState unpack_wall_state(const char* bytes) {
   if (version == 1.0) return state;
   const coupling::Fingerprint fingerprint = coupling::fingerprint_from(reader.part());
   const std::vector<double> memory = reader.part();
-  state.origin = {fingerprint, static_cast<int>(memory.at(0)), static_cast<int>(memory.at(1))};
+  if (memory.size() < 2) coupling::fail_as_damaged();
+  const auto count = [](double number) {
+    return static_cast<int>(coupling::saved_size(number, std::numeric_limits<int>::max()));
+  };
+  state.origin = {fingerprint, count(memory[0]), count(memory[1])};
   return state;
 }
 
@@ -89,12 +96,11 @@ void check_origin(const WallState::Origin& saved, const WallState::Origin& now, 
 }
 
 int restart_bytes(std::size_t numbers) {
-  constexpr std::size_t kMost = std::numeric_limits<int>::max();
-  if (numbers > kMost / sizeof(double))
+  if (numbers > kMostBytes / sizeof(double))
     throw std::invalid_argument(fmt::format(
         "the wall's state has {} bytes, but LIGGGHTS' restart files hold at most {} of a fix; use "
         "a coarser mesh, or no restart files",
-        numbers * sizeof(double), kMost));
+        numbers * sizeof(double), kMostBytes));
   return static_cast<int>(numbers * sizeof(double));
 }
 

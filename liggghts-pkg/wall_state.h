@@ -25,7 +25,7 @@ struct WallState {
 
 std::vector<double> pack(const WallState& state);
 /// Of the bytes that LIGGGHTS read, whose number it does not tell.  Throws std::invalid_argument if a newer
-/// version wrote them.
+/// version wrote them, or if they are damaged.
 WallState unpack_wall_state(const char* bytes);
 
 /// Throws std::invalid_argument unless the state was saved by a wall like this one: what differs, and the way

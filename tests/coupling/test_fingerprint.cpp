@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <stdexcept>
 
 #include "coupling/iga_structure.h"
@@ -143,6 +144,16 @@ TEST(Fingerprint, SurvivesItsWayThroughNumbers) {
   }
   numbers.pop_back();
   EXPECT_THROW(coupling::fingerprint_from(numbers), std::invalid_argument);
+}
+
+TEST(Fingerprint, OfNumbersThatNobodyWroteIsRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const std::vector<double>& numbers : std::vector<std::vector<double>>{
+           {nan}, {-1.0}, {0.5}, {1e300}, {2.0, 'a'}, {1.0, 300.0, 0.0, 0.0}, {0.0, 0.0}}) {
+    SCOPED_TRACE(testing::PrintToString(numbers));
+    EXPECT_THAT([&] { coupling::fingerprint_from(numbers); },
+                testing::ThrowsMessage<std::invalid_argument>(HasSubstr("restart file is damaged")));
+  }
 }
 
 }  // namespace

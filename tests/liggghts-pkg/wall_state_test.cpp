@@ -54,6 +54,23 @@ TEST(WallState, OfANewerVersionIsRefused) {
   EXPECT_THROW(liggghts_pkg::unpack_wall_state(bytes({-3.0, 0.0, 0.0})), std::invalid_argument);
 }
 
+TEST(WallState, ThatIsDamagedIsRefused) {
+  const auto refused = testing::ThrowsMessage<std::invalid_argument>(HasSubstr("restart file is damaged"));
+  const double nan = std::numeric_limits<double>::quiet_NaN(), huge = 1e300;
+  for (const std::vector<double>& numbers : std::vector<std::vector<double>>{
+           {nan},  // sizes of parts
+           {-2.0, huge},
+           {-2.0, -1.0},
+           {-2.0, 0.5, 0.0, 0.0, 0.0},
+           {-2.0, 0.0, nan},
+           {-2.0, 0.0, 0.0, 1.0, nan},  // of a name in the fingerprint
+           {-2.0, 0.0, 0.0, 0.0, 0.0},  // counts of contact memory that are not there
+           {-2.0, 0.0, 0.0, 0.0, 2.0, 4.0, nan}}) {
+    SCOPED_TRACE(testing::PrintToString(numbers));
+    EXPECT_THAT([&] { liggghts_pkg::unpack_wall_state(bytes(numbers)); }, refused);
+  }
+}
+
 TEST(WallState, OfAnotherWallIsRefusedWithWhatDiffers) {
   WallState::Origin cgs = origin();
   cgs.fingerprint[1] = coupling::word_part("units", "cgs");
