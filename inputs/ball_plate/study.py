@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Table 2 of Gao & Feng (2019), its variations (their Figs. 6-11), and a free block.
 
-References: the closed forms of study.hertz at exactly the values that were run.  The plate is so
+References: the closed forms of study.reference.hertz at exactly the values that were run.  The plate is so
 heavy that they hold to 0.02 %; what the plate itself does is compared with an independent code on
 the same mesh (SAME_MESH).
 """
@@ -15,11 +15,11 @@ from typing import Mapping
 
 import numpy as np
 
-from study import hertz
-from study.case import Case, Figure, Result, Study, Values, material
-from study.figures import Curve, Line, force_figure
-from study.pulse import Pulse, measure
-from study.summary import Row
+from study.reference import hertz
+from study.run.case import Case, Figure, Result, Study, Values, material
+from study.run.figures import Curve, Line, force_figure
+from study.run.pulse import Pulse, measure
+from study.run.summary import Row
 
 HERE = Path(__file__).parent
 STEEL = material(HERE / "plate.yaml")  # block.yaml has the same

@@ -16,12 +16,13 @@ from typing import Mapping
 import numpy as np
 from matplotlib.figure import Figure as Picture
 
-from study.case import Case, Comparison, Figure, Result, Study, Values
-from study.rotating_drum import Drum, Frame, atom_data, read_frames, slope
-from study.figures import COLOURS, save
-from study.hertz import effective_modulus, penalty_impact, sphere_mass
-from study.pulse import NoPulse
-from study.summary import Row
+from study.build.drum import Drum, atom_data
+from study.reference.hertz import effective_modulus, penalty_impact, sphere_mass
+from study.run.bed import Frame, read_frames, slope
+from study.run.case import Case, Comparison, Figure, Result, Study, Values
+from study.run.figures import COLOURS, save
+from study.run.pulse import NoPulse
+from study.run.summary import Row
 
 GRAVITY = 9.81  # [m/s2]
 ARCS, ROWS = 32, 4  # elements of the NURBS drum

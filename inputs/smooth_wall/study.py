@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A ball slides without friction over waves: the force of NURBS walls and of triangle walls beside the exact one.
 
-Reference: constrained motion (study.sliding) from where the ball is after the first 10 ms, in which it has come to rest
-on the wall; on the spline surface that was run, and on the sine that all walls approximate.
+Reference: constrained motion (study.reference.sliding) from where the ball is after the first 10 ms, in which it has
+come to rest on the wall; on the spline surface that was run, and on the sine that all walls approximate.
 """
 
 from __future__ import annotations
@@ -14,12 +14,13 @@ from typing import Mapping
 import numpy as np
 from matplotlib.figure import Figure as Picture
 
-from study import hertz
-from study.case import Case, Figure, Result, Study, Values
-from study.figures import COLOURS, save
-from study.sliding import SlidingBall
-from study.summary import Row
-from study.waves import SIDE, WAVES, SplineWave, Surface, model_file, sine_surface, spline_surface, triangles
+from study.build.waves import SIDE, WAVES, SplineWave, model_file, triangles
+from study.reference import hertz
+from study.reference.sliding import SlidingBall, Surface
+from study.reference.wavy_surface import sine_surface, spline_surface
+from study.run.case import Case, Figure, Result, Study, Values
+from study.run.figures import COLOURS, save
+from study.run.summary import Row
 
 GRAVITY = 9.81  # [m/s2]
 SETTLED = 0.010  # [s]

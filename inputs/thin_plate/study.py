@@ -16,14 +16,14 @@ from typing import Mapping
 import numpy as np
 import yaml
 
-from study import hertz
-from study.case import Case, Comparison, Figure, Result, Study, Values, material, read_csv
-from study.figures import Curve, Line, Mark, force_figure, restitution_figure
-from study.mindlin import SquarePlate
-from study.pulse import Pulse, measure
-from study.summary import Row
-from study.usage import one_of
-from study.zener import ThinPlateImpact, plate_mobility
+from study.reference import hertz
+from study.reference.mindlin import SquarePlate
+from study.reference.zener import ThinPlateImpact, plate_mobility
+from study.run.case import Case, Comparison, Figure, Result, Study, Values, material, read_csv
+from study.run.figures import Curve, Line, Mark, force_figure, restitution_figure
+from study.run.pulse import Pulse, measure
+from study.run.summary import Row
+from study.run.usage import one_of
 
 HERE = Path(__file__).parent
 GLASS_BALL = {"E_ball": 74.6e9, "nu_ball": 0.2285, "rho": 2480.0}
@@ -40,7 +40,7 @@ ZENER_RELATIVE = 0.02
 ZENER_PEAK_FINEST = 0.03
 
 # How the sides of a small plate are held: restitution and peak force [N] on the same mesh, by another independent code
-# (tests/inputs/solid_plate.py); and what clamping them adds to the restitution, absolute tolerance.
+# (tests/inputs/thin_plate/solid_plate.py); and what clamping them adds to the restitution, absolute tolerance.
 SIDES = {"sides_supported": (0.76666, 4.78808), "sides_clamped": (0.76865, 4.78815)}
 SIDES_SAME_MESH_TOLERANCE = 1e-4
 SIDES_TOLERANCE = 0.001

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from study import hertz
-from study.case import Result, material, read_csv
+from study.reference import hertz
+from study.run.case import Result, material, read_csv
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))

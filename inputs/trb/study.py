@@ -16,10 +16,10 @@ from typing import Mapping
 import numpy as np
 from matplotlib.figure import Figure as Picture
 
-from study import hertz
-from study.case import Case, Comparison, Figure, Result, Study
-from study.figures import COLOURS, save
-from study.summary import Row
+from study.reference import hertz
+from study.run.case import Case, Comparison, Figure, Result, Study
+from study.run.figures import COLOURS, save
+from study.run.summary import Row
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE))

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from study.summary import Row
+from study.run.summary import Row
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from typing import Mapping
 
 import wall
 from bounds import AtLeast, AtMost
-from study.summary import Row, table, write_json
+from study.run.summary import Row, table, write_json
 
 SURFACES = ["plate", "wavy", "cylinder", "saddle"]
 ELEMENTS = [31, 124]

@@ -10,7 +10,7 @@ from scipy.spatial.distance import pdist
 import wavy_bench
 import wavy_memory
 import wavy_wall
-from study.waves import K, SIDE
+from study.build.waves import K, SIDE
 
 LOG = """
 Loop time of 9.0 on 1 procs for 100 steps with 3481 atoms

@@ -14,7 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
-from study.summary import Row
+from study.run.summary import Row
 
 SPHERES = 50  # per direction
 DIAMETER = 0.016  # less than their spacing: they touch the wall only

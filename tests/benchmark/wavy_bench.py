@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
-from study.waves import K, SIDE, SplineWave, model_file
+from study.build.waves import K, SIDE, SplineWave, model_file
 
 DECKS = Path(__file__).parent / "wavy_wall"
 AMPLITUDE = 2e-3  # [m]

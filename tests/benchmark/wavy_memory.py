@@ -6,7 +6,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 
-from study.summary import Row
+from study.run.summary import Row
 from wavy_bench import Bench
 
 ELEMENTS = (62, 124, 248, 496)  # in a row

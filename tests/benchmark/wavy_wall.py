@@ -19,9 +19,9 @@ import numpy as np
 
 import wavy_memory
 from bounds import AtMost
-from study.hertz import sphere_mass
-from study.summary import Row, table, write_json
-from study.waves import SIDE, SplineWave, model_file, triangles
+from study.build.waves import SIDE, SplineWave, model_file, triangles
+from study.reference.hertz import sphere_mass
+from study.run.summary import Row, table, write_json
 from wavy_bench import AMPLITUDE, DECKS, DEGREE, ELEMENTS, LAYERS, Bench, spheres
 
 REPEATS = 5
