@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "structure/stable_time_step.h"
+#include "structure/time/stable_time_step.h"
 
 namespace coupling {
 

@@ -10,8 +10,8 @@
 #include "coupling/shared_history.h"
 #include "coupling/structure_solver.h"
 #include "nurbs/boundary.h"
-#include "structure/explicit_solver.h"
-#include "structure/probe.h"
+#include "structure/conditions/probe.h"
+#include "structure/time/explicit_solver.h"
 
 namespace coupling {
 

@@ -60,7 +60,7 @@ class Documents(unittest.TestCase):
         """In the folders whose README is a table of files."""
         for folder in ("coupling", "liggghts-pkg", "iga-solver/nurbs", "iga-solver/structure"):
             text = (ROOT / folder / "README.md").read_text()
-            for source in (ROOT / folder).glob("*.h"):
+            for source in (ROOT / folder).rglob("*.h"):
                 named = rf"`(?:[\w/]+/)?{source.stem}\."
                 self.assertTrue(re.search(named, text), f"{folder}/README.md does not name {source.name}")
 

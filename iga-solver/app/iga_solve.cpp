@@ -11,7 +11,7 @@
 #include "command.h"
 #include "io/history.h"
 #include "io/model_file.h"
-#include "structure/stable_time_step.h"
+#include "structure/time/stable_time_step.h"
 
 namespace {
 

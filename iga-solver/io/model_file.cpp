@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "nurbs/file_kind.h"
-#include "structure/linear_elastic.h"
-#include "structure/loads.h"
-#include "structure/saint_venant_kirchhoff.h"
+#include "structure/conditions/loads.h"
+#include "structure/material/linear_elastic.h"
+#include "structure/material/saint_venant_kirchhoff.h"
 
 namespace io {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "geometry_io/geometry_io.h"
-#include "structure/explicit_solver.h"
-#include "structure/probe.h"
+#include "structure/conditions/probe.h"
+#include "structure/time/explicit_solver.h"
 
 namespace io {
 

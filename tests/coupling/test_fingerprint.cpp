@@ -9,9 +9,9 @@
 #include "coupling/iga_structure.h"
 #include "coupling/rigid_surface.h"
 #include "nurbs/primitives.h"
-#include "structure/linear_elastic.h"
-#include "structure/loads.h"
-#include "structure/saint_venant_kirchhoff.h"
+#include "structure/conditions/loads.h"
+#include "structure/material/linear_elastic.h"
+#include "structure/material/saint_venant_kirchhoff.h"
 #include "wavy_surface.h"
 
 namespace {

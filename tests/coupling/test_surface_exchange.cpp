@@ -15,7 +15,7 @@
 #include "late_surface.h"
 #include "nurbs/primitives.h"
 #include "nurbs/yaml_map.h"
-#include "structure/linear_elastic.h"
+#include "structure/material/linear_elastic.h"
 #include "wavy_surface.h"
 
 namespace {

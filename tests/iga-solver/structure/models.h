@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "nurbs/patch.h"
-#include "structure/linear_elastic.h"
-#include "structure/solid.h"
-#include "structure/supports.h"
+#include "structure/conditions/supports.h"
+#include "structure/material/linear_elastic.h"
+#include "structure/solid/solid.h"
 
 namespace models {
 

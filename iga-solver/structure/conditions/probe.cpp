@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "structure/probe.h"
+#include "structure/conditions/probe.h"
 
 #include <fmt/format.h>
 

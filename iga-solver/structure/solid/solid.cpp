@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "structure/solid.h"
+#include "structure/solid/solid.h"
 
 #include <fmt/format.h>
 #include <Eigen/LU>

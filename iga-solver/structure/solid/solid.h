@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "nurbs/patch.h"
-#include "structure/element_kernel.h"
-#include "structure/material.h"
+#include "structure/material/material.h"
+#include "structure/solid/element_kernel.h"
 
 namespace structure {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "structure/divergence.h"
+#include "structure/time/divergence.h"
 
 #include <fmt/format.h>
 
@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "structure/explicit_solver.h"
-#include "structure/stable_time_step.h"
+#include "structure/time/explicit_solver.h"
+#include "structure/time/stable_time_step.h"
 
 namespace structure {
 

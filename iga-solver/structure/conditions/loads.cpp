@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "structure/loads.h"
+#include "structure/conditions/loads.h"
 
 #include "nurbs/control_area.h"
 

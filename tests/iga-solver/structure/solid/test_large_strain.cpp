@@ -7,9 +7,9 @@
 #include <numeric>
 
 #include "models.h"
-#include "structure/explicit_solver.h"
-#include "structure/loads.h"
-#include "structure/saint_venant_kirchhoff.h"
+#include "structure/conditions/loads.h"
+#include "structure/material/saint_venant_kirchhoff.h"
+#include "structure/time/explicit_solver.h"
 
 namespace {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "models.h"
-#include "structure/explicit_solver.h"
-#include "structure/loads.h"
+#include "structure/conditions/loads.h"
+#include "structure/time/explicit_solver.h"
 
 namespace {
 

@@ -3,9 +3,9 @@
 // of M^-1 K (Hughes, The Finite Element Method, 2000, section 9.1).
 #pragma once
 
-#include "structure/mass.h"
-#include "structure/solid.h"
-#include "structure/supports.h"
+#include "structure/conditions/supports.h"
+#include "structure/solid/solid.h"
+#include "structure/time/mass.h"
 
 namespace structure {
 

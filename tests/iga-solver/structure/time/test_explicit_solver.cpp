@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "models.h"
-#include "structure/explicit_solver.h"
-#include "structure/loads.h"
+#include "structure/conditions/loads.h"
+#include "structure/time/explicit_solver.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 // Source: Bonet & Wood (2008), Nonlinear Continuum Mechanics for Finite Element Analysis, eqs. 6.28-6.29.
 #pragma once
 
-#include "structure/isotropic_elastic.h"
+#include "structure/material/isotropic_elastic.h"
 
 namespace structure {
 

@@ -3,7 +3,7 @@
 // Source: Gao & Feng (2019), eq. 17 (there in Voigt notation).
 #pragma once
 
-#include "structure/isotropic_elastic.h"
+#include "structure/material/isotropic_elastic.h"
 
 namespace structure {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "structure/stable_time_step.h"
+#include "structure/time/stable_time_step.h"
 
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "structure/supports.h"
+#include "structure/conditions/supports.h"
 
 #include <algorithm>
 

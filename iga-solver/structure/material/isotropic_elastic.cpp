@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "structure/isotropic_elastic.h"
+#include "structure/material/isotropic_elastic.h"
 
 #include <fmt/format.h>
 

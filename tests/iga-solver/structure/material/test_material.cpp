@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "models.h"
-#include "structure/saint_venant_kirchhoff.h"
+#include "structure/material/saint_venant_kirchhoff.h"
 
 namespace {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "nurbs/boundary.h"
-#include "structure/solid.h"
+#include "structure/solid/solid.h"
 
 namespace structure {
 

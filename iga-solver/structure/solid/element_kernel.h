@@ -7,7 +7,7 @@
 // without reassociation by the compiler, and the same to the last bit on every vector width.
 #pragma once
 
-#include "structure/material.h"
+#include "structure/material/material.h"
 
 namespace structure {
 

@@ -10,11 +10,11 @@
 #include <optional>
 #include <vector>
 
-#include "structure/divergence.h"
-#include "structure/mass.h"
-#include "structure/solid.h"
-#include "structure/supports.h"
-#include "structure/work_ledger.h"
+#include "structure/conditions/supports.h"
+#include "structure/solid/solid.h"
+#include "structure/time/divergence.h"
+#include "structure/time/mass.h"
+#include "structure/time/work_ledger.h"
 
 namespace structure {
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "models.h"
-#include "structure/stable_time_step.h"
+#include "structure/time/stable_time_step.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 // What isotropic elastic laws with two constants have in common.
 #pragma once
 
-#include "structure/material.h"
+#include "structure/material/material.h"
 
 namespace structure {
 

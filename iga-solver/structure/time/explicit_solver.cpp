@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "structure/explicit_solver.h"
+#include "structure/time/explicit_solver.h"
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "nurbs/assert.h"
-#include "structure/stable_time_step.h"
+#include "structure/time/stable_time_step.h"
 
 namespace structure {
 

@@ -7,8 +7,8 @@
 #include <stdexcept>
 
 #include "models.h"
-#include "structure/loads.h"
-#include "structure/probe.h"
+#include "structure/conditions/loads.h"
+#include "structure/conditions/probe.h"
 
 namespace {
 

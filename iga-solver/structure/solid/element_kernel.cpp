@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "structure/element_kernel.h"
+#include "structure/solid/element_kernel.h"
 
 #include <Eigen/LU>
 
