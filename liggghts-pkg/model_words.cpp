@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "contact_laws.h"
 #include "contact_model_constants.h"
 #include "nurbs/yaml_map.h"
-#include "penalty_laws.h"
 
 namespace liggghts_pkg {
 
@@ -99,7 +99,7 @@ void check_known(const Keyword& keyword, const std::string& given) {
                                           fmt::join(known, ", ")));
 }
 
-bool is_penalty_law(const std::string& word) {
+bool is_contact_law(const std::string& word) {
   bool found = false;
   for_each_law([&](auto law) { found |= word == law.word; });
   return found;
@@ -108,7 +108,7 @@ bool is_penalty_law(const std::string& word) {
 }  // namespace
 
 const std::vector<ModelWord>& known_models(ModelKind kind) {
-  // Local, since penalty_register.cpp asks while the program's static objects are still being made.
+  // Local, since law_register.cpp asks while the program's static objects are still being made.
   static const std::vector<ModelWord> normal = normal_models(), tangential = tangential_models(),
                                       cohesion = cohesion_models(), rolling = rolling_models(),
                                       surface = surface_models();
@@ -144,7 +144,7 @@ ModelChoice model_choice(std::int64_t hash) {
 }
 
 std::string why_refused(const ModelChoice& models, bool is_wall) {
-  if (models.surface != "default" && is_penalty_law(models.normal))
+  if (models.surface != "default" && is_contact_law(models.normal))
     return fmt::format("surface model '{}' needs a normal model of LIGGGHTS' own, given '{}'", models.surface,
                        models.normal);
   if (models.surface != "default" && is_wall)

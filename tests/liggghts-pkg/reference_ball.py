@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A sphere that hits a smooth wall, computed here: velocity Verlet, a power law with damping, Mindlin's friction.
 
-Written from the formulas (Gao & Feng 2019, eqs. 31-33; liggghts-pkg/penalty_laws.h), for comparison with the wall to
+Written from the formulas (Gao & Feng 2019, eqs. 31-33; liggghts-pkg/contact_laws.h), for comparison with the wall to
 round-off.  Velocities in contact forces are those of the half step, as in LIGGGHTS.
 """
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Friction of the paper's laws, from the first step of a contact on, against the formulas of penalty_laws.h: the tangential
+"""Friction of the paper's laws, from the first step of a contact on, against the formulas of contact_laws.h: the tangential
 stiffness is Mindlin's and its damping that of hertz for every law and every lambda."""
 
 import math

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A contact model whose normal part is a penalty law and whose other parts are any of LIGGGHTS' own, chosen
-// at run time. It has the interface of LIGGGHTS' ContactModel<GranStyle<...>>, so it goes into
+// A contact model whose normal part is a law of contact_laws.h and whose other parts are any of LIGGGHTS'
+// own, chosen at run time. It has the interface of LIGGGHTS' ContactModel<GranStyle<...>>, so it goes into
 // Walls::Granular and PairStyles::Granular as it is; one class stands for all combinations.
 #pragma once
 
@@ -12,15 +12,15 @@
 
 namespace liggghts_pkg {
 
-class PenaltyContactModel final : public LIGGGHTS::ContactModels::ContactModelBase {
+class LawContactModel final : public LIGGGHTS::ContactModels::ContactModelBase {
   using IntersectData = LIGGGHTS::ContactModels::SurfacesIntersectData;
   using CloseData = LIGGGHTS::ContactModels::SurfacesCloseData;
   using ForceData = LIGGGHTS::ContactModels::ForceData;
 
  public:
   /// `hash` names the parts (GranStyle::HASHCODE).  Stops LIGGGHTS if they do not go together.
-  PenaltyContactModel(LAMMPS_NS::LAMMPS* lmp, LIGGGHTS::IContactHistorySetup* history, bool is_wall,
-                      std::int64_t hash);
+  LawContactModel(LAMMPS_NS::LAMMPS* lmp, LIGGGHTS::IContactHistorySetup* history, bool is_wall,
+                  std::int64_t hash);
 
   std::int64_t hashcode() const { return hash_; }
   double stressStrainExponent() { return normal_->stressStrainExponent(); }

@@ -25,7 +25,8 @@ class WrongInput(unittest.TestCase):
         for deck in (contact_deck.ball_on_plane, contact_deck.two_balls):
             with self.subTest(deck=deck.__name__):
                 without = with_factor_line(deck("model penalty/linear"), "")
-                self.check(without, "penaltyFactor as requested by model penalty/linear")
+                line = "fix ID all property/global penaltyFactor peratomtypepair 2 P_11 P_12 P_21 P_22"
+                self.check(without, f"model penalty/linear needs penaltyFactor, expected the line '{line}'")
 
     def test_factor_must_be_positive(self):
         for value in ("-1", "0"):

@@ -7,11 +7,11 @@
 #include <memory>
 #include <string>
 
+#include "contact_laws.h"
 #include "force.h"
 #include "input.h"
 #include "lammps.h"
 #include "pair_gran.h"
-#include "penalty_laws.h"
 
 namespace {
 
@@ -34,7 +34,7 @@ std::string normal_model(LAMMPS& lmp, const std::string& law) {
   return pair && pair->contact_match("normal", law) ? law : "another";
 }
 
-TEST(Instances, EachKnowsThePenaltyLaws) {
+TEST(Instances, EachKnowsTheContactLaws) {
   testing::internal::CaptureStderr();
   const auto first = new_instance();
   EXPECT_EQ(normal_model(*first, "penalty/linear"), "penalty/linear");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "penalty_contact_model.h"
+#include "law_contact_model.h"
 
 #include "error.h"
+#include "law_normal_model.h"
 #include "model_words.h"
-#include "penalty_normal_model.h"
 
 namespace liggghts_pkg {
 
@@ -34,7 +34,7 @@ std::int64_t checked(LAMMPS* lmp, std::int64_t hash, bool is_wall) {
 std::shared_ptr<NormalModelBase> make_normal(std::int64_t hash, const PartContext& context) {
   std::shared_ptr<NormalModelBase> normal;
   for_each_law([&](auto law) {
-    if (law.id == (hash & 63)) normal = make_part<PenaltyNormalModel<decltype(law)>>(context);
+    if (law.id == (hash & 63)) normal = make_part<LawNormalModel<decltype(law)>>(context);
   });
   return normal;
 }
@@ -77,8 +77,7 @@ std::shared_ptr<RollingModelBase> make_rolling(std::int64_t hash, const PartCont
 
 }  // namespace
 
-PenaltyContactModel::PenaltyContactModel(LAMMPS* lmp, IContactHistorySetup* history, bool is_wall,
-                                         std::int64_t hash)
+LawContactModel::LawContactModel(LAMMPS* lmp, IContactHistorySetup* history, bool is_wall, std::int64_t hash)
     : ContactModelBase(lmp, is_wall),
       hash_(checked(lmp, hash, is_wall)),
       surface_(lmp, history, this),
@@ -87,7 +86,7 @@ PenaltyContactModel::PenaltyContactModel(LAMMPS* lmp, IContactHistorySetup* hist
       tangential_(make_tangential(hash, {lmp, history, this})),
       rolling_(make_rolling(hash, {lmp, history, this})) {}
 
-bool PenaltyContactModel::contact_match(const std::string& kind, const std::string& word) const {
+bool LawContactModel::contact_match(const std::string& kind, const std::string& word) const {
   const ModelChoice models = model_choice(hash_);
   if (kind == "surface") return models.surface == word;
   if (kind == "normal") return models.normal == word;
@@ -98,7 +97,7 @@ bool PenaltyContactModel::contact_match(const std::string& kind, const std::stri
 
 // The parts take their turns in the order of LIGGGHTS' ContactModel.
 
-void PenaltyContactModel::registerSettings(Settings& settings) {
+void LawContactModel::registerSettings(Settings& settings) {
   surface_.registerSettings(settings);
   normal_->registerSettings(settings);
   cohesion_->registerSettings(settings);
@@ -106,7 +105,7 @@ void PenaltyContactModel::registerSettings(Settings& settings) {
   rolling_->registerSettings(settings);
 }
 
-void PenaltyContactModel::postSettings(IContactHistorySetup* history) {
+void LawContactModel::postSettings(IContactHistorySetup* history) {
   normal_->postSettings(history,
                         this);  // first: it refuses settings that the surface model would stumble over
   surface_.postSettings(history, this);
@@ -115,7 +114,7 @@ void PenaltyContactModel::postSettings(IContactHistorySetup* history) {
   rolling_->postSettings(history, this);
 }
 
-void PenaltyContactModel::connectToProperties(PropertyRegistry& registry) {
+void LawContactModel::connectToProperties(PropertyRegistry& registry) {
   surface_.connectToProperties(registry);
   normal_->connectToProperties(registry);
   cohesion_->connectToProperties(registry);
@@ -123,7 +122,7 @@ void PenaltyContactModel::connectToProperties(PropertyRegistry& registry) {
   rolling_->connectToProperties(registry);
 }
 
-void PenaltyContactModel::beginPass(IntersectData& contact, ForceData& on_i, ForceData& on_j) {
+void LawContactModel::beginPass(IntersectData& contact, ForceData& on_i, ForceData& on_j) {
   surface_.beginPass(contact, on_i, on_j);
   normal_->beginPass(contact, on_i, on_j);
   cohesion_->beginPass(contact, on_i, on_j);
@@ -131,7 +130,7 @@ void PenaltyContactModel::beginPass(IntersectData& contact, ForceData& on_i, For
   rolling_->beginPass(contact, on_i, on_j);
 }
 
-void PenaltyContactModel::endPass(IntersectData& contact, ForceData& on_i, ForceData& on_j) {
+void LawContactModel::endPass(IntersectData& contact, ForceData& on_i, ForceData& on_j) {
   rolling_->endPass(contact, on_i, on_j);
   tangential_->endPass(contact, on_i, on_j);
   cohesion_->endPass(contact, on_i, on_j);
@@ -139,7 +138,7 @@ void PenaltyContactModel::endPass(IntersectData& contact, ForceData& on_i, Force
   surface_.endPass(contact, on_i, on_j);
 }
 
-void PenaltyContactModel::surfacesIntersect(IntersectData& contact, ForceData& on_i, ForceData& on_j) {
+void LawContactModel::surfacesIntersect(IntersectData& contact, ForceData& on_i, ForceData& on_j) {
   surface_.surfacesIntersect(contact, on_i, on_j);
   normal_->surfacesIntersect(contact, on_i, on_j);
   cohesion_->surfacesIntersect(contact, on_i, on_j);
@@ -147,13 +146,13 @@ void PenaltyContactModel::surfacesIntersect(IntersectData& contact, ForceData& o
   rolling_->surfacesIntersect(contact, on_i, on_j);
 }
 
-void PenaltyContactModel::endSurfacesIntersect(IntersectData& contact, LAMMPS_NS::TriMesh* mesh,
-                                               ForceData& on_i, ForceData& on_j) {
+void LawContactModel::endSurfacesIntersect(IntersectData& contact, LAMMPS_NS::TriMesh* mesh, ForceData& on_i,
+                                           ForceData& on_j) {
   surface_.endSurfacesIntersect(contact, mesh, on_i.delta_F);
   cohesion_->endSurfacesIntersect(contact, on_i, on_j);
 }
 
-void PenaltyContactModel::surfacesClose(CloseData& contact, ForceData& on_i, ForceData& on_j) {
+void LawContactModel::surfacesClose(CloseData& contact, ForceData& on_i, ForceData& on_j) {
   surface_.surfacesClose(contact, on_i, on_j);
   normal_->surfacesClose(contact, on_i, on_j);
   cohesion_->surfacesClose(contact, on_i, on_j);
