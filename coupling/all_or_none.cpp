@@ -3,7 +3,7 @@
 
 #include <new>
 
-#include "nurbs/input_error.h"
+#include "geometry_io/input_error.h"
 
 namespace coupling {
 

@@ -6,8 +6,8 @@
 
 #include "coupling/all_or_none.h"
 #include "geometry_io/geometry_io.h"
-#include "nurbs/input_error.h"
-#include "nurbs/regular_file.h"
+#include "geometry_io/input_error.h"
+#include "geometry_io/regular_file.h"
 
 namespace coupling {
 namespace {

@@ -4,7 +4,7 @@
 #include "coupling/all_or_none.h"
 #include "coupling/model_text.h"
 #include "coupling/open_structure.h"
-#include "coupling/rigid_surface.h"
+#include "coupling/rigid/rigid_surface.h"
 #include "geometry_io/geometry_io.h"
 #include "nurbs/memory.h"
 

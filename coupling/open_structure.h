@@ -8,9 +8,9 @@
 #include <memory>
 #include <string>
 
-#include "coupling/rigid_surface.h"
+#include "coupling/rigid/rigid_surface.h"
 #include "coupling/structure_solver.h"
-#include "nurbs/geometry_file.h"
+#include "geometry_io/geometry_file.h"
 
 namespace coupling {
 

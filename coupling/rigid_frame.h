@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nurbs/box_tree.h"
+#include "search/box_tree.h"
 
 namespace coupling {
 

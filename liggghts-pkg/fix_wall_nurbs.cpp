@@ -21,8 +21,8 @@
 
 using namespace LAMMPS_NS;
 using namespace FixConst;
-using liggghts_pkg::Candidate;
-using liggghts_pkg::ContactTracker;
+using contact::Candidate;
+using contact::ContactTracker;
 using nurbs::Vector3;
 
 FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
@@ -104,8 +104,8 @@ void FixWallNurbs::post_create() {
   };
 
   // One fix for each slot: LIGGGHTS warns of rows longer than 20.
-  std::vector<std::string> empty_slot(liggghts_pkg::ContactSlot::kFootValues + dnum_, "0.");
-  empty_slot[0] = fmt::format("{}", liggghts_pkg::ContactSlot::kEmpty);
+  std::vector<std::string> empty_slot(contact::ContactSlot::kFootValues + dnum_, "0.");
+  empty_slot[0] = fmt::format("{}", contact::ContactSlot::kEmpty);
   for (int s = 0; s < options_.slots; ++s) {
     slot_ids_.push_back(fmt::format("contact{}_{}", s + 1, id));
     add_property(slot_ids_.back(), "yes", empty_slot);
@@ -162,7 +162,7 @@ void FixWallNurbs::init() {
   init_wear();
   reset_dt();
   if (!structure_.deforms()) weld_across_periodic_faces();
-  inside_ = crossing_ = liggghts_pkg::RunAlarm();
+  inside_ = crossing_ = contact::RunAlarm();
 }
 
 // A wall that spans a periodic box has no edge there.

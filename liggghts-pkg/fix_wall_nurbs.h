@@ -20,14 +20,14 @@ FixStyle(wall/nurbs,FixWallNurbs)
 #include <string>
 #include <vector>
 
-#include "candidate_list.h"
-#include "contact_memory.h"
-#include "contact_tracker.h"
+#include "coupling/contact/candidate_list.h"
+#include "coupling/contact/contact_memory.h"
+#include "coupling/contact/contact_tracker.h"
+#include "coupling/contact/local_search.h"
+#include "coupling/contact/run_alarm.h"
 #include "coupling/surface_exchange.h"
 #include "fix_wall_gran.h"
-#include "local_search.h"
 #include "nurbs/tessellation.h"
-#include "run_alarm.h"
 #include "wall_nurbs_setup.h"
 #include "wall_output.h"
 #include "wall_state.h"
@@ -103,22 +103,22 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   void find_properties();
   std::string wall_force_id() const;
   void find_slots();
-  liggghts_pkg::ContactMemory memory(int particle) { return {slots_, particle, dnum_}; }
+  contact::ContactMemory memory(int particle) { return {slots_, particle, dnum_}; }
   void check_images(const std::vector<nurbs::Vector3>& images) const;
 
   // fix_wall_nurbs_contact.cpp
-  void resolve_contacts(const liggghts_pkg::ContactTracker::Query& query);
+  void resolve_contacts(const contact::ContactTracker::Query& query);
   nurbs::Vector3 wall_velocity(const nurbs::SurfaceFoot& foot, const nurbs::Vector3& point,
                                const nurbs::Vector3& delta) const;
-  void apply_contact(int particle, liggghts_pkg::TrackedFoot& tracked, const nurbs::Vector3& delta,
+  void apply_contact(int particle, contact::TrackedFoot& tracked, const nurbs::Vector3& delta,
                      const nurbs::Vector3& v_wall);
   void call_contact_model(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta,
-                          liggghts_pkg::ContactSlot slot, nurbs::Vector3 v_wall);
-  void take_slot(int particle, liggghts_pkg::TrackedFoot& tracked, const nurbs::Vector3& delta,
-                 const liggghts_pkg::ContactMemory& memory);
+                          contact::ContactSlot slot, nurbs::Vector3 v_wall);
+  void take_slot(int particle, contact::TrackedFoot& tracked, const nurbs::Vector3& delta,
+                 const contact::ContactMemory& memory);
   int side_of(const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
-  nurbs::Vector3 leave_surface(int particle, liggghts_pkg::TrackedFoot& tracked, const nurbs::Vector3& delta,
-                               const liggghts_pkg::ContactMemory& memory) const;
+  nurbs::Vector3 leave_surface(int particle, contact::TrackedFoot& tracked, const nurbs::Vector3& delta,
+                               const contact::ContactMemory& memory) const;
   [[noreturn]] void fail_on_contact(int particle, const nurbs::SurfaceFoot& foot) const;
   double effective_radius(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
   bool inside_body(const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
@@ -156,9 +156,9 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   nurbs::MultiPatch surface_;             // of the structure; welded across periodic faces, too
   nurbs::MultiPatchProjector projector_;  // of the imported control points, as is what follows
   nurbs::Regularity regularity_;
-  liggghts_pkg::CandidateList candidates_;
-  liggghts_pkg::LocalSearch search_;
-  liggghts_pkg::ContactTracker tracker_;
+  contact::CandidateList candidates_;
+  contact::LocalSearch search_;
+  contact::ContactTracker tracker_;
   const std::vector<int>& outward_sign_;  // of each patch
   coupling::RigidFrame frame_;            // of these control points
   struct {
@@ -184,7 +184,7 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
   coupling::NodalVectors no_forces_;
   Totals totals_;
   bool totals_are_summed_ = false;
-  liggghts_pkg::RunAlarm inside_, crossing_;
+  contact::RunAlarm inside_, crossing_;
 
   std::unique_ptr<liggghts_pkg::WallOutput> output_;  // null: none asked for
   const double* const* k_finnie_ = nullptr;           // of the deck, [type - 1][type - 1]

@@ -15,10 +15,10 @@
 #include "update.h"
 
 using namespace LAMMPS_NS;
-using liggghts_pkg::ContactMemory;
-using liggghts_pkg::ContactSlot;
-using liggghts_pkg::ContactTracker;
-using liggghts_pkg::TrackedFoot;
+using contact::ContactMemory;
+using contact::ContactSlot;
+using contact::ContactTracker;
+using contact::TrackedFoot;
 using nurbs::SurfaceFoot;
 using nurbs::Vector3;
 

@@ -84,13 +84,13 @@ void FixWallNurbs::publish_local_rows() {
 }
 
 void FixWallNurbs::post_run() {
-  const liggghts_pkg::LocalSearch::Counts searches = liggghts_pkg::sum(search_.counts(), world);
+  const contact::LocalSearch::Counts searches = contact::sum(search_.counts(), world);
   search_.reset();
-  print(liggghts_pkg::report(searches));
+  print(contact::report(searches));
   if (searches.not_converged() > 0)
     warn(fmt::format("{} closest-point projections did not converge", searches.not_converged()));
 
-  const liggghts_pkg::RunAlarm inside = inside_.of_all_ranks(world), crossing = crossing_.of_all_ranks(world);
+  const contact::RunAlarm inside = inside_.of_all_ranks(world), crossing = crossing_.of_all_ranks(world);
   if (inside.count > 0)
     warn(fmt::format(
         "the centre of particle {} got inside the solid ({} contacts of this kind in this run): use a "

@@ -9,7 +9,7 @@
 
 #include "contact_laws.h"
 #include "contact_model_constants.h"
-#include "nurbs/yaml_map.h"
+#include "geometry_io/yaml_map.h"
 
 namespace liggghts_pkg {
 

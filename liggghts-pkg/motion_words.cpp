@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "nurbs/yaml_map.h"
+#include "geometry_io/yaml_map.h"
 
 namespace liggghts_pkg {
 

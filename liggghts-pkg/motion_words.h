@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "coupling/rigid_surface.h"
+#include "coupling/rigid/rigid_surface.h"
 #include "word_reader.h"
 
 namespace liggghts_pkg {

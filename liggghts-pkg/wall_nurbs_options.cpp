@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "geometry_io/yaml_map.h"
 #include "model_words.h"
 #include "motion_words.h"
-#include "nurbs/yaml_map.h"
 
 namespace liggghts_pkg {
 
@@ -87,8 +87,8 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const V
       options.store_force = reader.value_of(keyword, {"yes", "no"}) == "yes";
     } else if (keyword == "search") {
       options.search = reader.value_of(keyword, {"newton", "simplex_brent"}) == "newton"
-                           ? SearchMethod::newton
-                           : SearchMethod::simplex_brent;
+                           ? contact::SearchMethod::newton
+                           : contact::SearchMethod::simplex_brent;
     } else if (keyword == "contacts") {
       options.slots = reader.count(keyword,
                                    "how many contacts one particle may have with the wall (each has its "

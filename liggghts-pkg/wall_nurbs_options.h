@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "coupling/rigid_surface.h"
-#include "local_search.h"
+#include "coupling/contact/local_search.h"
+#include "coupling/rigid/rigid_surface.h"
 #include "output_words.h"
 #include "word_reader.h"
 
@@ -23,7 +23,7 @@ struct WallNurbsOptions {
   std::string surface;                ///< name of the surface in that file
   bool material_independent = false;  ///< the deck's E and nu may differ from the model file's
   bool store_force = false;
-  SearchMethod search = SearchMethod::newton;
+  contact::SearchMethod search = contact::SearchMethod::newton;
   int slots = 4;                  ///< contacts that one particle may have at a time
   bool curvature_radius = false;  ///< the effective radius takes the wall's curvature into account
   std::string temperature;        ///< of the wall, as LIGGGHTS reads it; empty: no heat transfer

@@ -9,8 +9,8 @@
 
 #include "command.h"
 #include "geometry_io/geometry_io.h"
+#include "geometry_io/regular_file.h"
 #include "geometry_summary.h"
-#include "nurbs/regular_file.h"
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "nurbs/geometry_file.h"
+#include "geometry_io/geometry_file.h"
 
 namespace geometry_io {
 

@@ -7,7 +7,7 @@
 
 #include "geometry_io/formats.h"
 #include "geometry_io/hdf5_file.h"
-#include "nurbs/regular_file.h"
+#include "geometry_io/regular_file.h"
 
 namespace geometry_io {
 namespace {

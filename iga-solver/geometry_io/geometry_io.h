@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "nurbs/geometry_file.h"
+#include "geometry_io/geometry_file.h"
 
 namespace geometry_io {
 

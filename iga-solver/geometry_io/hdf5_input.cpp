@@ -4,11 +4,11 @@
 #include <limits>
 #include <new>
 
+#include "geometry_io/file_kind.h"
 #include "geometry_io/hdf5_file.h"
 #include "geometry_io/hdf5_process.h"
 #include "geometry_io/hdf5_seal.h"
-#include "nurbs/file_kind.h"
-#include "nurbs/input_error.h"
+#include "geometry_io/input_error.h"
 #include "nurbs/memory.h"
 
 namespace geometry_io {

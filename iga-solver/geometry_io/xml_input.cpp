@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <string_view>
 
-#include "nurbs/file_kind.h"
-#include "nurbs/input_error.h"
-#include "nurbs/parse_number.h"
+#include "geometry_io/file_kind.h"
+#include "geometry_io/input_error.h"
+#include "geometry_io/parse_number.h"
 
 namespace geometry_io {
 namespace {

@@ -9,8 +9,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "geometry_io/regular_file.h"
 #include "io/series_file.h"
-#include "nurbs/regular_file.h"
 
 namespace io {
 

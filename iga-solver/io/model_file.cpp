@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "nurbs/file_kind.h"
+#include "geometry_io/file_kind.h"
 #include "structure/conditions/loads.h"
 #include "structure/material/linear_elastic.h"
 #include "structure/material/saint_venant_kirchhoff.h"

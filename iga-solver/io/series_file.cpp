@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "nurbs/regular_file.h"
+#include "geometry_io/regular_file.h"
 
 namespace io {
 

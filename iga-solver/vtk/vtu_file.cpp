@@ -10,7 +10,7 @@
 #include <pugixml.hpp>
 #include <stdexcept>
 
-#include "nurbs/regular_file.h"
+#include "geometry_io/regular_file.h"
 
 namespace vtk {
 namespace {

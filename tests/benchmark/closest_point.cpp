@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "coupling/force_distribution.h"
-#include "nurbs/simplex_brent.h"
-#include "nurbs/surface_projector.h"
 #include "opencascade.h"
+#include "search/simplex_brent.h"
+#include "search/surface_projector.h"
 #include "surfaces.h"
 
 namespace benchmarks {

@@ -2,9 +2,9 @@
 // A rigid NURBS plane from outside: projects a point on it.  Exit code 0 if the distance is right.
 #include <cmath>
 
-#include "coupling/rigid_surface.h"
+#include "coupling/rigid/rigid_surface.h"
 #include "nurbs/primitives.h"
-#include "nurbs/surface_projector.h"
+#include "search/surface_projector.h"
 
 int main() {
   const auto knots = nurbs::KnotVector::uniform(3, 4);

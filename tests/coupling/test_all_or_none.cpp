@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "coupling/all_or_none.h"
-#include "nurbs/input_error.h"
+#include "geometry_io/input_error.h"
 
 namespace {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "coupling/iga_structure.h"
-#include "coupling/rigid_surface.h"
+#include "coupling/rigid/rigid_surface.h"
 #include "nurbs/primitives.h"
 #include "structure/conditions/loads.h"
 #include "structure/material/linear_elastic.h"

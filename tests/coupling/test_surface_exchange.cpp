@@ -10,11 +10,11 @@
 #include "coupling/force_distribution.h"
 #include "coupling/iga_structure.h"
 #include "coupling/open_structure.h"
-#include "coupling/rigid_surface.h"
+#include "coupling/rigid/rigid_surface.h"
 #include "coupling/surface_exchange.h"
+#include "geometry_io/yaml_map.h"
 #include "late_surface.h"
 #include "nurbs/primitives.h"
-#include "nurbs/yaml_map.h"
 #include "structure/material/linear_elastic.h"
 #include "wavy_surface.h"
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "fuzz_target.h"
-#include "nurbs/input_error.h"
+#include "geometry_io/input_error.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {

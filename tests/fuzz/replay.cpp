@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "nurbs/regular_file.h"
+#include "geometry_io/regular_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "nurbs/primitives.h"
-#include "shapes.h"
+#include "nurbs/shapes.h"
 
 namespace nurbs {
 namespace {

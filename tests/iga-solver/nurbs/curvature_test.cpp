@@ -8,7 +8,7 @@
 
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
-#include "shapes.h"
+#include "nurbs/shapes.h"
 
 namespace nurbs {
 namespace {

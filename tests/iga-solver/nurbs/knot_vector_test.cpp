@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "shapes.h"
+#include "nurbs/shapes.h"
 
 namespace nurbs {
 namespace {

@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "nurbs/primitives.h"
-#include "shapes.h"
+#include "nurbs/shapes.h"
 
 namespace nurbs {
 namespace {

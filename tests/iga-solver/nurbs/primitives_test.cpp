@@ -12,7 +12,7 @@
 #include <functional>
 
 #include "nurbs/boundary.h"
-#include "shapes.h"
+#include "nurbs/shapes.h"
 
 namespace nurbs {
 namespace {

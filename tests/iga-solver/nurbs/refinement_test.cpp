@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shapes.h"
+#include "nurbs/shapes.h"
 
 namespace nurbs {
 namespace {

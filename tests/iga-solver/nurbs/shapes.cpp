@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "shapes.h"
+#include "nurbs/shapes.h"
 
 #include <cmath>
 

@@ -10,7 +10,7 @@
 #include "nurbs/curvature.h"
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
-#include "shapes.h"
+#include "nurbs/shapes.h"
 
 namespace nurbs {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "shapes.h"
+#include "nurbs/shapes.h"
 
 namespace nurbs {
 namespace {

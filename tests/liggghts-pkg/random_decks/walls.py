@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Random walls: the shapes of iga-solver/nurbs/shape_reader.cpp, each with points near which balls may start.
+"""Random walls: the shapes of iga-solver/geometry_io/shape_reader.cpp, each with points near which balls may start.
 
 Lengths in m.  Everything of interest is within 9 mm of the origin; the simulation box reaches from -BOX to BOX.
 """

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/contact/candidate_list.h"
+
+#include <cmath>
+
+#include "nurbs/assert.h"
+
+namespace contact {
+
+using nurbs::Vector3;
+
+void CandidateList::set_surface(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points) {
+  std::vector<nurbs::Box> boxes;
+  boxes.reserve(surface.element_count());
+  for (int p = 0; p < surface.patch_count(); ++p)
+    nurbs::add_element_boxes(surface.patch(p), surface.control_points_of(p, control_points), boxes);
+  tree_.build(boxes);
+  control_points_at_build_ = control_points;
+}
+
+void CandidateList::build(const coupling::RigidFrame& frame, const std::vector<Vector3>& images,
+                          const ParticleView& particles) {
+  frame_at_build_ = frame;
+  images_ = images;
+  candidates_.clear();
+  image_elements_.clear();
+  elements_.clear();
+  for (int i = 0; i < particles.n; ++i) {
+    const int first_image = static_cast<int>(image_elements_.size());
+    for (size_t image = 0; image < images.size(); ++image) {
+      const int first = static_cast<int>(elements_.size());
+      tree_.query(frame.to_body(Vector3::Map(particles.x[i]) - images[image]), particles.reach[i], elements_);
+      const int count = static_cast<int>(elements_.size()) - first;
+      if (count > 0) image_elements_.push_back({static_cast<int>(image), first, count});
+    }
+    const int image_count = static_cast<int>(image_elements_.size()) - first_image;
+    if (image_count > 0) candidates_.push_back({i, first_image, image_count});
+  }
+}
+
+double CandidateList::motion_since_build(const nurbs::NodalVectors& control_points, bool deforms,
+                                         const coupling::RigidFrame& frame) const {
+  if (!deforms) return frame.max_displacement(frame_at_build_, wall_bounds());
+  NURBS_ASSERT(control_points.cols() == control_points_at_build_.cols(), control_points.cols());
+  return std::sqrt(
+      (control_points - control_points_at_build_).colwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>());
+}
+
+}  // namespace contact

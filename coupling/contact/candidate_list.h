@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which particles may touch the wall until the next rebuild, and which surface elements they may touch.
+// Source: Gao & Feng (2019), section 4.1; control-point boxes and a tree in place of their CGRID.
+#pragma once
+
+#include <vector>
+
+#include "coupling/rigid_frame.h"
+#include "nurbs/assert.h"
+#include "nurbs/multi_patch.h"
+#include "search/box_tree.h"
+
+namespace contact {
+
+/// Elements near one particle, of the surface moved by one period of the box (or by 0).
+struct ImageElements {
+  int image;         ///< index in CandidateList::images()
+  int first, count;  ///< range in CandidateList::elements()
+};
+struct Candidate {
+  int particle;                  ///< local index, valid until LIGGGHTS exchanges or sorts its particles
+  int first_image, image_count;  ///< range in CandidateList::image_elements()
+};
+
+/// The particles of one rank: n of them, their centres, and how far around these to look [length].
+struct ParticleView {
+  int n;
+  const double* const* x;
+  const double* reach;
+};
+
+class CandidateList {
+ public:
+  /// Boxes of the elements; control points (3 x n) in the wall's frame.
+  void set_surface(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points);
+  bool has_surface() const { return !tree_.empty(); }
+  /// Of the wall in its frame.
+  const nurbs::Box& wall_bounds() const { return tree_.bounds(); }
+
+  /// Each particle becomes a candidate of the elements whose boxes, moved by one of the images, are within
+  /// its reach.
+  void build(const coupling::RigidFrame& frame, const std::vector<nurbs::Vector3>& images,
+             const ParticleView& particles);
+
+  const std::vector<Candidate>& candidates() const { return candidates_; }
+  const std::vector<nurbs::Vector3>& images() const { return images_; }  ///< in space [length]
+  const ImageElements* image_elements(const Candidate& c) const {
+    NURBS_ASSERT(c.first_image + c.image_count <= static_cast<int>(image_elements_.size()), c.first_image);
+    return &image_elements_[c.first_image];
+  }
+  const int* elements(const ImageElements& e) const {
+    NURBS_ASSERT(e.first + e.count <= static_cast<int>(elements_.size()), e.first, e.count);
+    return elements_.data() + e.first;
+  }
+
+  /// Largest distance that any point of the surface has moved since build, at most: a surface point is a
+  /// convex combination of control points [length].
+  double motion_since_build(const nurbs::NodalVectors& control_points, bool deforms,
+                            const coupling::RigidFrame& frame) const;
+
+ private:
+  std::vector<Candidate> candidates_;
+  std::vector<ImageElements> image_elements_;
+  std::vector<int> elements_;
+  std::vector<nurbs::Vector3> images_;
+  nurbs::BoxTree tree_;
+  nurbs::NodalVectors control_points_at_build_;
+  coupling::RigidFrame frame_at_build_;
+};
+
+}  // namespace contact

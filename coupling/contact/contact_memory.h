@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Memory of a particle's contacts with the wall: one slot per contact, each a row of its own `fix
+// property/atom`, which carries it through sorting, migration between ranks and restart:
+//   [patch + side, xi, eta, history of LIGGGHTS' contact models ...]
+// A slot belongs to a branch, that is to one local minimum of the distance for as long as it moves without a
+// jump; the foot is where the branch was last.  Patch < 0 marks an empty slot, so a fresh row must hold -1
+// there.  The side of the surface that the particle's centre is on is the fraction behind the patch's number:
+// 1/4 where dS/dxi x dS/deta points, 1/2 on the other side, 0 if nobody has looked yet.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "nurbs/assert.h"
+#include "nurbs/multi_patch.h"
+
+namespace contact {
+
+class ContactSlot {
+ public:
+  static constexpr int kFootValues = 3;
+  static constexpr double kEmpty = -1.0;
+
+  ContactSlot(double* values, int history_count) : values_(values), history_count_(history_count) {}
+
+  bool empty() const { return values_[0] < 0.0; }
+  nurbs::SurfacePoint foot() const { return {static_cast<int>(values_[0]), {values_[1], values_[2]}}; }
+  /// +1 or -1: of the normal of that patch; 0: not known.
+  int side() const {
+    const double fraction = values_[0] - std::floor(values_[0]);
+    return fraction == 0.0 ? 0 : fraction < 0.4 ? 1 : -1;
+  }
+  void set_foot(const nurbs::SurfacePoint& foot, int side) {
+    NURBS_ASSERT(foot.patch >= 0 && -1 <= side && side <= 1, foot.patch, side);
+    constexpr double kFraction[] = {0.5, 0.0, 0.25};
+    values_[0] = foot.patch + kFraction[1 + side];
+    values_[1] = foot.xi[0];
+    values_[2] = foot.xi[1];
+  }
+
+  /// Where the contact models keep their values (world-frame shear displacement, ...); null if they keep
+  /// none.
+  double* history() { return history_count_ > 0 ? values_ + kFootValues : nullptr; }
+  void clear() {
+    values_[0] = kEmpty;
+    std::fill_n(values_ + kFootValues, history_count_, 0.0);
+  }
+
+ private:
+  double* values_;
+  int history_count_;
+};
+
+/// All slots of one particle.
+class ContactMemory {
+ public:
+  /// slots[s][particle] is a slot's row.
+  ContactMemory(const std::vector<double**>& slots, int particle, int history_count)
+      : slots_(slots), particle_(particle), history_count_(history_count) {}
+
+  int slot_count() const { return static_cast<int>(slots_.size()); }
+  ContactSlot slot(int s) const {
+    NURBS_ASSERT(0 <= s && s < slot_count(), s, slot_count());
+    return {slots_[s][particle_], history_count_};
+  }
+  /// Index of an empty slot, -1 if there is none.
+  int empty_slot() const {
+    for (int s = 0; s < slot_count(); ++s)
+      if (slot(s).empty()) return s;
+    return -1;
+  }
+  void clear() {
+    for (int s = 0; s < slot_count(); ++s) slot(s).clear();
+  }
+
+ private:
+  const std::vector<double**>& slots_;
+  int particle_, history_count_;
+};
+
+}  // namespace contact

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/contact/contact_tracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "nurbs/assert.h"
+
+namespace contact {
+
+using nurbs::SurfaceFoot;
+using nurbs::SurfacePoint;
+using nurbs::Vector3;
+
+namespace {
+
+constexpr double kSameFoot = 1e-6;  // of the reach: feet closer than this are one contact
+
+bool same(const SurfaceFoot& a, const SurfaceFoot& b, double reach) {
+  return (a.foot - b.foot).squaredNorm() <= kSameFoot * kSameFoot * reach * reach;
+}
+
+}  // namespace
+
+void ContactTracker::list_is_new() {
+  states_.assign(candidates_.candidates().size(), State());
+  feet_.clear();
+}
+
+void ContactTracker::follow(const Query* queries, int count) {
+  constexpr int kMost = 64;
+  SurfaceFoot* feet[kMost];
+  Vector3 centres[kMost];
+  int n = 0;
+  for (const Query* query = queries; query < queries + count; ++query) {
+    NURBS_ASSERT(query->candidate < static_cast<int>(states_.size()), query->candidate, states_.size());
+    const State& state = states_[query->candidate];
+    NURBS_ASSERT(state.first + state.count <= static_cast<int>(feet_.size()), state.first, state.count);
+    for (int k = 0; k < state.count; ++k) {
+      if (n == kMost) search_.follow_batch(centres, feet, n), n = 0;
+      feet[n] = &feet_[state.first + k].foot;
+      centres[n++] = query->centre;
+    }
+  }
+  search_.follow_batch(centres, feet, n);
+}
+
+// Of a candidate whose branches are not followed, or not yet.
+FeetRange ContactTracker::find_feet(const Query& query, const ContactMemory& memory) {
+  NURBS_ASSERT(states_.size() == candidates_.candidates().size(), states_.size());
+  const Candidate& candidate = candidates_.candidates()[query.candidate];
+  State& state = states_[query.candidate];
+  find_all(candidate, query, state.touched ? query.touch_reach : query.list_reach, memory, all_feet_);
+  FeetRange feet{all_feet_.data(), static_cast<int>(all_feet_.size())};
+  if (state.is_new) {
+    state.is_new = false;
+    state.regular = is_regular(candidate, query);
+    if (state.regular) {
+      state.first = static_cast<int>(feet_.size());
+      state.count = feet.count;
+      feet_.insert(feet_.end(), feet.begin(), feet.end());
+      feet.first = feet_.data() + state.first;
+    }
+  }
+  // A search within touch_reach does not tell how far the surface is.
+  const double clearance = nearest_distance(feet, query);
+  keep_clearance(query, state.touched && !state.regular ? 0.0 : clearance, state);
+  state.touched = clearance < query.touch_reach;
+  return feet;
+}
+
+bool ContactTracker::is_regular(const Candidate& candidate, const Query& query) const {
+  const ImageElements* images = candidates_.image_elements(candidate);
+  for (int k = 0; k < candidate.image_count; ++k) {
+    const Vector3 d = query.centre - candidates_.images()[images[k].image];
+    const int* elements = candidates_.elements(images[k]);
+    for (int e = 0; e < images[k].count; ++e)
+      if (!regularity_.is_regular(d, query.list_reach, elements[e])) return false;
+  }
+  return true;
+}
+
+void ContactTracker::find_all(const Candidate& candidate, const Query& query, double reach,
+                              const ContactMemory& memory, std::vector<TrackedFoot>& out) {
+  found_.clear();
+  const ImageElements* images = candidates_.image_elements(candidate);
+  for (int k = 0; k < candidate.image_count; ++k)
+    search_.add_minima(query.centre, candidates_.images()[images[k].image], reach,
+                       kSameFoot * query.touch_reach, candidates_.elements(images[k]), images[k].count,
+                       found_);
+  keep_one_of_each_valley(query);
+  out.clear();
+  for (const SurfaceFoot& foot : found_) out.push_back({foot, -1});
+  match_slots(candidate, query, memory, out.data(), static_cast<int>(out.size()));
+}
+
+// On a centre of curvature (the axis of a tube) feet are not isolated and the search finds some of a row of
+// them, all equally far: they are one contact.
+void ContactTracker::keep_one_of_each_valley(const Query& query) {
+  constexpr double kEqual = 1e-9;
+  if (found_.size() < 2) return;
+  const auto in_valley = [&](const SurfaceFoot& foot) {
+    return regularity_.in_valley(query.centre - foot.image, foot.at(), foot.distance);
+  };
+  const auto repeats = [&](const SurfaceFoot& foot, const SurfaceFoot& kept) {
+    return std::abs(foot.distance - kept.distance) <= kEqual * foot.distance && in_valley(kept) &&
+           in_valley(foot);
+  };
+  auto end = found_.begin() + 1;
+  for (auto foot = end; foot != found_.end(); ++foot)
+    if (std::none_of(found_.begin(), end, [&](const SurfaceFoot& kept) { return repeats(*foot, kept); }))
+      *end++ = *foot;
+  found_.erase(end, found_.end());
+}
+
+// A slot goes with its branch: to the foot that is reached from where the branch was last.
+void ContactTracker::match_slots(const Candidate& candidate, const Query& query, const ContactMemory& memory,
+                                 TrackedFoot* feet, int count) {
+  for (int s = 0; s < memory.slot_count(); ++s) {
+    ContactSlot slot = memory.slot(s);
+    if (slot.empty()) continue;
+    const SurfacePoint last = slot.foot();
+    const SurfaceFoot now =
+        search_.projector().follow(query.centre, last, nearest_image(candidate, last, query.centre));
+    TrackedFoot* const end = feet + count;
+    TrackedFoot* const found =
+        std::find_if(feet, end, [&](const TrackedFoot& f) { return same(f.foot, now, query.touch_reach); });
+    if (found != end && found->slot < 0)
+      found->slot = s;
+    else
+      slot.clear();  // out of reach, or grown together with another branch
+  }
+}
+
+// Of the images of the wall near the candidate, the one whose point `at` is nearest to it.
+Vector3 ContactTracker::nearest_image(const Candidate& candidate, const SurfacePoint& at,
+                                      const Vector3& centre) const {
+  const ImageElements* images = candidates_.image_elements(candidate);
+  if (candidate.image_count == 1) return candidates_.images()[images[0].image];
+  const nurbs::SurfaceProjector& patch = search_.projector().patch(at.patch);
+  const Vector3 S = nurbs::interpolate(patch.space(), patch.control_points(), at.xi);
+  const ImageElements* nearest = std::min_element(
+      images, images + candidate.image_count, [&](const ImageElements& a, const ImageElements& b) {
+        const auto distance = [&](const ImageElements& e) {
+          return (S + candidates_.images()[e.image] - centre).squaredNorm();
+        };
+        return distance(a) < distance(b);
+      });
+  return candidates_.images()[nearest->image];
+}
+
+}  // namespace contact

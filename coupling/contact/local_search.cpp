@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/contact/local_search.h"
+
+#include <fmt/format.h>
+
+#include "search/simplex_brent.h"
+
+namespace contact {
+
+using nurbs::ProjectionStatus;
+using nurbs::SurfaceFoot;
+using nurbs::SurfacePoint;
+using nurbs::Vector3;
+
+inline void LocalSearch::count(const SurfaceFoot& foot) {
+  ++counts_.by_status[static_cast<int>(foot.status)];
+  counts_.iterations += foot.iterations;
+}
+
+SurfaceFoot LocalSearch::follow(const Vector3& centre, const SurfacePoint& from, const Vector3& image) {
+  SurfaceFoot foot;
+  foot.status = ProjectionStatus::not_converged;
+  if (method_ == SearchMethod::simplex_brent) {
+    const nurbs::SurfaceProjector& patch = projector_.patch(from.patch);
+    const nurbs::Projection p = nurbs::closest_point_simplex_brent(patch.space(), patch.control_points(),
+                                                                   centre - image, from.xi, true);
+    foot = {p, from.patch, image};
+    foot.foot += image;
+    if (foot.status != ProjectionStatus::interior) ++counts_.fallbacks;
+  }
+  if (foot.status != ProjectionStatus::interior) foot = projector_.follow(centre, from, image);
+  count(foot);
+  return foot;
+}
+
+void LocalSearch::follow_batch(const Vector3* centres, SurfaceFoot* const* feet, int count_of_feet) {
+  if (method_ == SearchMethod::simplex_brent) {
+    for (int k = 0; k < count_of_feet; ++k) *feet[k] = follow(centres[k], feet[k]->at(), feet[k]->image);
+    return;
+  }
+  projector_.follow_batch(centres, feet, count_of_feet);
+  for (int k = 0; k < count_of_feet; ++k) count(*feet[k]);
+}
+
+void LocalSearch::add_minima(const Vector3& centre, const Vector3& image, double reach, double same_foot,
+                             const int* elements, int count_of_elements, std::vector<SurfaceFoot>& out) {
+  const size_t before = out.size();
+  projector_.add_minima(centre, image, reach, same_foot, elements, count_of_elements, out);
+  counts_.cold += static_cast<long>(out.size() - before);
+  for (size_t k = before; k < out.size(); ++k) count(out[k]);
+}
+
+LocalSearch::Counts sum(const LocalSearch::Counts& counts, MPI_Comm world) {
+  constexpr int kNumbers = 7;
+  static_assert(sizeof(LocalSearch::Counts) == kNumbers * sizeof(long), "Counts is a row of numbers");
+  LocalSearch::Counts all;
+  MPI_Allreduce(&counts, &all, kNumbers, MPI_LONG, MPI_SUM, world);
+  return all;
+}
+
+std::string report(const LocalSearch::Counts& counts) {
+  const long* n = counts.by_status;
+  const long projections = n[0] + n[1] + n[2] + n[3];
+  const double iterations =
+      projections > 0 ? static_cast<double>(counts.iterations) / static_cast<double>(projections) : 0.0;
+  return fmt::format(
+      "{} projections: {} interior, {} edge, {} corner, {} not converged; {} cold, {} fallbacks, {:.2f} "
+      "iterations on average",
+      projections, n[0], n[1], n[2], n[3], counts.cold, counts.fallbacks, iterations);
+}
+
+}  // namespace contact

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "geometry_io/geometry_file.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "geometry_io/shape_reader.h"
+
+namespace nurbs {
+namespace {
+
+constexpr const char* kUnitsNames[] = {"si", "cgs", "mm-g-ms"};
+
+std::vector<SurfacePiece> read_surface(const YamlMap& surfaces, const std::string& name,
+                                       const std::vector<Shape>& patches) {
+  const std::vector<std::string> words =
+      surfaces.is_list(name) ? surfaces.words(name) : std::vector<std::string>{surfaces.word(name)};
+  try {
+    return parse_surface(words, patches);
+  } catch (const std::invalid_argument& error) {
+    surfaces.fail(name, fmt::format("surfaces.{}: {}", name, error.what()));
+  }
+}
+
+GeometryFile open_other_file(const YamlMap& geometry, Units units, const OpenGeometry& open) {
+  const std::string file = geometry.word("file");
+  if (!open)
+    geometry.fail("file", fmt::format("geometry.file is {} in a file that is itself read for another one, "
+                                      "expected the shapes here",
+                                      file));
+  return open((std::filesystem::path(geometry.file()).parent_path() / file).string(), units);
+}
+
+}  // namespace
+
+const char* units_name(Units units) { return kUnitsNames[static_cast<int>(units)]; }
+
+Units units_from_name(const std::string& name) {
+  for (const Units units : {Units::si, Units::cgs, Units::mm_g_ms})
+    if (name == units_name(units)) return units;
+  throw std::invalid_argument(
+      fmt::format("units is '{}', expected one of: {}", name, fmt::join(kUnitsNames, ", ")));
+}
+
+GeometryFile read_geometry(const YamlMap& document, const OpenGeometry& open) {
+  const Units units =
+      units_from_name(document.word_of("units", {kUnitsNames[0], kUnitsNames[1], kUnitsNames[2]}));
+  const YamlMap map = document.map("geometry");
+  const std::vector<std::string> keys = map.keys();
+  const bool other_file = keys.size() == 1 && keys.front() == "file";
+  GeometryFile geometry =
+      other_file ? open_other_file(map, units, open) : GeometryFile{units, read_shapes(map), {}};
+  if (!document.has("surfaces")) return geometry;
+
+  const YamlMap surfaces = document.map("surfaces");
+  for (const std::string& name : surfaces.keys())
+    if (!geometry.surfaces.emplace(name, read_surface(surfaces, name, geometry.patches)).second)
+      surfaces.fail(name, fmt::format("surface '{}' is given twice, expected once", name));
+  return geometry;
+}
+
+GeometryFile parse_geometry_file(const std::string& text, const std::string& file, const OpenGeometry& open) {
+  const YamlMap document = YamlMap::parse(text, file);
+  document.allow_only({"units", "geometry", "surfaces"});
+  return read_geometry(document, open);
+}
+
+std::vector<OrientedSurface> named_surface(const GeometryFile& geometry, const std::string& name,
+                                           const std::string& file) {
+  const auto found = geometry.surfaces.find(name);
+  if (found == geometry.surfaces.end()) {
+    std::vector<std::string> names;
+    for (const auto& surface : geometry.surfaces) names.push_back(surface.first);
+    throw InputError(
+        fmt::format("{}: unknown surface '{}', expected one of: {}", file, name,
+                    names.empty() ? "(the file names none)" : fmt::format("{}", fmt::join(names, ", "))));
+  }
+  std::vector<OrientedSurface> patches;
+  for (const SurfacePiece& piece : found->second) patches.push_back(extract(piece, geometry.patches));
+  return patches;
+}
+
+}  // namespace nurbs

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "geometry_io/shape_reader.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <limits>
+#include <new>
+
+#include "nurbs/memory.h"
+#include "nurbs/primitives.h"
+
+namespace nurbs {
+namespace {
+
+// Guards against a slip of the finger: elements of one direction, control points of a patch.
+#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // a fuzzer asks for every size: the same checks, sooner
+constexpr int kMaxElements = 300;
+constexpr double kMaxControlPoints = 1e4;
+#else
+constexpr int kMaxElements = 1000000;
+constexpr double kMaxControlPoints = std::numeric_limits<int>::max();
+#endif
+
+// Runs `build`; what it finds wrong with its arguments is an error of the file at `key`.
+template <class Build>
+auto blame(const YamlMap& map, const std::string& key, const std::string& prefix, Build build) {
+  try {
+    return build();
+  } catch (const std::invalid_argument& error) {
+    map.fail(key, prefix + error.what());
+  }
+}
+
+void expect_count(const YamlMap& map, const std::string& key, size_t given, size_t expected) {
+  if (given != expected) map.fail(key, fmt::format("{} is a list of {}, expected {}", key, given, expected));
+}
+
+// The key that gives the elements.
+const char* mesh_key(const YamlMap& map) { return map.has("breaks") ? "breaks" : "elements"; }
+
+// Before anything is allocated for them.
+void check_size(const YamlMap& map, const std::vector<int>& elements, const std::vector<int>& degrees) {
+  const std::string key = mesh_key(map), prefix = key == "elements" ? "" : key + ": ";
+  double count = 1.0;
+  for (size_t d = 0; d < elements.size(); ++d) count *= static_cast<double>(elements[d]) + degrees[d];
+  blame(map, key, prefix, [&] {
+    expect_memory(sizeof(Vector3) * count,
+                  fmt::format("elements [{}]: {:.3g} control points", fmt::join(elements, ", "), count));
+  });
+  if (count > kMaxControlPoints)
+    map.fail(key,
+             prefix + fmt::format("elements are {}, about {:.3g} control points, expected at most {:.0f}",
+                                  fmt::join(elements, " x "), count, kMaxControlPoints));
+}
+
+// `degree`: one number for all directions or one for each.
+std::vector<int> read_degrees(const YamlMap& map, int dim) {
+  if (!map.is_list("degree")) return std::vector<int>(dim, map.integer("degree", 1, kMaxDegree));
+  const std::vector<int> degrees = map.integers("degree", 1, kMaxDegree);
+  expect_count(map, "degree", degrees.size(), dim);
+  return degrees;
+}
+
+KnotVector knots_from_breaks(const YamlMap& map, int degree, const std::vector<double>& breaks,
+                             int direction) {
+  const std::string prefix = fmt::format("breaks of direction {}: ", direction + 1);
+  if (breaks.empty() || breaks.front() != 0.0 || breaks.back() != 1.0)
+    map.fail("breaks", prefix + fmt::format("[{}], expected a list from 0 to 1", fmt::join(breaks, ", ")));
+  return blame(map, "breaks", prefix, [&] { return KnotVector::from_breaks(degree, breaks); });
+}
+
+// `degree` with `elements` (equal ones) or `breaks` (graded).
+std::vector<KnotVector> read_mesh(const YamlMap& map, int dim) {
+  const std::vector<int> degrees = read_degrees(map, dim);
+  std::vector<KnotVector> knots;
+  if (map.has("elements") == map.has("breaks"))
+    map.fail("elements", "'elements' and 'breaks' are both given or both missing, expected one of them");
+  if (map.has("elements")) {
+    const std::vector<int> elements = map.integers("elements", 1, kMaxElements);
+    expect_count(map, "elements", elements.size(), dim);
+    check_size(map, elements, degrees);
+    for (int d = 0; d < dim; ++d) knots.push_back(KnotVector::uniform(degrees[d], elements[d]));
+  } else {
+    const std::vector<std::vector<double>> breaks = map.table("breaks");
+    expect_count(map, "breaks", breaks.size(), dim);
+    std::vector<int> elements;
+    for (const std::vector<double>& ends : breaks)
+      elements.push_back(std::max(static_cast<int>(ends.size()), 1) - 1);
+    check_size(map, elements, degrees);
+    for (int d = 0; d < dim; ++d) knots.push_back(knots_from_breaks(map, degrees[d], breaks[d], d));
+  }
+  return knots;
+}
+
+Shape read_box(const YamlMap& map) {
+  map.allow_only({"origin", "size", "elements", "breaks", "degree"});
+  const std::vector<KnotVector> knots = read_mesh(map, 3);
+  const Vector3 origin = map.vector3("origin"), size = map.vector3("size");
+  return blame(map, "size", "", [&] { return box(origin, size, {knots[0], knots[1], knots[2]}); });
+}
+
+// `thickness` of a strip: a number, or [from, to] of a ramp.
+Strip read_strip(const YamlMap& map) {
+  map.allow_only({"length", "thickness", "elements"});
+  Strip strip{map.number("length", positive()), {}, map.integer("elements", 1, kMaxElements)};
+  if (map.is_list("thickness")) {
+    const std::vector<double> ends = map.numbers("thickness");
+    expect_count(map, "thickness", ends.size(), 2);
+    strip.thickness = {ends[0], ends[1]};
+  } else {
+    strip.thickness.fill(map.number("thickness", positive()));
+  }
+  return strip;
+}
+
+Shape read_rolled_plate(const YamlMap& map) {
+  map.allow_only({"origin", "width", "strips", "elements", "degree"});
+  const std::vector<int> degrees = read_degrees(map, 3), elements = map.integers("elements", 1, kMaxElements);
+  expect_count(map, "elements", elements.size(), 2);
+  std::vector<Strip> strips;
+  std::vector<int> sizes{0, elements[0], elements[1]};
+  for (const YamlMap& strip : map.list_of_maps("strips")) {
+    strips.push_back(read_strip(strip));
+    sizes[0] += std::min(strips.back().elements, std::numeric_limits<int>::max() - sizes[0]);
+  }
+  check_size(map, sizes, degrees);
+  const Vector3 origin = map.vector3("origin");
+  const double width = map.number("width", positive());
+  return blame(map, "strips", "", [&] {
+    return rolled_plate(
+        origin, width, strips, degrees[0],
+        {KnotVector::uniform(degrees[1], elements[0]), KnotVector::uniform(degrees[2], elements[1])});
+  });
+}
+
+Shape read_plane(const YamlMap& map) {
+  map.allow_only({"origin", "edges", "elements", "breaks", "degree"});
+  const std::vector<KnotVector> knots = read_mesh(map, 2);
+  const Vector3 origin = map.vector3("origin");
+  const std::vector<std::vector<double>> edges = map.table("edges");
+  expect_count(map, "edges", edges.size(), 2);
+  for (const std::vector<double>& edge : edges)
+    if (edge.size() != 3) map.fail("edges", fmt::format("edge of {} numbers, expected 3", edge.size()));
+  return blame(map, "edges", "", [&] {
+    return plane(origin, Vector3(edges[0].data()), Vector3(edges[1].data()), {knots[0], knots[1]});
+  });
+}
+
+// `elements` and `degree` of a round shape; quadratic unless said.
+struct RoundMesh {
+  std::vector<int> elements, degrees;
+
+  KnotVector knots(int direction) const {
+    return KnotVector::uniform(degrees[direction], elements[direction]);
+  }
+};
+
+RoundMesh read_round_mesh(const YamlMap& map, int dim) {
+  RoundMesh mesh{map.integers("elements", 1, kMaxElements), std::vector<int>(dim, 2)};
+  expect_count(map, "elements", mesh.elements.size(), dim);
+  if (map.has("degree")) mesh.degrees = read_degrees(map, dim);
+  // the arcs of a whole turn add a control point per joint and degree
+  check_size(map, mesh.elements, std::vector<int>(dim, 4 * kMaxDegree));
+  return mesh;
+}
+
+// `key` holds [from, to] in degrees; `whole` where it is missing.
+Curve read_arc(const YamlMap& map, const std::string& key, const std::vector<double>& whole,
+               const RoundMesh& mesh, int direction) {
+  const std::vector<double> angles = map.has(key) ? map.numbers(key) : whole;
+  expect_count(map, key, angles.size(), 2);
+  const int degree = mesh.degrees[direction];
+  if (degree < 2)
+    map.fail("degree", fmt::format("degree of an arc is {}, expected 2 to {}", degree, kMaxDegree));
+  const Curve quarters = blame(map, key, key + ": ", [&] { return arc(angles[0], angles[1]); });
+  return blame(map, "elements", key + ": ",
+               [&] { return refined(quarters, mesh.elements[direction], degree); });
+}
+
+Curve read_turn(const YamlMap& map, const std::string& key, const RoundMesh& mesh, int direction) {
+  return read_arc(map, key, {0.0, 360.0}, mesh, direction);
+}
+
+// The point under `origin`, the `axis`, and the `reference` direction if there is one.
+Frame read_frame(const YamlMap& map, const std::string& origin, const Vector3& axis) {
+  const Vector3 point = map.vector3(origin);
+  const Frame placed = blame(map, "axis", "", [&] { return frame(point, axis); });
+  if (!map.has("reference")) return placed;
+  return blame(map, "reference", "", [&] { return frame(point, axis, map.vector3("reference")); });
+}
+
+Shape read_cylinder(const YamlMap& map) {
+  map.allow_only({"origin", "axis", "reference", "radius", "length", "angle", "elements", "degree"});
+  const RoundMesh mesh = read_round_mesh(map, 2);
+  return cylinder(read_frame(map, "origin", map.vector3("axis")), map.number("radius", positive()),
+                  map.number("length", positive()), read_turn(map, "angle", mesh, 0), mesh.knots(1));
+}
+
+Shape read_cone(const YamlMap& map) {
+  map.allow_only({"origin", "axis", "reference", "radii", "length", "angle", "elements", "degree"});
+  const RoundMesh mesh = read_round_mesh(map, 2);
+  const Frame place = read_frame(map, "origin", map.vector3("axis"));
+  const std::vector<double> radii = map.numbers("radii");
+  expect_count(map, "radii", radii.size(), 2);
+  const double length = map.number("length", positive());
+  const Curve turn = read_turn(map, "angle", mesh, 0);
+  return blame(map, "radii", "", [&] {
+    return cone(place, {radii[0], radii[1]}, length, turn, mesh.knots(1));
+  });
+}
+
+Shape read_sphere(const YamlMap& map) {
+  map.allow_only({"centre", "axis", "reference", "radius", "latitude", "longitude", "elements", "degree"});
+  const RoundMesh mesh = read_round_mesh(map, 2);
+  const Frame place =
+      read_frame(map, "centre", map.has("axis") ? map.vector3("axis") : Vector3(Vector3::UnitZ()));
+  const double radius = map.number("radius", positive());
+  const Curve longitude = read_turn(map, "longitude", mesh, 0);
+  const Curve latitude = read_arc(map, "latitude", {-90.0, 90.0}, mesh, 1);
+  return blame(map, "latitude", "", [&] { return sphere(place, radius, longitude, latitude); });
+}
+
+Shape read_torus(const YamlMap& map) {
+  map.allow_only(
+      {"centre", "axis", "reference", "radius", "tube_radius", "angle", "tube_angle", "elements", "degree"});
+  const RoundMesh mesh = read_round_mesh(map, 2);
+  const Frame place = read_frame(map, "centre", map.vector3("axis"));
+  const double radius = map.number("radius", positive()), tube = map.number("tube_radius", positive());
+  const Curve azimuth = read_turn(map, "angle", mesh, 0), around = read_turn(map, "tube_angle", mesh, 1);
+  return blame(map, "radius", "", [&] { return torus(place, radius, tube, azimuth, around); });
+}
+
+Shape read_tube(const YamlMap& map) {
+  map.allow_only({"origin", "axis", "reference", "inner_radius", "outer_radius", "length", "angle",
+                  "elements", "degree"});
+  const RoundMesh mesh = read_round_mesh(map, 3);
+  const Frame place = read_frame(map, "origin", map.vector3("axis"));
+  const double inner = map.number("inner_radius", positive()), outer = map.number("outer_radius", positive());
+  const double length = map.number("length", positive());
+  const Curve turn = read_turn(map, "angle", mesh, 0);
+  return blame(map, "outer_radius", "", [&] {
+    return tube(place, inner, outer, length, turn, {mesh.knots(1), mesh.knots(2)});
+  });
+}
+
+NodalVectors read_control_points(const YamlMap& map, int expected) {
+  const std::vector<std::vector<double>> rows = map.table("control_points");
+  if (static_cast<int>(rows.size()) != expected)
+    map.fail("control_points", fmt::format("{} control points given, expected {}", rows.size(), expected));
+  NodalVectors control_points(3, expected);
+  for (int a = 0; a < expected; ++a) {
+    if (rows[a].size() != 3)
+      map.fail("control_points",
+               fmt::format("control point {} has {} coordinates, expected 3", a + 1, rows[a].size()));
+    control_points.col(a) = Vector3(rows[a].data());
+  }
+  return control_points;
+}
+
+template <int Dim, size_t... Direction>
+Patch<Dim> read_patch(const YamlMap& map, std::index_sequence<Direction...>) {
+  const std::vector<int> degrees = map.integers("degrees", 1, kMaxDegree);
+  const std::vector<std::vector<double>> knots = map.table("knots");
+  expect_count(map, "knots", knots.size(), Dim);
+  const auto knot_vector = [&](size_t d) {
+    const std::string prefix = fmt::format("knots of direction {}: ", d + 1);
+    return blame(map, "knots", prefix, [&] { return KnotVector(degrees[d], knots[d]); });
+  };
+  const std::array<KnotVector, Dim> directions{knot_vector(Direction)...};
+  const std::vector<double> weights = map.has("weights") ? map.numbers("weights") : std::vector<double>{};
+  Space<Dim> space = blame(map, "weights", "", [&] { return Space<Dim>(directions, weights); });
+  NodalVectors control_points = read_control_points(map, space.control_point_count());
+  return {std::move(space), std::move(control_points)};
+}
+
+Shape read_patch(const YamlMap& patch) {
+  patch.allow_only({"degrees", "knots", "control_points", "weights"});
+  const size_t dim = patch.integers("degrees", 1, kMaxDegree).size();
+  if (dim == 2) return read_patch<2>(patch, std::make_index_sequence<2>());
+  if (dim == 3) return read_patch<3>(patch, std::make_index_sequence<3>());
+  patch.fail("degrees", fmt::format("degrees is a list of {}, expected 2 (a surface) or 3 (a volume)", dim));
+}
+
+std::vector<Shape> read_patches(const YamlMap& geometry) {
+  std::vector<Shape> patches;
+  for (const YamlMap& patch : geometry.list_of_maps("patches")) patches.push_back(read_patch(patch));
+  if (patches.empty()) geometry.fail("patches", "patches is empty, expected one patch at least");
+  return patches;
+}
+
+struct ShapeKey {
+  const char* key;
+  Shape (*read)(const YamlMap&);
+};
+
+// Deck word -> shape.
+constexpr ShapeKey kShapes[] = {
+    {"box", read_box},     {"rolled_plate", read_rolled_plate},
+    {"plane", read_plane}, {"cylinder", read_cylinder},
+    {"cone", read_cone},   {"sphere", read_sphere},
+    {"torus", read_torus}, {"tube", read_tube},
+};
+Shape read_sized(const ShapeKey& shape, const YamlMap& map) {
+  try {
+    return shape.read(map);
+  } catch (const std::bad_alloc&) {
+    const std::string key = mesh_key(map);
+    const bool sizes = key == "elements" && map.is_list(key);
+    map.fail(key, fmt::format("{}: no memory for a {} of {} elements", key, shape.key,
+                              sizes ? fmt::format("{}", fmt::join(map.words(key), " x ")) : "so many"));
+  }
+}
+
+constexpr std::initializer_list<const char*> kKeys = {"box",    "rolled_plate", "plane", "cylinder", "cone",
+                                                      "sphere", "torus",        "tube",  "patches",  "file"};
+
+}  // namespace
+
+std::vector<Shape> read_shapes(const YamlMap& geometry) {
+  geometry.allow_only(kKeys);
+  const size_t given = geometry.keys().size();
+  if (given != 1)
+    geometry.fail("geometry",
+                  fmt::format("{} geometries given, expected one of: {}", given, fmt::join(kKeys, ", ")));
+  for (const ShapeKey& shape : kShapes)
+    if (geometry.has(shape.key)) return {read_sized(shape, geometry.map(shape.key))};
+  return read_patches(geometry);
+}
+
+}  // namespace nurbs

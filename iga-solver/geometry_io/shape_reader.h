@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The value of a model file's key `geometry`.  Its keys are listed in geometry_file.h.
+#pragma once
+
+#include <vector>
+
+#include "geometry_io/named_surface.h"
+#include "geometry_io/yaml_map.h"
+
+namespace nurbs {
+
+/// Patches of one shape, or those listed under `patches`; one at least.  Throws InputError, with file and
+/// line, what was given and what was expected.
+std::vector<Shape> read_shapes(const YamlMap& geometry);
+
+}  // namespace nurbs

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "geometry_io/yaml_map.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "geometry_io/file_kind.h"
+#include "geometry_io/parse_number.h"
+#include "nurbs/usable_number.h"
+
+namespace nurbs {
+namespace {
+
+using Kind = YamlNode::Kind;
+
+std::string described(const YamlNode& node) {
+  if (node.kind == Kind::list) return fmt::format("a list of {}", node.children.size());
+  if (node.kind == Kind::map) return "a mapping";
+  return node.scalar.empty() ? "empty" : shown(node.scalar);
+}
+
+std::string described(Range range) {
+  const bool below = std::isfinite(range.low), above = std::isfinite(range.high);
+  const char* low_sign = range.low_included ? ">=" : ">";
+  const char* high_sign = range.high_included ? "<=" : "<";
+  if (below && above)
+    return fmt::format("a number {} {} and {} {}", low_sign, range.low, high_sign, range.high);
+  if (below) return fmt::format("a number {} {}", low_sign, range.low);
+  if (above) return fmt::format("a number {} {}", high_sign, range.high);
+  return "a finite number";
+}
+
+// False for infinite numbers and nan, too: an open end of a range is excluded.
+bool contains(Range range, double x) {
+  return (range.low_included ? x >= range.low : x > range.low) &&
+         (range.high_included ? x <= range.high : x < range.high);
+}
+
+std::string one_of(const std::vector<std::string>& words) {
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+}  // namespace
+
+std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
+  // Levenshtein distance, one row of the table at a time.
+  const auto distance = [&word](const std::string& other) {
+    std::vector<size_t> row(other.size() + 1);
+    for (size_t j = 0; j < row.size(); ++j) row[j] = j;
+    for (size_t i = 0; i < word.size(); ++i) {
+      size_t diagonal = row[0];
+      row[0] = i + 1;
+      for (size_t j = 0; j < other.size(); ++j) {
+        const size_t replaced = diagonal + (word[i] != other[j]);
+        diagonal = row[j + 1];
+        row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
+      }
+    }
+    return row.back();
+  };
+  std::string nearest;
+  size_t least = std::numeric_limits<size_t>::max();
+  for (const std::string& candidate : candidates) {
+    const size_t longer = std::max(word.size(), candidate.size());
+    const size_t d = distance(candidate);
+    if (d < least && 3 * d <= longer + 2 && d < longer) least = d, nearest = candidate;
+  }
+  return nearest;
+}
+
+YamlMap YamlMap::parse(const std::string& text, const std::string& file) {
+  expect_kind(FileKind::text, file, text);
+  const auto tree = std::make_shared<const YamlTree>(text, file);
+  return YamlMap(tree, tree->root(), file, "");
+}
+
+YamlMap::YamlMap(std::shared_ptr<const YamlTree> tree, const YamlNode& node, std::string file,
+                 std::string where)
+    : tree_(std::move(tree)), node_(&node), file_(std::move(file)), where_(std::move(where)) {
+  if (node.kind != Kind::map)
+    fail_at(node, fmt::format("{} is {}, expected a mapping (key: value)", where_.empty() ? "file" : where_,
+                              described(node)));
+}
+
+const YamlNode* YamlMap::find(const std::string& key) const {
+  const std::vector<const YamlNode*>& entries = node_->children;
+  for (size_t i = 0; i < entries.size(); i += 2)
+    if (entries[i]->kind == Kind::scalar && entries[i]->scalar == key) return entries[i + 1];
+  return nullptr;
+}
+
+void YamlMap::allow_only(std::initializer_list<const char*> keys) const {
+  const std::vector<std::string> allowed(keys.begin(), keys.end());
+  for (const std::string& key : this->keys()) {
+    if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
+    const std::string nearest = nearest_word(key, allowed);
+    const std::string hint = nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest);
+    fail(key, fmt::format("unknown key '{}'{}, {}expected one of: {}", shown(key),
+                          where_.empty() ? "" : " in " + where_, hint, one_of(allowed)));
+  }
+}
+
+bool YamlMap::has(const std::string& key) const { return find(key) != nullptr; }
+bool YamlMap::is_list(const std::string& key) const { return value(key).kind == Kind::list; }
+
+std::vector<std::string> YamlMap::keys() const {
+  std::vector<std::string> keys;
+  std::set<std::string> seen;
+  for (size_t i = 0; i < node_->children.size(); i += 2) {
+    const YamlNode& entry = *node_->children[i];
+    keys.push_back(read_word(entry, "key"));
+    if (!seen.insert(keys.back()).second)
+      fail_at(entry, fmt::format("{} is given twice, expected once", name_of(keys.back())));
+  }
+  return keys;
+}
+
+int YamlMap::line() const { return node_->line; }
+
+int YamlMap::line_of(const std::string& key) const {
+  for (size_t i = 0; i < node_->children.size(); i += 2)
+    if (node_->children[i]->kind == Kind::scalar && node_->children[i]->scalar == key)
+      return node_->children[i]->line;
+  return line();
+}
+
+YamlMap YamlMap::map(const std::string& key) const { return YamlMap(tree_, value(key), file_, name_of(key)); }
+
+std::vector<YamlMap> YamlMap::list_of_maps(const std::string& key) const {
+  std::vector<YamlMap> maps;
+  for (const YamlNode* item : list(key, "mappings"))
+    maps.push_back(YamlMap(tree_, *item, file_, fmt::format("{}[{}]", name_of(key), maps.size())));
+  return maps;
+}
+
+std::string YamlMap::word(const std::string& key) const { return read_word(value(key), name_of(key)); }
+
+std::string YamlMap::word_of(const std::string& key, std::initializer_list<const char*> allowed) const {
+  const std::vector<std::string> words(allowed.begin(), allowed.end());
+  const std::string given = word(key);
+  if (std::find(words.begin(), words.end(), given) == words.end())
+    fail_at(value(key),
+            fmt::format("{} is {}, expected one of: {}", name_of(key), shown(given), one_of(words)));
+  return given;
+}
+
+std::vector<std::string> YamlMap::words(const std::string& key) const {
+  std::vector<std::string> words;
+  for (const YamlNode* item : list(key, "words")) words.push_back(read_word(*item, name_of(key)));
+  return words;
+}
+
+double YamlMap::number(const std::string& key, Range range) const {
+  return read_number(value(key), name_of(key), range);
+}
+
+int YamlMap::integer(const std::string& key, int low, int high) const {
+  return read_integer(value(key), name_of(key), low, high);
+}
+
+Vector3 YamlMap::vector3(const std::string& key) const {
+  const std::vector<double> xyz = numbers(key);
+  if (xyz.size() != 3)
+    fail(key, fmt::format("{} is a list of {}, expected 3 numbers", name_of(key), xyz.size()));
+  return {xyz[0], xyz[1], xyz[2]};
+}
+
+std::vector<double> YamlMap::numbers(const std::string& key) const {
+  return read_numbers(list(key, "numbers"), name_of(key));
+}
+
+std::vector<int> YamlMap::integers(const std::string& key, int low, int high) const {
+  std::vector<int> integers;
+  for (const YamlNode* item : list(key, "whole numbers"))
+    integers.push_back(read_integer(*item, name_of(key), low, high));
+  return integers;
+}
+
+std::vector<std::vector<double>> YamlMap::table(const std::string& key) const {
+  std::vector<std::vector<double>> rows;
+  for (const YamlNode* row : list(key, "lists of numbers")) {
+    const std::string name = fmt::format("{}[{}]", name_of(key), rows.size());
+    if (row->kind != Kind::list)
+      fail_at(*row, fmt::format("{} is {}, expected a list of numbers", name, described(*row)));
+    rows.push_back(read_numbers(row->children, name));
+  }
+  return rows;
+}
+
+void YamlMap::fail(const std::string& key, const std::string& message) const {
+  fail_at_line(file_, line_of(key), message);
+}
+
+const YamlNode& YamlMap::value(const std::string& key) const {
+  const YamlNode* const found = find(key);
+  if (found == nullptr) fail_at(*node_, fmt::format("{} is missing", name_of(key)));
+  // An empty node stands where the parser noticed, often a line late: complain here, at the key.
+  if (found->kind == Kind::empty) fail(key, fmt::format("{} is empty, expected a value", name_of(key)));
+  return *found;
+}
+
+const std::vector<const YamlNode*>& YamlMap::list(const std::string& key, const std::string& of) const {
+  const YamlNode& found = value(key);
+  if (found.kind != Kind::list)
+    fail(key, fmt::format("{} is {}, expected a list of {}", name_of(key), described(found), of));
+  return found.children;
+}
+
+double YamlMap::read_number(const YamlNode& node, const std::string& name, Range range) const {
+  double x = 0.0;
+  if (node.kind != Kind::scalar || !parse_number(node.scalar, x) || !contains(range, x))
+    fail_at(node, fmt::format("{} is {}, expected {}", name, described(node), described(range)));
+  if (!is_usable(x))
+    fail_at(node, fmt::format("{} is {}, expected a number of at most {} in size", name, described(node),
+                              kLargestNumber));
+  return x;
+}
+
+int YamlMap::read_integer(const YamlNode& node, const std::string& name, int low, int high) const {
+  int i = 0;
+  if (node.kind != Kind::scalar || !parse_number(node.scalar, i) || i < low || i > high)
+    fail_at(node,
+            fmt::format("{} is {}, expected a whole number from {} to {}", name, described(node), low, high));
+  return i;
+}
+
+std::string YamlMap::read_word(const YamlNode& node, const std::string& name) const {
+  if (node.kind != Kind::scalar || node.scalar.empty())
+    fail_at(node, fmt::format("{} is {}, expected a word", name, described(node)));
+  return node.scalar;
+}
+
+std::vector<double> YamlMap::read_numbers(const std::vector<const YamlNode*>& list,
+                                          const std::string& name) const {
+  std::vector<double> numbers;
+  for (const YamlNode* item : list) numbers.push_back(read_number(*item, name, {}));
+  return numbers;
+}
+
+std::string YamlMap::name_of(const std::string& key) const {
+  return where_.empty() ? key : where_ + "." + key;
+}
+
+void YamlMap::fail_at(const YamlNode& node, const std::string& message) const {
+  fail_at_line(file_, node.line, message);
+}
+
+}  // namespace nurbs

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "search/multi_patch_projector.h"
+
+#include <algorithm>
+
+#include "nurbs/assert.h"
+
+namespace nurbs {
+namespace {
+
+constexpr double kEqual = 1.0 + 1e-14;  // of distances: round-off
+
+SurfaceFoot on_surface(int patch, const Vector3& image, const Projection& p) {
+  SurfaceFoot foot{p, patch, image};
+  foot.foot += image;
+  return foot;
+}
+
+}  // namespace
+
+MultiPatchProjector::MultiPatchProjector(const MultiPatch& surface) : surface_(surface) {
+  for (int p = 0; p < surface.patch_count(); ++p)
+    patches_.push_back(std::make_unique<SurfaceProjector>(surface.patch(p)));
+}
+
+void MultiPatchProjector::set_control_points(const NodalVectors& control_points) {
+  for (int p = 0; p < surface_.patch_count(); ++p)
+    patches_[p]->set_control_points(surface_.control_points_of(p, control_points));
+}
+
+SurfaceFoot MultiPatchProjector::follow(const Vector3& d, const SurfacePoint& from,
+                                        const Vector3& image) const {
+  return cross_borders(d, on_surface(from.patch, image, patches_[from.patch]->warm(d - image, from.xi)));
+}
+
+// Runs of feet on the same patch; those that end on an edge go on one by one.
+void MultiPatchProjector::follow_batch(const Vector3* d, SurfaceFoot* const* feet, int count) const {
+  constexpr int kChunk = 64;
+  Vector3 moved[kChunk];
+  Parameter<2> guesses[kChunk];
+  Projection* found[kChunk];
+  while (count > 0) {
+    const int patch = feet[0]->patch, most = std::min(count, kChunk);
+    int n = 0;
+    for (; n < most && feet[n]->patch == patch; ++n) {
+      moved[n] = d[n] - feet[n]->image;
+      guesses[n] = feet[n]->xi;
+      found[n] = feet[n];
+    }
+    patches_[patch]->warm_batch(moved, guesses, n, found);
+    for (int k = 0; k < n; ++k) {
+      SurfaceFoot& foot = *feet[k];
+      foot.foot += foot.image;
+      if (foot.status != ProjectionStatus::interior) foot = cross_borders(d[k], foot);
+    }
+    d += n, feet += n, count -= n;
+  }
+}
+
+SurfaceFoot MultiPatchProjector::cross_borders(const Vector3& d, SurfaceFoot foot) const {
+  constexpr int kMaxCrossings = 16;  // in one step; each leads downhill
+  SurfaceFoot beyond;
+  for (int crossing = 0; crossing < kMaxCrossings && leads_on(d, foot, beyond); ++crossing) foot = beyond;
+  return foot;
+}
+
+// Whether the distance falls beyond a welded edge on which the foot lies, or on a patch around a pole where
+// it lies; then where it falls to.
+bool MultiPatchProjector::leads_on(const Vector3& d, const SurfaceFoot& foot, SurfaceFoot& beyond) const {
+  if (foot.status == ProjectionStatus::interior) return false;
+  for (int side = 0; side < kSideCount; ++side)
+    if (surface_.border(foot.patch, side).kind == Border::pole && surface_.on_side(foot.at(), side) &&
+        leads_off_pole(d, foot, side, beyond))
+      return true;
+  for (int side = 0; side < kSideCount; ++side) {
+    const Border& border = surface_.border(foot.patch, side);
+    if (border.kind != Border::welded || !surface_.on_side(foot.at(), side)) continue;
+    const SurfacePoint start = surface_.across(foot.at(), side);
+    const Vector3 image = foot.image + border.translation;
+    beyond = on_surface(border.patch, image, patches_[border.patch]->warm(d - image, start.xi));
+    beyond.iterations += foot.iterations;
+    const bool left = !surface_.on_side(beyond.at(), border.side);
+    if (left && beyond.distance <= foot.distance * kEqual) return true;
+  }
+  return false;
+}
+
+// Goes round the pole from patch to patch, both ways if the patches do not close: a patch that leads downhill
+// need not be the next one.
+bool MultiPatchProjector::leads_off_pole(const Vector3& d, const SurfaceFoot& foot, int pole,
+                                         SurfaceFoot& beyond) const {
+  for (const int way : {0, 1}) {
+    SurfacePoint corner = foot.at();
+    Vector3 image = foot.image;
+    int at_pole = pole, through = pole < 2 ? 2 + way : way;  // sides of corner.patch
+    for (int turn = 0; turn < surface_.patch_count(); ++turn) {
+      const Border& border = surface_.border(corner.patch, through);
+      if (border.kind != Border::welded) break;
+      corner.xi[through / 2] = surface_.end_of_side(corner.patch, through);
+      corner = surface_.across(corner, through);
+      image += border.translation;
+      const int along = 1 - border.side / 2;
+      at_pole = 2 * along + (corner.xi[along] == surface_.end_of_side(corner.patch, 2 * along + 1) ? 1 : 0);
+      if (corner.patch == foot.patch && at_pole == pole) return false;  // all round
+      beyond = on_surface(corner.patch, image, patches_[corner.patch]->warm(d - image, corner.xi));
+      beyond.iterations += foot.iterations;
+      if (!surface_.on_side(beyond.at(), at_pole) && beyond.distance <= foot.distance * kEqual) return true;
+      if (surface_.border(corner.patch, at_pole).kind != Border::pole) break;
+      through = border.side ^ 1;
+    }
+  }
+  return false;
+}
+
+void MultiPatchProjector::add_minima(const Vector3& d, const Vector3& image, double reach, double same_foot,
+                                     const int* elements, int count, std::vector<SurfaceFoot>& out) const {
+  const auto same = [&](const SurfaceFoot& a, const SurfaceFoot& b) {
+    return (a.foot - b.foot).squaredNorm() <= same_foot * same_foot;
+  };
+  const auto known = [&](const SurfaceFoot& foot) {
+    return std::any_of(out.begin(), out.end(), [&](const SurfaceFoot& other) { return same(foot, other); });
+  };
+  // A minimum within round-off of a border may seem to lie beyond it from either side.
+  const auto lies_beyond = [&](const SurfaceFoot& foot) {
+    SurfaceFoot beyond;
+    return leads_on(d, foot, beyond) && !same(foot, beyond);
+  };
+  const auto first_new = static_cast<std::ptrdiff_t>(out.size());
+  for (int k = 0; k < count;) {
+    NURBS_ASSERT(k == 0 || elements[k - 1] < elements[k], elements[k], k);
+    const int p = surface_.patch_of_element(elements[k]);
+    const int first = surface_.first_element(p), next = surface_.first_element(p + 1);
+    patch_elements_.clear();
+    for (; k < count && elements[k] < next; ++k) patch_elements_.push_back(elements[k] - first);
+    patches_[p]->all_minima_on(d - image, reach, patch_elements_.data(),
+                               static_cast<int>(patch_elements_.size()), found_);
+    for (const Projection& projection : found_) {
+      const SurfaceFoot foot = on_surface(p, image, projection);
+      if (!known(foot) && !lies_beyond(foot)) out.push_back(foot);
+    }
+  }
+  std::sort(out.begin() + first_new, out.end(),
+            [](const SurfaceFoot& a, const SurfaceFoot& b) { return a.distance < b.distance; });
+}
+
+}  // namespace nurbs

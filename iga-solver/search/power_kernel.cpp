@@ -1,0 +1,398 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Compiled once for each instruction set, into the namespace NURBS_SIMD_LEVEL.  Everything else here has
+// internal linkage, and no header with inline functions is included: code for a newer processor must never be
+// what the linker picks for all (tests/iga-solver/nurbs/check_symbols.py).
+#include "search/power_kernel.h"
+
+#include "search/simd_words.h"
+
+namespace nurbs {
+namespace {
+
+// The formulas are written once, on numbers (double or Lanes) and vectors (Vector4 or LaneVector).
+// P, Q are the degrees, or 0 where they are known at run time only.
+
+/// f, f', f''/2
+template <class T>
+struct Taylor {
+  T f, f_u, half_f_uu;
+};
+
+/// Horner's rule for f(u) = sum_k a[k] u^k, n >= 1.
+template <int N, class T, class Coefficients, class U>
+[[gnu::always_inline]] inline Taylor<T> horner(int n_given, const Coefficients& a, const U& u) {
+  const int n = N > 0 ? N : n_given;
+  Taylor<T> t{multiply_add(u, a[n], a[n - 1]), a[n], T{}};
+  if (n > 1) t = {multiply_add(u, t.f, a[n - 2]), multiply_add(u, a[n], t.f), a[n]};
+  for (int k = n - 3; k >= 0; --k)
+    t = {multiply_add(u, t.f, a[k]), multiply_add(u, t.f_u, t.f), multiply_add(u, t.half_f_uu, t.f_u)};
+  return t;
+}
+
+template <class T>
+struct Derivatives {
+  T f, f_0, f_1, f_00, f_01, f_11;
+};
+
+/// sum_ij a[i + (p+1) j] u^i v^j and its derivatives.
+template <int P, int Q, class T, class Coefficients, class U>
+[[gnu::always_inline]] inline Derivatives<T> polynomial(int p_given, int q_given, const Coefficients& a,
+                                                        const U& u, const U& v) {
+  const int p = P > 0 ? P : p_given, q = Q > 0 ? Q : q_given;
+  T f[(Q > 0 ? Q : kMaxDegree) + 1], f_u[(Q > 0 ? Q : kMaxDegree) + 1],
+      half_f_uu[(Q > 0 ? Q : kMaxDegree) + 1];
+  for (int j = 0; j <= q; ++j) {
+    const Taylor<T> row = horner<P, T>(p, a + (p + 1) * j, u);
+    f[j] = row.f, f_u[j] = row.f_u, half_f_uu[j] = row.half_f_uu;
+  }
+  const Taylor<T> S = horner<Q, T>(q, f, v), S_u = horner<Q, T>(q, f_u, v),
+                  S_uu = horner<Q, T>(q, half_f_uu, v);
+  return {S.f, S_u.f, S.f_u, 2.0 * S_uu.f, S_u.f_u, 2.0 * S.half_f_uu};
+}
+
+/// S - d = A / W - d and the derivatives: quotient rule (Piegl & Tiller 1997, eq. 4.20).
+template <class Vector, class Number>
+[[gnu::always_inline]] inline Derivatives<Vector> quotient(const Derivatives<Vector>& A,
+                                                           const Derivatives<Number>& W, const Vector& d) {
+  const Number inverse = 1.0 / W.f, W_0 = -inverse * W.f_0, W_1 = -inverse * W.f_1;
+  const Vector S = inverse * A.f;
+  Derivatives<Vector> r;
+  r.f = S - d;
+  r.f_0 = multiply_add(W_0, S, inverse * A.f_0);
+  r.f_1 = multiply_add(W_1, S, inverse * A.f_1);
+  r.f_00 = multiply_add(2.0 * W_0, r.f_0, inverse * multiply_add(-W.f_00, S, A.f_00));
+  r.f_01 = multiply_add(W_0, r.f_1, multiply_add(W_1, r.f_0, inverse * multiply_add(-W.f_01, S, A.f_01)));
+  r.f_11 = multiply_add(2.0 * W_1, r.f_1, inverse * multiply_add(-W.f_11, S, A.f_11));
+  return r;
+}
+
+/// Numbers of a coefficient in a row.  What is read with the three of a polynomial patch means nothing.
+template <bool Rational>
+constexpr int kStride = Rational ? 4 : 3;
+
+/// One element's surface seen from the point d: S - d.
+template <int P, int Q, bool Rational>
+struct Element {
+  using Number = double;
+  using Vector = Vector4;
+  using Mask = bool;
+  using Count = int;
+
+  /// The coefficients; the constant one is kept apart, for a polynomial patch less d.
+  struct Coefficients {
+    Vector4 constant;
+    const double* row;
+    int first;
+
+    [[gnu::always_inline]] Vector4 operator[](int k) const {
+      return first + k == 0 ? constant : load(row + 4 + kStride<Rational> * (first + k));
+    }
+    [[gnu::always_inline]] Coefficients operator+(int k) const { return {constant, row, first + k}; }
+  };
+
+  int p, q;
+  Coefficients a;
+  Vector4 d;  // from the origin
+
+  [[gnu::always_inline]] Element(int p, int q, const double* row, const Vector4& point)
+      : p(p), q(q), d(point - load(row)) {
+    a = {Rational ? load(row + 4) : load(row + 4) - d, row, 0};
+  }
+  double size() const { return a.row[3]; }
+  [[gnu::always_inline]] Derivatives<Vector4> operator()(double u, double v) const {
+    const Derivatives<Vector4> A = polynomial<P, Q, Vector4>(p, q, a, u, v);
+    if constexpr (!Rational) return A;
+    return quotient(A, Derivatives<double>{A.f[3], A.f_0[3], A.f_1[3], A.f_00[3], A.f_01[3], A.f_11[3]}, d);
+  }
+};
+
+/// The same of kLanes elements and points, one in each lane.
+template <int P, int Q, bool Rational>
+struct LaneElements {
+  using Number = Lanes;
+  using Vector = LaneVector;
+  using Mask = LaneMask;
+  using Count = LaneMask;
+  static constexpr int kCoefficients = P > 0 ? (P + 1) * (Q + 1) : (kMaxDegree + 1) * (kMaxDegree + 1);
+
+  int p, q;
+  Lanes a[4][kCoefficients];  // x, y, z, W
+  LaneVector d;
+  Lanes row_size;
+
+  [[gnu::always_inline]] LaneElements(int p, int q, const double* const* rows, const LaneVector& points)
+      : p(p), q(q) {
+    Vector4 numbers[kLanes];
+    Lanes columns[4];
+    for (int lane = 0; lane < kLanes; ++lane) numbers[lane] = load(rows[lane]);
+    transpose(numbers, columns);
+    d = points - LaneVector{columns[0], columns[1], columns[2]};
+    row_size = columns[3];
+    const int coefficients = P > 0 ? kCoefficients : (p + 1) * (q + 1);
+    for (int k = 0; k < coefficients; ++k) {
+      for (int lane = 0; lane < kLanes; ++lane) numbers[lane] = load(rows[lane] + 4 + kStride<Rational> * k);
+      transpose(numbers, columns);
+      for (int c = 0; c < kStride<Rational>; ++c) a[c][k] = columns[c];
+    }
+    if (!Rational) a[0][0] -= d.x, a[1][0] -= d.y, a[2][0] -= d.z;
+  }
+  const Lanes& size() const { return row_size; }
+  [[gnu::always_inline]] Derivatives<LaneVector> operator()(const Lanes& u, const Lanes& v) const {
+    const Derivatives<Lanes> x = polynomial<P, Q, Lanes>(p, q, a[0], u, v),
+                             y = polynomial<P, Q, Lanes>(p, q, a[1], u, v),
+                             z = polynomial<P, Q, Lanes>(p, q, a[2], u, v);
+    const Derivatives<LaneVector> A{{x.f, y.f, z.f},          {x.f_0, y.f_0, z.f_0},
+                                    {x.f_1, y.f_1, z.f_1},    {x.f_00, y.f_00, z.f_00},
+                                    {x.f_01, y.f_01, z.f_01}, {x.f_11, y.f_11, z.f_11}};
+    if constexpr (!Rational) return A;
+    return quotient(A, polynomial<P, Q, Lanes>(p, q, a[3], u, v), d);
+  }
+};
+
+template <class Number>
+struct Jet {
+  Number twice_phi, g[2], A[2], H[3];  // as in DistanceJet; A_00 and A_11
+};
+
+template <class Surface>
+[[gnu::always_inline]] inline Jet<typename Surface::Number> jet(const Surface& surface,
+                                                                const typename Surface::Number (&s)[2]) {
+  const Derivatives<typename Surface::Vector> S = surface(s[0], s[1]);
+  const typename Surface::Vector& r = S.f;
+  typename Surface::Number a[4], b[4];
+  sums({multiply_add(S.f_0, S.f_0, r * S.f_00), multiply_add(S.f_1, S.f_1, r * S.f_11),
+        multiply_add(S.f_0, S.f_1, r * S.f_01), r * S.f_0},
+       a);
+  sums({r * S.f_1, r * r, S.f_0 * S.f_0, S.f_1 * S.f_1}, b);
+  return {b[1], {a[3], b[0]}, {b[2], b[3]}, {a[0], a[2], a[1]}};
+}
+
+/// The Newton step -H^-1 g, times det H.
+template <class Number>
+[[gnu::always_inline]] inline void newton_step(const Number (&H)[3], const Number (&g)[2],
+                                               Number (&step)[2]) {
+  step[0] = multiply_add(H[1], g[1], -(H[2] * g[0]));
+  step[1] = multiply_add(H[1], g[0], -(H[0] * g[1]));
+}
+
+/// Newton's method converges quadratically: after such a step one more with the same Hessian is the last.
+constexpr double kLastStep = 1e-4;
+/// What that step leaves of the error, at most, in local coordinates; it is known from how much shorter it
+/// is.
+constexpr double kFootError = 1e-14;
+/// Steps below this may be round-off, and leave less.
+constexpr double kTiny = 1e-12;
+/// Nearer to the surface than this part of the element's size the direction of r wants more digits of the
+/// foot: the general descent finds them.
+constexpr double kClose = 1e-4;
+
+template <class Surface>
+struct Foot {
+  typename Surface::Number s[2], next[2], distance2;
+  typename Surface::Vector r;
+  typename Surface::Count iterations;
+  typename Surface::Mask done;
+};
+
+/// Newton's method from s in all lanes; a lane that needs more than full steps inside its element drops out.
+template <class Surface>
+[[gnu::always_inline]] inline Foot<Surface> newton(const Surface& surface, typename Surface::Number (&s)[2]) {
+  using Number = typename Surface::Number;
+  using Mask = typename Surface::Mask;
+  constexpr int kMaxIterations = 8;
+
+  Number step[2]{}, to[2] = {s[0], s[1]}, length{}, det{};
+  const Number size = surface.size();
+  Number twice_phi{}, allowed{};  // where the step began; what Armijo asks for where it ends
+  typename Surface::Count iterations{};
+  Mask active = larger(absolute(s[0]), absolute(s[1])) < 1.0, done{};
+  Jet<Number> f;
+  for (int iteration = 1;; ++iteration) {
+    f = jet(surface, to);
+    if (iteration > 1) {
+      const Number excess = 0.5 * f.twice_phi - allowed;
+      active = active &&
+               (excess <= 0.0 || square(excess) < twice_phi * square(kRoundOff) * (twice_phi + square(size)));
+      if (!any(active)) break;
+      s[0] = active ? to[0] : s[0];
+      s[1] = active ? to[1] : s[1];
+    }
+    twice_phi = active ? f.twice_phi : twice_phi;
+    const Number(&g)[2] = f.g, (&A)[2] = f.A, (&H)[3] = f.H;
+    Number steps[2];
+    newton_step(H, g, steps);
+    det = multiply_add(H[0], H[2], -(H[1] * H[1]));
+    for (int i = 0; i < 2; ++i) step[i] = active ? steps[i] / det : step[i];
+    to[0] = s[0] + step[0];
+    to[1] = s[1] + step[1];
+    active = active && H[0] > kLeastCurvature * A[0] && H[2] > kLeastCurvature * A[1] &&
+             det > kLeastCurvature * (H[0] * H[2]) && larger(absolute(to[0]), absolute(to[1])) < kWellInside;
+    if (!any(active)) break;
+    iterations += count(active);
+
+    // det H / (A_00 A_11) is the curvature of phi where a plane has 1.
+    length = larger(absolute(step[0]), absolute(step[1]));
+    const Mask last = length <= kLastStep && length * (A[0] * A[1]) <= kLastStep * det;
+    if (any(last)) {
+      const Number pole2 = square(kPole * size);
+      done = done || (active && last && A[0] > pole2 && A[1] > pole2);
+      active = active && !last;
+      if (!any(active)) break;
+    }
+    if (iteration == kMaxIterations) break;
+    to[0] = active ? to[0] : s[0];
+    to[1] = active ? to[1] : s[1];
+    allowed = multiply_add(kDecrease, multiply_add(g[0], step[0], g[1] * step[1]), 0.5 * f.twice_phi);
+  }
+  // Once more with the same Hessian: the error shrinks by as much as this step is shorter than the last.
+  const Number end[2] = {s[0] + step[0], s[1] + step[1]};
+  const Derivatives<typename Surface::Vector> S = surface(end[0], end[1]);
+  const Number per_det = 1.0 / det, g[2] = {dot(S.f, S.f_0), dot(S.f, S.f_1)};
+  Number more[2];
+  newton_step(f.H, g, more);
+  for (Number& m : more) m = m * per_det;
+  const Number further[2] = {end[0] + more[0], end[1] + more[1]};
+  const Number longer = larger(absolute(more[0]), absolute(more[1]));
+  done = done && twice_phi > square(kClose * size) && square(longer) <= kFootError * length + square(kTiny) &&
+         larger(absolute(further[0]), absolute(further[1])) < kWellInside;
+  const typename Surface::Vector r = multiply_add(more[1], S.f_1, multiply_add(more[0], S.f_0, S.f));
+  return {{done ? further[0] : s[0], done ? further[1] : s[1]},
+          {end[0], end[1]},
+          done ? dot(r, r) : twice_phi,
+          r,
+          iterations,
+          done};
+}
+
+template <int P, int Q, bool Rational>
+[[gnu::always_inline]] inline void transform_net(int p, int q, const ElementKernel::Matrix* M0,
+                                                 const ElementKernel::Matrix* M1, const ElementNet& net,
+                                                 Vector4* out) {
+  constexpr double kFourth[] = {0.0, 0.0, 0.0, 1.0};
+  const Vector4 origin = load3(net.origin), fourth = load(kFourth);
+  Vector4 half[P > 0 ? (P + 1) * (Q + 1) : (kMaxDegree + 1) * (kMaxDegree + 1)];
+  for (int j = 0; j <= q; ++j) {
+    Vector4 row[(P > 0 ? P : kMaxDegree) + 1];
+    for (int i = 0; i <= p; ++i) {
+      const int c = i + net.stride * j;
+      row[i] = load3(net.points + 3 * c) - origin;
+      if (Rational) row[i] = net.weights[c] * (row[i] + fourth);
+    }
+    for (int k = 0; k <= p; ++k) {
+      Vector4 sum = M0[k][0] * row[0];
+      for (int i = 1; i <= p; ++i) sum = multiply_add(M0[k][i], row[i], sum);
+      half[k + (p + 1) * j] = sum;
+    }
+  }
+  for (int l = 0; l <= q; ++l)
+    for (int k = 0; k <= p; ++k) {
+      Vector4 sum = M1[l][0] * half[k];
+      for (int j = 1; j <= q; ++j) sum = multiply_add(M1[l][j], half[k + (p + 1) * j], sum);
+      out[k + (p + 1) * l] = sum;
+    }
+}
+
+template <int P, int Q, bool Rational>
+void transform(int p_given, int q_given, const ElementKernel::Matrix* M0, const ElementKernel::Matrix* M1,
+               const ElementNet& net, double* out) {
+  const int p = P > 0 ? P : p_given, q = Q > 0 ? Q : q_given;
+  Vector4 a[P > 0 ? (P + 1) * (Q + 1) : (kMaxDegree + 1) * (kMaxDegree + 1)];
+  transform_net<P, Q, Rational>(p, q, M0, M1, net, a);
+  for (int k = 0; k < (p + 1) * (q + 1); ++k) store(a[k], out + 4 * k);
+}
+
+template <int P, int Q, bool Rational>
+void build(int p_given, int q_given, const ElementKernel::Matrix* M0, const ElementKernel::Matrix* M1,
+           const ElementNet& net, double* row) {
+  const int p = P > 0 ? P : p_given, q = Q > 0 ? Q : q_given;
+  Vector4 a[P > 0 ? (P + 1) * (Q + 1) : (kMaxDegree + 1) * (kMaxDegree + 1)];
+  transform_net<P, Q, Rational>(p, q, M0, M1, net, a);
+  Vector4 extent = absolute(a[0]);
+  for (int k = 1; k < (p + 1) * (q + 1); ++k) extent = extent + absolute(a[k]);
+  const double size = extent[0] + extent[1] + extent[2];
+  store(load3(net.origin), row);
+  row[3] = Rational ? size / a[0][3] : size;
+  for (int k = 0; k < (p + 1) * (q + 1); ++k) store(a[k], row + 4 + kStride<Rational> * k);
+}
+
+template <int P, int Q, bool Rational>
+void evaluate(int p, int q, const double* element, const double (&s)[2], const double (&d)[3],
+              DistanceJet& out) {
+  const Element<P, Q, Rational> surface(p, q, element, load3(d));
+  const Derivatives<Vector4> S = surface(s[0], s[1]);
+  const Vector4& r = S.f;
+  const double metric[] = {dot(S.f_0, S.f_0), dot(S.f_0, S.f_1), dot(S.f_1, S.f_1)},
+               bend[] = {dot(r, S.f_00), dot(r, S.f_01), dot(r, S.f_11)};
+  out.phi = 0.5 * dot(r, r);
+  out.gradient[0] = dot(r, S.f_0), out.gradient[1] = dot(r, S.f_1);
+  for (int i = 0; i < 3; ++i) {
+    out.metric[i] = metric[i], out.hessian[i] = metric[i] + bend[i];
+    out.r[i] = r[i], out.S_i[0][i] = S.f_0[i], out.S_i[1][i] = S.f_1[i];
+  }
+}
+
+template <int P, int Q, bool Rational>
+void newton(int p, int q, const double* element, const double* point, double s0, double s1, NewtonEnd& end) {
+  const Vector4 d = load3(point);
+  const Element<P, Q, Rational> surface(p, q, element, d);
+  double s[2] = {s0, s1};
+  const auto foot = newton(surface, s);
+  store(with_fourth(d + foot.r, __builtin_sqrt(foot.distance2)), end.foot);  // and the distance
+  for (int i = 0; i < 2; ++i) end.s[i] = foot.s[i], end.next[i] = foot.next[i];
+  end.iterations = foot.iterations;
+  end.done = foot.done;
+}
+
+template <int P, int Q, bool Rational>
+void newton_batch(int p, int q, NewtonBatch& batch) {
+  for (int k = batch.count; k % kLanes != 0; ++k) {  // lanes not used repeat the first point
+    batch.element[k] = batch.element[0], batch.d[k] = batch.d[0];
+    for (int i = 0; i < 2; ++i) batch.s[i][k] = batch.s[i][0];
+  }
+  for (int first = 0; first < batch.count; first += kLanes) {
+    Vector4 points[kLanes];
+    Lanes d[4];
+    for (int lane = 0; lane < kLanes; ++lane) points[lane] = load3(batch.d[first + lane]);
+    transpose(points, d);
+    const LaneElements<P, Q, Rational> surface(p, q, batch.element + first, {d[0], d[1], d[2]});
+    Lanes s[2] = {load_lanes(batch.s[0] + first), load_lanes(batch.s[1] + first)};
+    const auto foot = newton(surface, s);
+    store(foot.done, batch.done + first);
+    store(foot.iterations, batch.iterations + first);
+    for (int i = 0; i < 2; ++i)
+      store(foot.s[i], batch.s[i] + first), store(foot.next[i], batch.next[i] + first);
+    store(d[0] + foot.r.x, batch.foot[0] + first);
+    store(d[1] + foot.r.y, batch.foot[1] + first);
+    store(d[2] + foot.r.z, batch.foot[2] + first);
+    store(root(foot.distance2), batch.distance + first);
+  }
+}
+
+template <int P, int Q, bool Rational>
+ElementKernel kernel(int p, int q) {
+  return {p,
+          q,
+          transform<P, Q, Rational>,
+          build<P, Q, Rational>,
+          evaluate<P, Q, Rational>,
+          newton<P, Q, Rational>,
+          newton_batch<P, Q, Rational>};
+}
+
+template <bool Rational>
+ElementKernel kernel_of_degrees(int p, int q) {
+  if (p == 2 && q == 2) return kernel<2, 2, Rational>(p, q);
+  if (p == 3 && q == 3) return kernel<3, 3, Rational>(p, q);
+  return kernel<0, 0, Rational>(p, q);
+}
+
+}  // namespace
+
+namespace NURBS_SIMD_LEVEL {
+ElementKernel element_kernel(int p, int q, bool rational);
+ElementKernel element_kernel(int p, int q, bool rational) {
+  return rational ? kernel_of_degrees<true>(p, q) : kernel_of_degrees<false>(p, q);
+}
+}  // namespace NURBS_SIMD_LEVEL
+
+}  // namespace nurbs

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Feet of many particles from step to step, on walls whose feet are known in closed form: more at a time than
+// a block holds, several branches each, at kinks and at periodic images.
+#include "coupling/contact/contact_tracker.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "nurbs/primitives.h"
+
+namespace contact {
+namespace {
+
+using nurbs::Vector3;
+
+nurbs::Surface plate(const Vector3& origin, const Vector3& u, const Vector3& v) {
+  return nurbs::plane(origin, u, v, {nurbs::KnotVector::uniform(2, 8), nurbs::KnotVector::uniform(2, 4)});
+}
+
+// A wall that stands, particles around it, and what the fix keeps of each.
+class Scene {
+ public:
+  Scene(const std::vector<nurbs::Surface>& patches, std::vector<Vector3> centres, double touch, double list,
+        std::vector<Vector3> images = {Vector3::Zero()}, int slot_count = 2)
+      : surface_(nurbs::join(patches)),
+        projector_(surface_.topology),
+        regularity_(surface_.topology),
+        search_(SearchMethod::newton, projector_),
+        tracker_(search_, regularity_, candidates_),
+        centres_(std::move(centres)),
+        touch_(touch),
+        list_(list) {
+    projector_.set_control_points(surface_.control_points);
+    regularity_.set_control_points(surface_.control_points);
+    candidates_.set_surface(surface_.topology, surface_.control_points);
+    values_.assign(slot_count,
+                   std::vector<std::array<double, 3>>(centres_.size(), {ContactSlot::kEmpty, 0, 0}));
+    rows_.resize(slot_count);
+    for (int s = 0; s < slot_count; ++s) {
+      for (auto& value : values_[s]) rows_[s].push_back(value.data());
+      slots_.push_back(rows_[s].data());
+    }
+    std::vector<double*> x;
+    for (Vector3& centre : centres_) x.push_back(centre.data());
+    const std::vector<double> reach(centres_.size(), list_);
+    candidates_.build({}, images, {static_cast<int>(x.size()), x.data(), reach.data()});
+    tracker_.list_is_new();
+  }
+
+  std::vector<Vector3>& centres() { return centres_; }
+  ContactMemory memory(int particle) { return {slots_, particle, 0}; }
+  const LocalSearch& search() const { return search_; }
+
+  /// One step as the fix makes it, `block` candidates at a time: take(particle, its feet).  Feet that touch
+  /// get a slot.
+  template <class Take>
+  void step(int block, const Take& take) {
+    tracker_.begin_step(0.0);
+    const std::vector<Candidate>& all = candidates_.candidates();
+    ASSERT_EQ(all.size(), centres_.size());
+    std::vector<ContactTracker::Query> queries;
+    for (size_t c = 0; c < all.size(); ++c) {
+      queries.push_back({static_cast<int>(c), centres_[all[c].particle], touch_, list_});
+      if (queries.size() < static_cast<size_t>(block) && c + 1 < all.size()) continue;
+      tracker_.follow(queries.data(), static_cast<int>(queries.size()));
+      for (const ContactTracker::Query& query : queries) resolve(query, take);
+      queries.clear();
+    }
+  }
+
+ private:
+  template <class Take>
+  void resolve(const ContactTracker::Query& query, const Take& take) {
+    const int particle = candidates_.candidates()[query.candidate].particle;
+    const ContactMemory slots = memory(particle);
+    const FeetRange feet = tracker_.feet(query, slots);
+    for (TrackedFoot& tracked : feet) {
+      if (tracked.foot.distance > touch_) {
+        if (tracked.slot >= 0) slots.slot(tracked.slot).clear();
+        tracked.slot = -1;
+        continue;
+      }
+      if (tracked.slot < 0) tracked.slot = slots.empty_slot();
+      slots.slot(tracked.slot).set_foot(tracked.foot.at(), 0);
+    }
+    take(particle, feet);
+  }
+
+  nurbs::PatchedSurface surface_;
+  nurbs::MultiPatchProjector projector_;
+  nurbs::Regularity regularity_;
+  CandidateList candidates_;
+  LocalSearch search_;
+  ContactTracker tracker_;
+  std::vector<Vector3> centres_;
+  double touch_, list_;
+  std::vector<std::vector<std::array<double, 3>>> values_;
+  std::vector<std::vector<double*>> rows_;
+  std::vector<double**> slots_;
+};
+
+// Between two plates each particle has two feet, and each keeps its slot, whatever the size of the block: 300
+// feet are more than are followed at a time, from 63 on to 65 around that number itself.
+TEST(ContactTracker, FollowsTwoBranchesOfManyParticles) {
+  constexpr double kGap = 0.5;
+  for (const auto& [particles, block] :
+       {std::pair(150, 64), std::pair(150, 150), std::pair(31, 64), std::pair(32, 32), std::pair(33, 64),
+        std::pair(64, 64), std::pair(65, 65), std::pair(1, 1)}) {
+    SCOPED_TRACE(testing::Message() << particles << " particles by " << block);
+    std::vector<Vector3> centres;
+    for (int k = 0; k < particles; ++k)
+      centres.emplace_back(-2.0 + 0.3 * (k % 15), -1.5 + 0.3 * (k / 15), 0.1 * std::sin(k));
+    Scene scene({plate({-4, -3, -kGap}, {8, 0, 0}, {0, 6, 0}), plate({-4, -3, kGap}, {8, 0, 0}, {0, 6, 0})},
+                centres, 0.7, 0.9);
+    for (int step = 0; step < 12; ++step) {
+      int seen = 0;
+      scene.step(block, [&](int particle, const FeetRange& feet) {
+        const Vector3& d = scene.centres()[particle];
+        ASSERT_EQ(feet.count, 2) << "particle " << particle << ", step " << step;
+        for (const TrackedFoot& tracked : feet) {
+          const double z = tracked.foot.patch == 0 ? -kGap : kGap;
+          EXPECT_LT((tracked.foot.foot - Vector3(d[0], d[1], z)).norm(), 1e-13)
+              << particle << ", step " << step;
+          EXPECT_NEAR(tracked.foot.distance, std::abs(z - d[2]), 1e-13);
+          ASSERT_GE(tracked.slot, 0);
+          EXPECT_EQ(scene.memory(particle).slot(tracked.slot).foot().patch, tracked.foot.patch);
+        }
+        EXPECT_NE(feet.first[0].slot, feet.first[1].slot);
+        ++seen;
+      });
+      EXPECT_EQ(seen, particles);
+      // All feet were found once by a search of all candidates, then followed.
+      EXPECT_EQ(scene.search().counts().cold, 2 * particles);
+      for (int k = 0; k < particles; ++k)
+        scene.centres()[k] += 0.05 * Vector3(std::cos(k), std::sin(2.0 * k), 0.2 * std::sin(step));
+    }
+  }
+}
+
+// A trough of two plates, steep on the left: beside the kink feet are found anew in each step, and the slot
+// goes with its side; out of reach it is given back.
+TEST(ContactTracker, SlotsStayWithTheirSideOfAKink) {
+  const double slope = 0.5;  // right side z = x / 2; left side z = -2 x
+  const std::vector<nurbs::Surface> trough = {plate({-1, -1, 2}, {1, 0, -2}, {0, 2, 0}),
+                                              plate({0, -1, 0}, {2, 0, 1}, {0, 2, 0})};
+  const Vector3 normals[2] = {Vector3(2, 0, 1).normalized(), Vector3(-slope, 0, 1).normalized()};
+  std::vector<Vector3> centres;
+  for (int k = 0; k < 40; ++k) centres.emplace_back(0.0, -0.6 + 0.03 * k, 0.2);
+  Scene scene(trough, centres, 0.3, 0.5);
+  int slot_of[2] = {-1, -1};
+  for (int step = 0; step < 60; ++step) {
+    // Up the right side, out of reach of the left one, and back.
+    const double along = 0.25 * (1.0 - std::cos(2.0 * M_PI * step / 50.0)) + 0.05;
+    for (Vector3& centre : scene.centres()) {
+      const double y = centre[1];
+      centre = along * Vector3(2, 0, 1).normalized() + 0.15 * normals[1];
+      centre[1] = y;
+    }
+    scene.step(64, [&](int particle, const FeetRange& feet) {
+      const Vector3& d = scene.centres()[particle];
+      int touching = 0;
+      for (const TrackedFoot& tracked : feet) {
+        const int side = tracked.foot.patch;
+        const double height = d.dot(normals[side]);
+        EXPECT_NEAR(tracked.foot.distance, height, 1e-13);
+        EXPECT_LT((tracked.foot.foot - (d - height * normals[side])).norm(), 1e-13);
+        if (tracked.slot < 0) continue;
+        ++touching;
+        if (particle > 0) continue;
+        EXPECT_TRUE(slot_of[side] < 0 || tracked.slot == slot_of[side]) << "step " << step;
+      }
+      const bool left = d.dot(normals[0]) <= 0.3;
+      EXPECT_EQ(touching, left ? 2 : 1) << "particle " << particle << ", step " << step;
+      int used = 0;
+      for (int s = 0; s < 2; ++s) used += !scene.memory(particle).slot(s).empty();
+      EXPECT_EQ(used, touching);
+      if (particle > 0) return;
+      for (const TrackedFoot& tracked : feet) slot_of[tracked.foot.patch] = tracked.slot;
+      if (!left) slot_of[0] = -1;
+    });
+  }
+}
+
+// In the trough z = x^2 a particle above the centre of curvature (0, 1/2) has a foot on each side; as it
+// sinks they grow together, and one of their slots is given back.
+TEST(ContactTracker, BranchesGrowTogether) {
+  nurbs::Surface trough = plate({-2, -2, 0}, {4, 0, 0}, {0, 4, 0});
+  const std::vector<double> u = trough.space.knots(0).greville();
+  for (Eigen::Index a = 0; a < trough.control_points.cols(); ++a) {
+    // Of x^2 on uniform parabolas: the product of the two knots that a Greville abscissa is the mean of.
+    const int i = static_cast<int>(a % static_cast<Eigen::Index>(u.size()));
+    const std::vector<double>& t = trough.space.knots(0).knots();
+    trough.control_points(2, a) = (4.0 * t[i + 1] - 2.0) * (4.0 * t[i + 2] - 2.0);
+  }
+  for (const double image : {0.0, -20.0})  // the wall itself, or a copy of it below
+    for (const bool rises : {false, true}) {
+      const Vector3 shift(0, 0, image);
+      const double from = rises ? 0.33 : 1.08, way = rises ? 0.05 : -0.05;
+      Scene scene({trough}, {Vector3(0, 0.1, from) + shift, Vector3(0, 0.3, from) + shift}, 1.2, 1.4,
+                  {shift});
+      for (int step = 0; step < 16; ++step) {
+        const double z = from + way * step;
+        for (Vector3& centre : scene.centres()) centre[2] = z + image;
+        scene.step(64, [&](int particle, const FeetRange& feet) {
+          SCOPED_TRACE(testing::Message() << "particle " << particle << " at " << z << ", image " << image);
+          ASSERT_EQ(feet.count, z > 0.5 ? 2 : 1);
+          const double x2 = std::max(z - 0.5, 0.0);
+          for (const TrackedFoot& tracked : feet)
+            EXPECT_NEAR(tracked.foot.distance, std::sqrt(x2 + (z - x2) * (z - x2)), 1e-9);
+          int used = 0;
+          for (int s = 0; s < 2; ++s) used += !scene.memory(particle).slot(s).empty();
+          EXPECT_EQ(used, feet.count);
+        });
+      }
+    }
+}
+
+// A saw of period 1: ridges in the middle of the wall, valleys where it meets its own image.  In a valley one
+// foot is on each; above a ridge and above a valley's end each minimum counts once, though two images have
+// it.
+TEST(ContactTracker, FeetOfImagesAtEdgesAndKinks) {
+  const std::vector<nurbs::Surface> saw = {plate({-0.5, -1, 0}, {0.5, 0, 0.5}, {0, 2, 0}),
+                                           plate({0, -1, 0.5}, {0.5, 0, -0.5}, {0, 2, 0})};
+  const Vector3 period(1, 0, 0);
+  std::vector<Vector3> centres;
+  for (int k = 0; k < 30; ++k) centres.emplace_back(0.5 + 0.002 * (k - 15), -0.6 + 0.04 * k, 0.2);
+  for (int k = 0; k < 30; ++k) centres.emplace_back(-0.5 + 0.002 * (k - 15), -0.6 + 0.04 * k, 0.2);
+  for (int k = 0; k < 30; ++k) centres.emplace_back(0.002 * (k - 15), -0.6 + 0.04 * k, 0.7);
+  Scene scene(saw, centres, 0.25, 0.35, {Vector3::Zero(), period, -period});
+  std::vector<std::array<int, 2>> slots(60, {-1, -1});
+  for (int step = 0; step < 10; ++step) {
+    scene.step(64, [&](int particle, const FeetRange& feet) {
+      const Vector3& d = scene.centres()[particle];
+      SCOPED_TRACE(testing::Message() << "particle " << particle << ", step " << step);
+      if (particle >= 60) {
+        ASSERT_EQ(feet.count, 1);
+        EXPECT_LT((feet.first->foot.foot - Vector3(0, d[1], 0.5)).norm(), 1e-13);
+        return;
+      }
+      ASSERT_EQ(feet.count, 2);
+      const double valley = particle < 30 ? 0.5 : -0.5;
+      for (const TrackedFoot& tracked : feet) {
+        // The falling side is left of the valley, the rising one right.
+        const bool falling = tracked.foot.patch == 1;
+        const Vector3 normal = Vector3(falling ? 1 : -1, 0, 1).normalized();
+        const double height = (d - Vector3(valley, 0, 0)).dot(normal);
+        EXPECT_NEAR(tracked.foot.distance, height, 1e-13);
+        EXPECT_LT((tracked.foot.foot - (d - height * normal)).norm(), 1e-13);
+        EXPECT_EQ(tracked.foot.image,
+                  falling ? Vector3((valley - 0.5) * period) : Vector3((valley + 0.5) * period));
+        ASSERT_GE(tracked.slot, 0);
+        EXPECT_TRUE(step == 0 || tracked.slot == slots[particle][tracked.foot.patch]);
+        slots[particle][tracked.foot.patch] = tracked.slot;
+      }
+      EXPECT_NE(slots[particle][0], slots[particle][1]);
+    });
+    for (Vector3& centre : scene.centres()) centre += 0.002 * Vector3(std::sin(step), 1.0, 0.0);
+  }
+}
+
+}  // namespace
+}  // namespace contact

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// All instruction sets of this machine find the same feet, one point at a time or several.
+#include "search/simd_level.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "search/surface_projector.h"
+#include "trial_surfaces.h"
+
+namespace nurbs::trials {
+namespace {
+
+std::vector<SimdLevel> levels() {
+  std::vector<SimdLevel> found;
+  for (const SimdLevel level : {SimdLevel::portable, SimdLevel::avx2, SimdLevel::avx512})
+    if (available(level)) found.push_back(level);
+  return found;
+}
+
+// Sets the variable that names the level for as long as it lives.
+class Wanted {
+ public:
+  explicit Wanted(const char* level) {
+    const char* before = std::getenv(kName);
+    if (before != nullptr) before_ = before;
+    had_ = before != nullptr;
+    setenv(kName, level, 1);
+  }
+  ~Wanted() { had_ ? setenv(kName, before_.c_str(), 1) : unsetenv(kName); }
+
+ private:
+  static constexpr const char* kName = "LIGGGHTS_NURBS_SIMD";
+  std::string before_;
+  bool had_;
+};
+
+struct Query {
+  Vector3 d;
+  Parameter<2> guess;
+};
+
+// Near the surface and far from it, above edges, corners and knot lines, guesses up to two elements off.
+std::vector<Query> queries(shapes::Random& random, const TrialSurface& trial, int count) {
+  SurfaceProjector projector(trial.surface.space);
+  projector.set_control_points(trial.surface.control_points);
+  std::vector<Query> result(count);
+  constexpr double kOff[] = {0.0, 0.01, 0.2, 2.0};
+  for (int k = 0; k < count; ++k) {
+    result[k].d = random_point(random, trial, static_cast<Place>(k % kPlaces));
+    const Parameter<2> foot = projector.cold(result[k].d).xi;
+    result[k].guess = guess_beside(random, trial.surface.space, foot, kOff[k % 4]);
+  }
+  return result;
+}
+
+// To the last bit: the same turns at every decision, whatever the neighbours in a word do.
+TEST(SimdLevel, BatchesFindTheFeetOfSinglePoints) {
+  int points = 0, inside = 0;
+  for (int k = 0; k < 240; ++k) {
+    std::seed_seq seeds{41, k};
+    shapes::Random random(seeds);
+    const TrialSurface trial = random_surface(random, static_cast<Family>(k % kFamilies));
+    const std::vector<Query> given = queries(random, trial, 17 + k % 9);  // no multiple of a word
+    std::vector<Vector3> d;
+    std::vector<Parameter<2>> guesses;
+    for (const Query& query : given) d.push_back(query.d), guesses.push_back(query.guess);
+    for (const SimdLevel level : levels()) {
+      SurfaceProjector projector(trial.surface.space, level);
+      projector.set_control_points(trial.surface.control_points);
+      std::vector<Projection> batch(given.size());
+      projector.warm_batch(d.data(), guesses.data(), static_cast<int>(d.size()), batch.data());
+      for (size_t i = 0; i < given.size(); ++i) {
+        const Projection one = projector.warm(d[i], guesses[i]);
+        SCOPED_TRACE(testing::Message() << name(level) << ", surface " << k << ", point " << i);
+        EXPECT_EQ(batch[i].status, one.status);
+        EXPECT_EQ(batch[i].iterations, one.iterations);
+        EXPECT_EQ(batch[i].foot, one.foot);
+        EXPECT_EQ(batch[i].distance, one.distance);
+        EXPECT_EQ(batch[i].xi, one.xi);
+        ++points, inside += one.status == ProjectionStatus::interior;
+      }
+    }
+  }
+  EXPECT_GT(inside, points / 3);
+  EXPECT_LT(inside, points);
+}
+
+TEST(SimdLevel, LevelsAgree) {
+  for (int k = 0; k < 240; ++k) {
+    std::seed_seq seeds{42, k};
+    shapes::Random random(seeds);
+    const TrialSurface trial = random_surface(random, static_cast<Family>(k % kFamilies));
+    SurfaceProjector portable(trial.surface.space, SimdLevel::portable);
+    portable.set_control_points(trial.surface.control_points);
+    for (const SimdLevel level : levels()) {
+      SurfaceProjector projector(trial.surface.space, level);
+      projector.set_control_points(trial.surface.control_points);
+      for (const Query& query : queries(random, trial, 12)) {
+        const Projection expected = portable.cold(query.d), found = projector.cold(query.d);
+        SCOPED_TRACE(testing::Message() << name(level) << ", surface " << k);
+        EXPECT_NEAR(found.distance, expected.distance, 1e-10 * trial.element + 1e-13 * expected.distance);
+      }
+    }
+  }
+}
+
+TEST(SimdLevel, TheEnvironmentChooses) {
+  for (const SimdLevel level : levels()) {
+    const Wanted wanted(name(level));
+    EXPECT_EQ(simd_level(), level);
+  }
+  EXPECT_TRUE(available(SimdLevel::portable));
+}
+
+TEST(SimdLevel, OtherNamesAreRefused) {
+  const Wanted wanted("sse9");
+  try {
+    simd_level();
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_THAT(error.what(), testing::HasSubstr("\"sse9\", expected portable, avx2 or avx512"));
+  }
+}
+
+}  // namespace
+}  // namespace nurbs::trials

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// SurfaceProjector and its elements against the basis functions, the judge and dense samples.
+#include "search/surface_projector.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "distance_bound.h"
+#include "nurbs/shapes.h"
+
+namespace nurbs {
+namespace {
+
+Vector3 random_point(shapes::Random& random) {
+  return {shapes::uniform(random, -0.3, 1.3), shapes::uniform(random, -0.3, 1.3),
+          shapes::uniform(random, -0.6, 0.6)};
+}
+
+std::vector<int> all_elements(const Surface& surface) {
+  std::vector<int> elements(surface.space.element_count());
+  std::iota(elements.begin(), elements.end(), 0);
+  return elements;
+}
+
+void expect_on_surface(const Surface& surface, const Vector3& d, const Projection& p) {
+  EXPECT_NE(p.status, ProjectionStatus::not_converged);
+  EXPECT_NEAR((interpolate(surface.space, surface.control_points, p.xi) - p.foot).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((p.foot - d).norm(), p.distance, 1e-14);
+}
+
+// Gradient, metric and Hessian of the power form are those of the basis functions, in all degrees.
+TEST(SurfaceProjector, PowerFormIsTheSurface) {
+  shapes::Random random(21);
+  for (int k = 0; k < 40; ++k) {
+    const Surface surface = shapes::random_patch<2>(random, 5, 3, k % 2 == 1);
+    ElementStore elements(surface.space);
+    elements.set_control_points(surface.control_points);
+    const Indices<2> e = {k % 3, k % 2};
+    const int local[2] = {e[0], e[1]};
+    const double s[2] = {shapes::uniform(random, -1, 1), shapes::uniform(random, -1, 1)};
+    const Vector3 d = random_point(random);
+    const ElementStore::Element element = elements.element(local);
+    DistanceJet jet;
+    elements.kernel().evaluate(elements.kernel().p, elements.kernel().q, element.row, s, {d[0], d[1], d[2]},
+                               jet);
+
+    Parameter<2> xi;
+    double h[2];
+    for (int i = 0; i < 2; ++i) {
+      xi[i] = elements.axis(i, e[i]).parameter(s[i]);
+      h[i] = elements.axis(i, e[i]).half_width;
+    }
+    RationalBasis<2> basis;
+    evaluate_on_element(surface.space, surface.space.element_index(e), xi, 2, basis);
+    Vector3 r = interpolate(basis, surface.control_points) - d, S_i[2], S_ij[3];
+    for (auto* S : {&S_i[0], &S_i[1], &S_ij[0], &S_ij[1], &S_ij[2]}) S->setZero();
+    for (int a = 0; a < basis.count; ++a) {
+      const Vector3 P = surface.control_points.col(basis.control_point[a]);
+      for (int i = 0; i < 2; ++i) S_i[i] += h[i] * basis.dR[i][a] * P;
+      for (int ij = 0; ij < 3; ++ij) S_ij[ij] += h[ij / 2] * h[(ij + 1) / 2] * basis.d2R[ij][a] * P;
+    }
+    EXPECT_NEAR(jet.phi, 0.5 * r.squaredNorm(), 1e-12);
+    for (int i = 0; i < 2; ++i) EXPECT_NEAR(jet.gradient[i], r.dot(S_i[i]), 1e-11);
+    for (int ij = 0; ij < 3; ++ij) {
+      const double metric = S_i[ij / 2].dot(S_i[(ij + 1) / 2]);
+      EXPECT_NEAR(jet.metric[ij], metric, 1e-10);
+      EXPECT_NEAR(jet.hessian[ij], metric + r.dot(S_ij[ij]), 1e-10);
+    }
+  }
+}
+
+// Nothing the judge finds, and nothing on a dense grid, is nearer than a cold result.
+TEST(SurfaceProjector, ColdIsTheNearest) {
+  shapes::Random random(22);
+  for (int k = 0; k < 40; ++k) {
+    Surface surface = shapes::random_patch<2>(random, 5, 1 + k % 4, k % 3 > 0);
+    if (k % 10 == 4)  // a pole
+      for (int i = 0; i < surface.space.control_point_count(0); ++i)
+        surface.control_points.col(i) = surface.control_points.col(0);
+    SurfaceProjector projector(surface.space);
+    projector.set_control_points(surface.control_points);
+    const judge::DistanceBound bound(surface);
+    const std::vector<int> elements = all_elements(surface);
+    for (int trial = 0; trial < 5; ++trial) {
+      const Vector3 d = random_point(random);
+      const Projection cold = projector.cold(d);
+      expect_on_surface(surface, d, cold);
+      const judge::Nearest least = bound.nearest(d, {cold.xi, cold.distance, 0}, 1e-9);
+      EXPECT_LE(cold.distance, least.distance * (1 + 1e-9) + bound.round_off());
+      double grid = cold.distance;
+      for (int sample = 0; sample < 400; ++sample)
+        grid = std::min(grid, (interpolate(surface.space, surface.control_points,
+                                           shapes::random_parameter(random, surface.space)) -
+                               d)
+                                  .norm());
+      EXPECT_LE(cold.distance, grid * (1 + 1e-9));
+      const Projection candidates = projector.cold_on(d, elements.data(), static_cast<int>(elements.size()));
+      EXPECT_NEAR(candidates.distance, cold.distance, 1e-9 * cold.distance);
+      const Projection nearest = projector.nearest(d, shapes::random_parameter(random, surface.space));
+      EXPECT_NEAR(nearest.distance, cold.distance, 1e-9 * cold.distance);
+    }
+  }
+}
+
+// Every minimum that warm starts from everywhere run into is listed, once, the nearest first.
+TEST(SurfaceProjector, AllMinimaHoldsEveryWarmResult) {
+  shapes::Random random(23);
+  std::vector<Projection> minima;
+  for (int k = 0; k < 20; ++k) {
+    const Surface surface = shapes::random_patch<2>(random, 4, 1 + k % 3, k % 2 > 0);
+    SurfaceProjector projector(surface.space);
+    projector.set_control_points(surface.control_points);
+    const Vector3 d = random_point(random);
+    const double nearest = projector.cold(d).distance, reach = 1.5 * nearest;
+    projector.all_minima(d, reach, minima);
+    ASSERT_FALSE(minima.empty());
+    EXPECT_NEAR(minima[0].distance, nearest, 1e-9 * nearest);
+    for (size_t i = 1; i < minima.size(); ++i) {
+      EXPECT_GE(minima[i].distance, minima[i - 1].distance);
+      EXPECT_GT((minima[i].foot - minima[i - 1].foot).norm(), 1e-8);
+    }
+    for (int trial = 0; trial < 60; ++trial) {
+      const Projection warm = projector.warm(d, shapes::random_parameter(random, surface.space));
+      expect_on_surface(surface, d, warm);
+      if (warm.distance > reach * (1 - 1e-9)) continue;
+      EXPECT_TRUE(std::any_of(minima.begin(), minima.end(),
+                              [&](const Projection& p) { return (p.foot - warm.foot).norm() < 1e-6; }))
+          << "d = " << d.transpose() << ", distance " << warm.distance;
+    }
+  }
+}
+
+// Elements and boxes follow the control points; a shift moves the feet and nothing else.
+TEST(SurfaceProjector, FollowsMovedControlPoints) {
+  shapes::Random random(24);
+  const Surface hills =
+      shapes::random_hills(random, {KnotVector::uniform(2, 8), KnotVector::uniform(3, 8)}, 0.1, true);
+  SurfaceProjector projector(hills.space);
+  projector.set_control_points(hills.control_points);
+  const Vector3 d(0.4, 0.6, 0.3), shift(512.0, -1024.0, 256.0);
+  const Projection before = projector.cold(d);
+  projector.set_control_points(hills.control_points.colwise() + shift);
+  for (const Projection& p : {projector.cold(d + shift), projector.warm(d + shift, before.xi)}) {
+    EXPECT_NEAR(p.distance, before.distance, 1e-12);
+    EXPECT_NEAR((p.foot - shift - before.foot).norm(), 0.0, 1e-11);
+  }
+}
+
+TEST(SurfaceProjector, WrongArguments) {
+  shapes::Random random(25);
+  const Surface hills =
+      shapes::random_hills(random, {KnotVector::uniform(2, 2), KnotVector::uniform(2, 2)}, 0.1, false);
+  SurfaceProjector projector(hills.space);
+  const int first = 0;
+  EXPECT_THROW(projector.warm({0, 0, 0}, {0.5, 0.5}), std::logic_error);
+  EXPECT_THROW(projector.cold({0, 0, 0}), std::logic_error);
+  EXPECT_THROW(projector.cold_on({0, 0, 0}, &first, 1), std::logic_error);
+  EXPECT_THROW(projector.set_control_points(NodalVectors::Zero(3, 5)), std::invalid_argument);
+  projector.set_control_points(hills.control_points);
+  EXPECT_THROW(projector.cold_on({0, 0, 0}, nullptr, 0), std::invalid_argument);
+  const Projection p = projector.cold({0, 0, std::nan("")});
+  EXPECT_EQ(p.status, ProjectionStatus::not_converged);
+}
+
+}  // namespace
+}  // namespace nurbs
