@@ -3,8 +3,11 @@
 
 from __future__ import annotations
 
+from prelude import INTEGRATION, Prelude, create
+
 RADIUS = 1e-3
 DENSITY = 2480.0
+BOX = "-0.02 0.02 -0.02 0.02 -0.005 0.02"
 
 BLOCK = """
 units: {units}
@@ -34,10 +37,8 @@ def block(
     )
 
 
-def prelude(
+def settings(
     *,
-    balls=((0.0, 0.0, RADIUS),),
-    velocity=(0.0, 0.0, -1.0),
     ball=(5e9, 0.3),
     wall=(5e9, 0.3),
     restitution=1.0,
@@ -46,33 +47,24 @@ def prelude(
     models="model hertz tangential no_history",
     units="si",
     processors="* * *",
-) -> str:
-    """A deck up to, but without, `fix wall`; atom type 1 is the ball, type 2 the wall."""
-    atoms = "\n".join(f"create_atoms 1 single {x!r} {y!r} {z!r} units box" for x, y, z in balls)
+) -> Prelude:
+    """Atom type 1 is the ball, type 2 the wall."""
     # LIGGGHTS wants hard_particles for E > 1e9 Pa in SI
-    return f"""
-units {units}
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-processors {processors}
-region box block -0.02 0.02 -0.02 0.02 -0.005 0.02 units box
-create_box 2 box
-neighbor 0.0002 bin
-hard_particles yes
-fix m1 all property/global youngsModulus peratomtype {ball[0]!r} {wall[0]!r}
-fix m2 all property/global poissonsRatio peratomtype {ball[1]!r} {wall[1]!r}
-fix m3 all property/global coefficientRestitution peratomtypepair 2 {restitution} {restitution} {restitution} {restitution}
-fix m4 all property/global coefficientFriction peratomtypepair 2 {friction} {friction} {friction} {friction}
-pair_style gran {models}
-pair_coeff * *
-timestep {timestep!r}
-{atoms}
-set group all diameter {2 * RADIUS} density {DENSITY}
+    return Prelude(
+        BOX, E=(ball[0], wall[0]), nu=(ball[1], wall[1]), e=restitution, mu=friction, models=models, timestep=timestep,
+        units=units, processors=processors, particles="hard",
+    )
+
+
+def prelude(*, balls=((0.0, 0.0, RADIUS),), velocity=(0.0, 0.0, -1.0), restart="", **words) -> str:
+    """A deck up to, but without, `fix wall`, or one that continues from the file `restart`; further words as for `settings`."""
+    start = settings(**words)
+    return (start.again(restart) if restart else start.text() + thrown(balls, velocity)) + INTEGRATION
+
+
+def thrown(centres, velocity) -> str:
+    return f"""{create(*centres)}set group all diameter {2 * RADIUS} density {DENSITY}
 velocity all set {velocity[0]} {velocity[1]} {velocity[2]}
-fix integrate all nve/sphere
 """
 
 

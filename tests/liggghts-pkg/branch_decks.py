@@ -4,10 +4,11 @@
 import ball_on_block as bob
 import decks
 import numpy as np
+from prelude import INTEGRATION, Prelude
 
 R = bob.RADIUS
 MODELS = "model hertz tangential history rolling_friction epsd2"
-BOX = "region box block -0.02 0.02 -0.02 0.02 -0.005 0.02 units box"
+GRAVITY = "fix g all gravity 9.81 vector -0.3 0.2 -0.9\n"
 COLUMNS = ("x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz", "wx", "wy", "wz")
 OUTPUT = (
     "".join(f"variable {c} equal {c}[1]\n" for c in COLUMNS[:9])
@@ -37,16 +38,18 @@ def quad(origin, u, v, n=(2, 2)) -> str:
     return patch([[o + a * u + b * v for a in np.linspace(0, 1, n[0])] for b in np.linspace(0, 1, n[1])])
 
 
-def prelude(ball, velocity, *, gravity=True, e=0.6, mu=0.4, timestep=2e-6, boundary="f f f", box=BOX) -> str:
-    text = bob.prelude(
-        balls=(ball,), velocity=velocity, ball=(5e7, 0.3), wall=(5e7, 0.3), restitution=e, friction=mu,
-        timestep=timestep, models=MODELS,
+def settings(*, e=0.6, mu=0.4, timestep=2e-6, boundary="f f f", box=bob.BOX, processors="* * *") -> Prelude:
+    return Prelude(
+        box, E=(5e7, 5e7), nu=(0.3, 0.3), e=e, mu=mu, further={"coefficientRollingFriction": 0.02}, models=MODELS,
+        timestep=timestep, boundary=boundary, processors=processors, lists="delay 0",
     )
-    text = text.replace("boundary f f f", f"boundary {boundary}").replace(BOX, box)
-    text = text.replace("hard_particles yes\n", "neigh_modify delay 0\n")
-    rolling = "fix m5 all property/global coefficientRollingFriction peratomtypepair 2 0.02 0.02 0.02 0.02\n"
-    text = text.replace("pair_style", rolling + "pair_style", 1)
-    return text + ("fix g all gravity 9.81 vector -0.3 0.2 -0.9\n" if gravity else "")
+
+
+def prelude(ball, velocity, *, gravity=True, restart="", **words) -> str:
+    """A deck up to the wall, or one that continues from the file `restart`; further words as for `settings`."""
+    start = settings(**words)
+    begin = start.again(restart) if restart else start.text() + bob.thrown([ball], velocity)
+    return begin + INTEGRATION + (GRAVITY if gravity else "")
 
 
 def nurbs(more: str = "") -> str:

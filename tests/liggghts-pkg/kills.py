@@ -27,6 +27,7 @@ import numpy as np
 import decks
 import histories
 import vtu
+from prelude import Prelude
 
 END, EVERY = 1500, 50  # steps of the run, and between restart files
 TIMESTEP = 1e-6
@@ -50,32 +51,10 @@ surfaces: {wall: all}
 """,
 }
 MODELS = "model hertz tangential history rolling_friction epsd2"
-HEAD = """
-units si
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-"""
-BOX = """
-region box block -0.012 0.012 -0.012 0.012 -0.006 0.014 units box
-create_box 2 box
-"""
-MATERIAL = f"""
-neighbor 0.0002 bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype 1e7 2e7
-fix m2 all property/global poissonsRatio peratomtype 0.3 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 2 0.7 0.7 0.7 0.7
-fix m4 all property/global coefficientFriction peratomtypepair 2 0.4 0.4 0.4 0.4
-fix m5 all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1
-fix m6 all property/global k_finnie peratomtypepair 2 1e-10 1e-10 1e-10 1e-10
-pair_style gran {MODELS}
-pair_coeff * *
-timestep {TIMESTEP!r}
-fix gravity all gravity 9.81 vector 0 0 -1
-"""
+START = Prelude(
+    "-0.012 0.012 -0.012 0.012 -0.006 0.014", E=(1e7, 2e7), nu=(0.3, 0.3), e=0.7, mu=0.4, models=MODELS,
+    further={"coefficientRollingFriction": 0.1, "k_finnie": 1e-10}, timestep=TIMESTEP, lists="delay 0",
+)
 # Apart from each other: LIGGGHTS' files of `restart N` hold the tangential history of pairs as it was a step before.
 BALLS = "".join(
     f"create_atoms 1 single {-0.004 + 0.00133 * i} {-0.004 + 0.002 * j} {0.00053 + 0.00015 * ((3 * i + 5 * j) % 7)} units box\n"
@@ -86,6 +65,7 @@ set group all diameter 0.001 density 2500
 velocity all set 0.4 0.1 -0.8 units box
 """
 REST = f"""
+fix gravity all gravity 9.81 vector 0 0 -1
 fix plate all wall/nurbs {MODELS} type 2 structure plate.yaml surface top output plate every {SERIES["plate"]}
 fix roll all wall/nurbs {MODELS} type 2 geometry roller.yaml surface wall motion rotate origin 0 0 0.001 axis 0 1 0 &
     period 0.02 output roll every {SERIES["roll"]} fields pressure shear wear
@@ -100,11 +80,11 @@ thermo_modify format float %.17g lost error norm no
 thermo 5
 restart {EVERY} a.restart b.restart
 """
-BEGIN = HEAD + BOX + MATERIAL + BALLS + REST
+BEGIN = START.text() + BALLS + REST
 
 
 def go_on(file: str) -> str:
-    return HEAD + f"read_restart {file}\n" + MATERIAL + REST + f"run {END} upto\n"
+    return START.again(file) + REST + f"run {END} upto\n"
 
 
 def put_files(folder: Path) -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 import decks
+from prelude import INTEGRATION, Prelude, create
 
 RADIUS, DENSITY, YOUNG, POISSON = 1e-3, 2500.0, 1e8, 0.3
 HALF = 8e-3  # of the square wall
@@ -15,34 +16,6 @@ units: si
 geometry:
   plane: {{origin: [{-HALF}, {-HALF}, 0], edges: [[{2 * HALF}, 0, 0], [0, {2 * HALF}, 0]], elements: [7, 5], degree: 2}}
 surfaces: {{floor: all}}
-"""
-
-DECK = """
-units si
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-processors {processors}
-region box block -0.04 0.04 -0.02 0.02 -0.02 0.02 units box
-create_box 2 box
-neighbor {skin!r} bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype {young!r} {young!r}
-fix m2 all property/global poissonsRatio peratomtype 0.3 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 2 {e} {e} {e} {e}
-fix m4 all property/global coefficientFriction peratomtypepair 2 {mu} {mu} {mu} {mu}
-fix m5 all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1
-pair_style gran {models}
-pair_coeff * *
-timestep {dt!r}
-{atoms}
-set group all diameter 0.002 density 2500
-set atom 1 vx {velocity[0]} vy {velocity[1]} vz {velocity[2]}
-{before}
-{wall}
-fix integrate all nve/sphere
 """
 
 OUTPUT = (
@@ -60,6 +33,7 @@ thermo_modify format float %.17g lost error
 thermo {every}
 """
 )
+THROW = f"set group all diameter {2 * RADIUS} density {DENSITY}\nset atom 1 vx {{}} vy {{}} vz {{}}\n"
 # at rest: a rank without any atom cannot evaluate a ball's spin
 FAR_AWAY = ((-0.03, 0.0, 0.01), (0.03, 0.0, 0.01))
 KINDS = {"f": ("fx", "fy", "fz"), "x": ("x", "y", "z"), "v": ("vx", "vy", "vz"), "w": ("wx", "wy", "wz")}
@@ -90,24 +64,29 @@ def stock_wall(models: str, motions=(), style: str = "mesh/surface", drive: str 
     return "\n".join(lines + [f"fix wall all wall/gran {models} mesh n_meshes 1 meshes cad"])
 
 
-def deck(
-    wall: str,
+def settings(
     *,
-    balls=((3e-3, -2e-3, 1.05e-3),),
-    velocity=(0.3, 0.2, -1.0),
     e=0.7,
     mu=0.3,
     dt=5e-7,
     skin=2e-4,
     models="model hertz tangential history",
-    before="",
     processors="* 1 1",
-) -> str:
-    atoms = "\n".join(f"create_atoms 1 single {x!r} {y!r} {z!r} units box" for x, y, z in tuple(balls) + FAR_AWAY)
-    return DECK.format(
-        wall=wall, atoms=atoms, velocity=velocity, e=e, mu=mu, dt=dt, skin=skin, models=models, before=before,
-        processors=processors, young=YOUNG,
+    box="-0.04 0.04 -0.02 0.02 -0.02 0.02",
+    boundary="f f f",
+) -> Prelude:
+    return Prelude(
+        box, E=(YOUNG, YOUNG), nu=(POISSON, POISSON), e=e, mu=mu, further={"coefficientRollingFriction": 0.1},
+        models=models, timestep=dt, skin=skin, lists="delay 0", boundary=boundary, processors=processors,
     )
+
+
+def deck(wall: str, *, balls=((3e-3, -2e-3, 1.05e-3),), velocity=(0.3, 0.2, -1.0), before="", restart="", **words) -> str:
+    """The first ball is thrown at the wall, whose fix stands after `before`, or the deck continues from the file `restart`;
+    further words as for `settings`."""
+    start = settings(**words)
+    begin = start.again(restart) if restart else start.text() + create(*balls, *FAR_AWAY) + THROW.format(*velocity)
+    return f"{begin}{before}\n{wall}\n{INTEGRATION}"
 
 
 def output(more: str = "", columns: str = "", every: int = 1) -> str:

@@ -7,51 +7,26 @@ import math
 
 import numpy as np
 
+from prelude import INTEGRATION, Prelude, create
+
 R, DENSITY, DT = 1e-3, 2500.0, 1e-6
 MASS = DENSITY * 4 / 3 * math.pi * R**3
 INERTIA = 0.4 * MASS * R**2
 FRICTION = "model hertz tangential history"
 
-DECK = """
-units si
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-region box block -0.03 0.03 -0.03 0.03 -0.03 0.03 units box
-create_box 2 box
-neighbor 2e-4 bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype {young!r} {young!r}
-fix m2 all property/global poissonsRatio peratomtype {nu!r} {nu!r}
-fix m3 all property/global coefficientRestitution peratomtypepair 2 {e} {e} {e} {e}
-fix m4 all property/global coefficientFriction peratomtypepair 2 {mu} {mu} {mu} {mu}
-fix m5 all property/global coefficientRollingFriction peratomtypepair 2 0.2 0.2 0.2 0.2
-fix m6 all property/global penaltyFactor peratomtypepair 2 {factor!r} {factor!r} {factor!r} {factor!r}
-pair_style gran {models}
-pair_coeff * *
-timestep {dt!r}
-{atoms}
-set type 1 diameter {diameter!r} density {density!r}
-{motion}
-{walls}
-fix integrate all nve/sphere
-compute spin all property/atom omegax omegay omegaz
-compute twist all property/atom tqx tqy tqz
-"""
+MOTION = "set atom {} vx {!r} vy {!r} vz {!r} omegax {!r} omegay {!r} omegaz {!r}\n"
+COMPUTES = "compute spin all property/atom omegax omegay omegaz\ncompute twist all property/atom tqx tqy tqz\n"
 
 
 def deck(walls, balls, *, models=FRICTION, e=0.7, mu=0.3, young=1e8, nu=0.3, factor=1.0, dt=DT, more="", columns=()):
     """`balls`: (place, velocity, spin) of each; `walls`: the commands.  Prints x v w f t of each ball, and `columns`."""
-    atoms = "".join(f"create_atoms 1 single {x!r} {y!r} {z!r} units box\n" for (x, y, z), _, _ in balls)
-    motion = ""
-    for k, (_, v, w) in enumerate(balls, 1):
-        motion += f"set atom {k} vx {v[0]!r} vy {v[1]!r} vz {v[2]!r} omegax {w[0]!r} omegay {w[1]!r} omegaz {w[2]!r}\n"
-    text = DECK.format(
-        atoms=atoms, motion=motion + more, walls=walls, models=models, e=e, mu=mu, young=young, nu=nu, factor=factor, dt=dt,
-        diameter=2 * R, density=DENSITY,
+    start = Prelude(
+        "-0.03 0.03 -0.03 0.03 -0.03 0.03", E=(young, young), nu=(nu, nu), e=e, mu=mu, models=models, timestep=dt,
+        further={"coefficientRollingFriction": 0.2, "penaltyFactor": factor}, lists="delay 0",
     )
+    text = start.text() + create(*(place for place, _, _ in balls)) + f"set type 1 diameter {2 * R!r} density {DENSITY!r}\n"
+    text += "".join(MOTION.format(k, *v, *w) for k, (_, v, w) in enumerate(balls, 1))
+    text += f"{more}\n{walls}\n{INTEGRATION}{COMPUTES}"
     names = []
     for k in range(1, len(balls) + 1):
         own = {c: f"{c}[{k}]" for c in ("x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz")}

@@ -8,7 +8,7 @@ import unittest
 import decks
 import numpy as np
 from branch_decks import (
-    BOX, FLOOR, FOLDED, FOLDED_ALONG_ETA, L, OUTPUT, R, SIDE, difference, model_file, nurbs, patch, planes, prelude, quad, run, table,
+    FLOOR, FOLDED, FOLDED_ALONG_ETA, L, OUTPUT, R, SIDE, difference, model_file, nurbs, patch, planes, prelude, quad, run, table,
 )  # fmt: skip
 from scipy.optimize import minimize
 
@@ -32,8 +32,7 @@ class Corner(unittest.TestCase):
         """What makes the corner are images: of the side, which stands at the far face, and of the floor up to a seam a radius
         off.  The side's edge is so near that feet are found anew in each step."""
         length = 0.01
-        box = BOX.replace("-0.02 0.02", f"0.0 {length}", 1)
-        start = prelude((3e-3, -5e-3, R), (-0.5, 0.4, 0), boundary="p f f", box=box)
+        start = prelude((3e-3, -5e-3, R), (-0.5, 0.4, 0), boundary="p f f", box=f"0.0 {length} -0.02 0.02 -0.005 0.02")
         floor = quad((R, -L / 2, 0), (length, 0, 0), (0, L, 0), (5, 4))
         side = quad((length, -L / 2, R / 2), (0, 0, L), (0, L, 0), (4, 5))
         stock = run(self.START, planes("zplane", "xplane"), program=decks.STOCK).table
@@ -44,9 +43,8 @@ class Corner(unittest.TestCase):
     def test_a_hundred_balls_side_by_side_do_what_one_does(self):
         """More contacts than are resolved together, two of each ball: nobody is forgotten, nobody gets another's."""
         count, long = 100, 0.3
-        box = BOX.replace("-0.02 0.02 -0.02 0.02", "-0.02 0.02 -0.15 0.15")
         files = model_file(quad((0, -long / 2, 0), (L, 0, 0), (0, long, 0)), quad((0, -long / 2, 0), (0, 0, L), (0, long, 0)))
-        start = prelude((2e-3, 0.0, R), (-0.5, 0.4, 0), gravity=False, box=box)
+        start = prelude((2e-3, 0.0, R), (-0.5, 0.4, 0), gravity=False, box="-0.02 0.02 -0.15 0.15 -0.005 0.02")
         more = "".join(f"create_atoms 1 single 0.002 {2.5e-3 * k!r} {R!r} units box\n" for k in range(-50, 51) if k != 0)
         many = start.replace("set group all diameter", more + "set group all diameter", 1)
         extremes = "".join(f"compute {name} all reduce {name} x z vx vy vz\n" for name in ("min", "max"))
@@ -64,20 +62,16 @@ class Corner(unittest.TestCase):
 
     def test_ranks_and_restart_keep_both_memories(self):
         """Both ranks meet in the middle of the corner; the restart falls into two contacts."""
-        start = prelude((R - 1e-7, -1e-4, R - 2e-7), (0, 0.4, 0), e=0.1)  # as deep as its weight presses it
-        settings = start[start.index("fix m1") : start.index("create_atoms")] + start[start.index("fix integrate") :]
+        thrown = (R - 1e-7, -1e-4, R - 2e-7), (0, 0.4, 0)  # as deep as its weight presses it
         for patches in ((FLOOR, SIDE), (FOLDED,)):
             files = model_file(*patches)
             results = []
             for ranks in (1, 2):
                 lines = table(800, 1, " v_n", ranks)
-                resume = (
-                    "clear\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
-                    "communicate single vel yes\nread_restart half.restart\nneighbor 0.0002 bin\n"
-                    + settings + nurbs() + OUTPUT + lines
-                )
-                deck = start + nurbs() + OUTPUT + lines + "write_restart half.restart\n" + lines + resume
-                deck = deck.replace("processors * * *", f"processors 1 {ranks} 1")
+                words = dict(e=0.1, processors=f"1 {ranks} 1")
+                start, resumed = (prelude(*thrown, restart=file, **words) for file in ("", "half.restart"))
+                deck = start + nurbs() + OUTPUT + lines + "write_restart half.restart\n" + lines
+                deck += "clear\n" + resumed + nurbs() + OUTPUT + lines
                 results.append(decks.good(deck, files=files, ranks=ranks).tables)
             one, two = results
             self.assertEqual(one[2]["n"][0], 2.0, "in the corner")
@@ -121,7 +115,7 @@ class Welds(unittest.TestCase):
                 self.assertEqual(ours["n"].max(), 1.0, "a foot on a border counts once")
 
     def test_periodic_box_has_no_seam(self):
-        box = "region box block -0.004 0.004 -0.004 0.004 -0.005 0.02 units box"
+        box = "-0.004 0.004 -0.004 0.004 -0.005 0.02"
         start = prelude((-1e-3, 1e-3, R), (1.0, 0.7, 0), boundary="p p f", box=box)
         stock = run(start, planes("zplane"), program=decks.STOCK, steps=20000).table
         a = 4e-3
@@ -235,7 +229,7 @@ class Closed(unittest.TestCase):
                 on_torus, torus,
             ),
         }
-        box = "region box block -0.02 0.02 -0.02 0.02 -0.02 0.02 units box"
+        box = "-0.02 0.02 -0.02 0.02 -0.02 0.02"
         for name, (shape, place, angles) in shapes.items():
             for side in (1, -1):
                 centres, normals = [], []

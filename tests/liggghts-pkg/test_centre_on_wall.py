@@ -4,32 +4,18 @@ contact came from, else out of a solid, else against the velocity.  No force is 
 
 import math
 import unittest
+from dataclasses import replace
 
 import numpy as np
 
 import decks
+from prelude import Prelude
 
 RADIUS, E, NU = 0.001, 1e7, 0.3
 E_STAR = E / (2.0 * (1.0 - NU**2))
 HERTZ = 4.0 / 3.0 * E_STAR * RADIUS**2  # of an overlap of one radius
 
-DECK = """
-units si
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-region box block -0.05 0.05 -0.05 0.05 -0.05 0.05 units box
-create_box 2 box
-neighbor 0.0005 bin
-fix m1 all property/global youngsModulus peratomtype 1e7 1e7
-fix m2 all property/global poissonsRatio peratomtype 0.3 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 2 {e} {e} {e} {e}
-fix m4 all property/global coefficientFriction peratomtypepair 2 0 0 0 0
-pair_style gran model hertz tangential history
-pair_coeff * *
-timestep 1e-9
+THROWN = """\
 create_atoms 1 single {start[0]!r} {start[1]!r} {start[2]!r} units box
 set group all diameter 0.002 density {density}
 set atom 1 vx {velocity[0]!r} vy {velocity[1]!r} vz {velocity[2]!r}
@@ -44,6 +30,7 @@ thermo 1
 run 0
 {then}
 """
+START = Prelude("-0.05 0.05 -0.05 0.05 -0.05 0.05", E=(1e7, 1e7), nu=(0.3, 0.3), timestep=1e-9, skin=5e-4)
 SURFACES = {
     "plane": "plane: {origin: [-0.02, -0.02, 0], edges: [[0.04, 0, 0], [0, 0.04, 0]], elements: [7, 7], degree: 2}",
     "tilted": "plane: {origin: [0, -0.02, 0], edges: [[0.03, 0, 0.04], [0, 0.04, 0]], elements: [6, 7], degree: 2}",
@@ -72,7 +59,7 @@ SOLID = {
 def forces(shape: str, start, velocity=(0.0, 0.0, 0.0), then="", words="") -> np.ndarray:
     """Forces on the ball [N], a row for each `run 0`, and the number of contacts behind them."""
     wall = "structure solid.yaml surface wall" if shape == "solid" else "geometry wall.yaml surface wall"
-    deck = DECK.format(e=1, density=2500, start=start, velocity=velocity, wall=f"{wall} {words}", then=then)
+    deck = START.text() + THROWN.format(density=2500, start=start, velocity=velocity, wall=f"{wall} {words}", then=then)
     table = decks.good(deck, files=SOLID if shape == "solid" else files(shape)).table
     return np.stack([table[name] for name in ("fx", "fy", "fz", "wall[7]", "wall[8]")], axis=1)
 
@@ -150,11 +137,11 @@ class CentreOnWall(unittest.TestCase):
 
     def test_contact_that_is_not_finite_stops_the_run(self):
         # the damping of a ball as heavy and stiff as that overflows
-        deck = DECK.format(
-            e=0.5, density=1e300, start=(0.001, 0.002, 0.0005), velocity=(0, 0, -1),
+        start = replace(START, E=(1e300, 1e300), e=0.5, particles="hard")
+        deck = start.text() + THROWN.format(
+            density=1e300, start=(0.001, 0.002, 0.0005), velocity=(0, 0, -1),
             wall="geometry wall.yaml surface wall", then="",
         )
-        deck = deck.replace("units si\n", "units si\nhard_particles yes\n").replace("1e7 1e7", "1e300 1e300")
         result = decks.run(deck, files=files("plane"))
         self.assertNotEqual(result.code, 0)
         message = [line for line in result.errors if "not finite" in line]

@@ -2,10 +2,12 @@
 """Whatever moves or changes a particle between two steps or runs is met by a flat wall as by LIGGGHTS' own plane."""
 
 import unittest
+from dataclasses import replace
 
 import numpy as np
 
 import decks
+from prelude import Prelude
 
 FLOOR = """
 units: si
@@ -18,27 +20,13 @@ WALLS = {
     decks.STOCK: f"wall/gran {MODELS} primitive type 3 zplane 0.",
     decks.NURBS: f"wall/nurbs {MODELS} type 3 geometry floor.yaml surface floor",
 }
+START = Prelude(
+    "-0.06 0.06 -0.06 0.06 -0.05 0.05", E=(1e7, 2e7, 3e7), nu=(0.3, 0.25, 0.2),
+    e=(0.5, 0.6, 0.7, 0.6, 0.7, 0.8, 0.7, 0.8, 0.9), mu=(0.3, 0.4, 0.5, 0.4, 0.5, 0.2, 0.5, 0.2, 0.3),
+    further={"coefficientRollingFriction": 0.1}, models=MODELS, timestep=1e-6, skin=2e-3, lists="delay 0",
+)
 # Three balls of 5 mm: above the plane, sliding on it, and below it, each too far from the others to touch them.
-HEAD = """
-units si
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-processors {processors}
-region box block -0.06 0.06 -0.06 0.06 -0.05 0.05 units box
-create_box 3 box
-neighbor 0.002 bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype 1e7 2e7 3e7
-fix m2 all property/global poissonsRatio peratomtype 0.3 0.25 0.2
-fix m3 all property/global coefficientRestitution peratomtypepair 3 0.5 0.6 0.7 0.6 0.7 0.8 0.7 0.8 0.9
-fix m4 all property/global coefficientFriction peratomtypepair 3 0.3 0.4 0.5 0.4 0.5 0.2 0.5 0.2 0.3
-fix m5 all property/global coefficientRollingFriction peratomtypepair 3 0.1 0.1 0.1 0.1 0.1 0.1 0.1 0.1 0.1
-pair_style gran model hertz tangential history rolling_friction epsd2
-pair_coeff * *
-timestep 1e-6
+BALLS = """\
 create_atoms 1 single -0.0313 0.0012 0.0052 units box
 create_atoms 1 single 0.0017 0.0004 0.00499 units box
 create_atoms 1 single 0.0329 -0.0008 -0.0051 units box
@@ -108,7 +96,7 @@ run 100
 
 
 def run(program: str, body: str, ranks: int, columns: str = COLUMNS) -> decks.Run:
-    head = HEAD.format(wall=WALLS[program], processors="2 1 1" if ranks == 2 else "* * *")
+    head = replace(START, processors="2 1 1" if ranks == 2 else "* * *").text() + BALLS.format(wall=WALLS[program])
     lists, new_plane = ("1", "unfix wall\nfix wall all {wall}\n") if program == decks.STOCK else ("1000", "")
     body = body.replace("{lists}", lists).replace("{new_plane}", new_plane).replace("{wall}", WALLS[program])
     deck = head + columns + body + "\n"

@@ -7,7 +7,9 @@ import unittest
 import numpy as np
 
 import decks
-from branch_decks import MODELS, OUTPUT, R, difference, model_file, nurbs, planes, prelude, quad, run, table
+from branch_decks import (
+    GRAVITY, MODELS, OUTPUT, R, difference, model_file, nurbs, planes, prelude, quad, run, settings, table,
+)  # fmt: skip
 
 SAME = 1e-10
 PATCH = "fix {id} all wall/nurbs " + MODELS + " type 2 geometry {file}.yaml surface wall {more}\n"
@@ -45,8 +47,8 @@ class Features(unittest.TestCase):
         """The wall's edge at x = -6 mm is met at x = 2 mm in a box of 8 mm; LIGGGHTS' wall stands there, in a larger box."""
         y = "-0.004 0.004 -0.005 0.02"
         ball, velocity = (1.6e-3, 2e-4, 0.95 * R), (0.05, 0.1, -0.2)
-        small = prelude(ball, velocity, gravity=False, boundary="p f f", box=f"region box block -0.004 0.004 {y} units box")
-        large = prelude(ball, velocity, gravity=False, box=f"region box block -0.008 0.008 {y} units box")
+        small = prelude(ball, velocity, gravity=False, boundary="p f f", box=f"-0.004 0.004 {y}")
+        large = prelude(ball, velocity, gravity=False, box=f"-0.008 0.008 {y}")
         wall = model_file(quad((-6e-3, -3e-3, 0), (4e-3, 0, 0), (0, 6e-3, 0), (3, 3)))
         stock = run(large, mesh_wall("wall.stl"), {"wall.stl": square(2e-3, 6e-3, 3e-3)}, program=decks.STOCK, steps=1500).table
         self.assertLess(stock["fx"].min(), -1e-3 * abs(stock["fz"]).max(), "the edge pushes sideways")
@@ -66,8 +68,7 @@ fix insert all insert/pack seed 32452843 distributiontemplate mixture maxattempt
 fix clump all multisphere
 run 1
 """
-        start = prelude((0, 0, 0), (0, 0, 0)).replace("fix integrate all nve/sphere\n", "")
-        start = "".join(line + "\n" for line in start.splitlines() if not line.startswith(("create_atoms", "set ", "velocity ")))
+        start = settings().text() + GRAVITY
         output = OUTPUT + "variable other equal z[2]\n" + table(6000, more=" v_other")
         ours = decks.good(start + nurbs() + clump + output, files=model_file(floor())).tables[-1]
         stock = decks.good(start + planes("zplane") + clump + output, program=decks.STOCK).tables[-1]

@@ -11,29 +11,12 @@ import unittest
 import numpy as np
 
 import decks
+from prelude import INTEGRATION, Prelude, create
 
 R, SKIN, DT, HALF = 1e-3, 2e-4, 5e-6, 8e-3
 
-DECK = """
-units si
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-soft_particles yes
-region box block -0.06 0.06 -0.06 0.06 -0.06 0.06 units box
-create_box 2 box
-neighbor 2e-4 bin
-neigh_modify delay 0 exclude group all all
-fix m1 all property/global youngsModulus peratomtype {young!r} 9e8
-fix m2 all property/global poissonsRatio peratomtype 0.3 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 2 1 1 1 1
-fix m4 all property/global coefficientFriction peratomtypepair 2 0 0 0 0
-pair_style gran model hertz tangential no_history
-pair_coeff * *
-timestep 5e-6
-{balls}
+DECK = """\
+{start}{balls}
 set group all diameter 0.002 density 2500
 {before}
 fix wall all wall/nurbs model hertz tangential no_history type 2 {wall}
@@ -44,6 +27,18 @@ thermo_modify format float %.17g lost error
 thermo 1
 run {steps}
 """
+
+
+def deck(balls: str, wall: str, steps: int, *, before="", after="", young=1e4, columns="") -> str:
+    start = Prelude(
+        "-0.06 0.06 -0.06 0.06 -0.06 0.06", E=(young, 9e8), nu=(0.3, 0.3), models="model hertz tangential no_history",
+        timestep=DT, skin=SKIN, lists="delay 0 exclude group all all", particles="soft",
+    )
+    return DECK.format(
+        start=start.text(), balls=balls, wall=wall, steps=steps, before=before, after=after, columns=columns
+    )
+
+
 PLANE = f"""
 units: si
 geometry:
@@ -70,10 +65,6 @@ def places(count: int, highest: float, seed: int) -> np.ndarray:
     return np.column_stack([xy, z])
 
 
-def create(balls: np.ndarray) -> str:
-    return "".join(f"create_atoms 1 single {x!r} {y!r} {z!r} units box\n" for x, y, z in balls.tolist())
-
-
 def distance(balls: np.ndarray, at: np.ndarray, rotation=np.eye(3)) -> np.ndarray:
     """From the square, whose middle is `at`."""
     body = (balls - at) @ rotation
@@ -93,7 +84,7 @@ def wiggled(amplitude: float, angle: float, n: int) -> float:
 
 def contacts(balls, wall, steps, files, young=1e4) -> np.ndarray:
     """Their number in each step."""
-    text = DECK.format(balls=create(balls), wall=wall, before="", after="", steps=steps, young=young, columns="")
+    text = deck(create(*balls.tolist()), wall, steps, young=young)
     return decks.good(text, files=files).table["n"]
 
 
@@ -165,11 +156,11 @@ class FreeParticles(unittest.TestCase):
             v[0] = -ball_skins * SKIN / DT
             steps = int(40 / wall_skins)
             columns = " ".join(f"v_f{k}" for k in range(1, count + 1))
-            after = "fix integrate all nve/sphere\n" + "".join(f"variable f{k} equal fz[{k}]\n" for k in range(1, count + 1))
+            after = INTEGRATION + "".join(f"variable f{k} equal fz[{k}]\n" for k in range(1, count + 1))
             before = "".join(f"set atom {k} vz {v[k - 1]!r}\n" for k in range(1, count + 1))
-            text = DECK.format(
-                balls=create(balls), wall=f"geometry wall.yaml surface wall motion linear 0 0 {V!r}", before=before, after=after,
-                steps=steps, young=1e4, columns=columns,
+            text = deck(
+                create(*balls.tolist()), f"geometry wall.yaml surface wall motion linear 0 0 {V!r}", steps, before=before,
+                after=after, columns=columns,
             ).replace("lost error", "lost ignore")
             table = decks.good(text, files={"wall.yaml": PLANE}).table
             touched = 0
@@ -193,10 +184,9 @@ class Alarm(unittest.TestCase):
     ALARM = r"the centre of particle 1 would cross the wall within one step, at a speed of ([\d.e+]+) "
 
     def warned(self, gap: float, ball: float, wall: float) -> str:
-        text = DECK.format(
-            balls=f"create_atoms 1 single 0.0003 0.0004 {R + gap!r} units box", before=f"set atom 1 vz {ball!r}",
-            wall=f"geometry wall.yaml surface wall motion linear 0 0 {wall!r}", after="fix integrate all nve/sphere", steps=3,
-            young=1e4, columns="",
+        text = deck(
+            create((0.0003, 0.0004, R + gap)), f"geometry wall.yaml surface wall motion linear 0 0 {wall!r}", steps=3,
+            before=f"set atom 1 vz {ball!r}", after=INTEGRATION,
         ).replace("lost error", "lost ignore")
         found = re.search(self.ALARM, decks.good(text, files={"wall.yaml": PLANE}).text)
         return found.group(1) if found else ""

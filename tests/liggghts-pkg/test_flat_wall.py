@@ -4,6 +4,7 @@
 import unittest
 
 import decks
+from prelude import Prelude
 
 FLAT = """
 units: si
@@ -19,32 +20,7 @@ WALLS = {
 
 # One ball bounces off the wall; with vx > 0 it changes ranks during the contact.
 BOUNCE = (
-    """
-units si
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-processors {processors}
-region box block -0.004 0.004 -0.004 0.004 -0.001 0.004 units box
-create_box 2 box
-neighbor 0.0002 bin
-hard_particles yes
-fix m1 all property/global youngsModulus peratomtype 74.6e9 210.6e9
-fix m2 all property/global poissonsRatio peratomtype 0.2285 0.286
-fix m3 all property/global coefficientRestitution peratomtypepair 2 {e} {e} {e} {e}
-fix m4 all property/global coefficientFriction peratomtypepair 2 {mu} {mu} {mu} {mu}
-fix m5 all property/global coefficientRollingFriction peratomtypepair 2 0.1 0.1 0.1 0.1
-fix m6 all property/global cohesionEnergyDensity peratomtypepair 2 1e6 1e6 1e6 1e6
-fix m7 all property/global characteristicVelocity scalar 1.0
-fix m8 all property/global coefficientMaxElasticStiffness peratomtypepair 2 1.5 1.5 1.5 1.5
-fix m9 all property/global coefficientAdhesionStiffness peratomtypepair 2 0.1 0.1 0.1 0.1
-fix m10 all property/global coefficientPlasticityDepth peratomtypepair 2 0.05 0.05 0.05 0.05
-pair_style gran {models}
-pair_coeff * *
-timestep 1e-8
-neigh_modify every 50 delay 0 check no
+    """\
 create_atoms 1 single -0.000002 0.0003 0.001 units box
 # at rest, out of reach: a rank without any atom cannot evaluate c_spin[1][4]
 create_atoms 1 single -0.003 0 0.003 units box
@@ -81,25 +57,7 @@ MODELS = {
 }
 
 # Three balls roll 0.15 m over 160 elements and a rank border, 60,000 steps.
-ROLL = """
-units si
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-processors {processors}
-region box block -0.1 0.1 -0.01 0.01 -0.001 0.004 units box
-create_box 2 box
-neighbor 0.0005 bin
-fix m1 all property/global youngsModulus peratomtype 1e8 1e8
-fix m2 all property/global poissonsRatio peratomtype 0.3 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 2 0.5 0.5 0.5 0.5
-fix m4 all property/global coefficientFriction peratomtypepair 2 0.5 0.5 0.5 0.5
-fix m5 all property/global coefficientRollingFriction peratomtypepair 2 0.001 0.001 0.001 0.001
-pair_style gran model hertz tangential history rolling_friction epsd2
-pair_coeff * *
-timestep 1e-5
+ROLL = """\
 create_atoms 1 single -0.09 -0.006 0.001 units box
 create_atoms 1 single -0.02 0.0005 0.001 units box
 create_atoms 1 single 0.08 0.006 0.001 units box
@@ -117,6 +75,22 @@ thermo 1000
 run 60000
 """
 MODEL_ROLL = "model hertz tangential history rolling_friction epsd2"
+
+
+def before_the_bounce(models: str, e: float, mu: float, ranks: int) -> str:
+    pairs = dict(coefficientRollingFriction=0.1, cohesionEnergyDensity=1e6, characteristicVelocity="scalar 1.0")
+    pairs |= dict(coefficientMaxElasticStiffness=1.5, coefficientAdhesionStiffness=0.1, coefficientPlasticityDepth=0.05)
+    return Prelude(
+        "-0.004 0.004 -0.004 0.004 -0.001 0.004", E=(74.6e9, 210.6e9), nu=(0.2285, 0.286), e=e, mu=mu, further=pairs,
+        models=models, timestep=1e-8, lists="every 50 delay 0 check no", processors=f"{ranks} 1 1", particles="hard",
+    ).text()
+
+
+def before_they_roll(ranks: int) -> str:
+    return Prelude(
+        "-0.1 0.1 -0.01 0.01 -0.001 0.004", E=(1e8, 1e8), nu=(0.3, 0.3), e=0.5, mu=0.5, models=MODEL_ROLL, timestep=1e-5,
+        further=dict(coefficientRollingFriction=0.001), skin=5e-4, processors=f"{ranks} 1 1",
+    ).text()
 
 
 def flat(x0, y0, lx, ly, nx, ny):
@@ -142,10 +116,8 @@ def kind(column: str) -> str:
 
 class FlatWall(unittest.TestCase):
     def bounce(self, program, models, e, mu, ranks):
-        deck = BOUNCE.format(
-            models=models, e=e, mu=mu, vx=0.7 if mu else 0.0, processors=f"{ranks} 1 1",
-            wall=WALLS[program].format(models=models),
-        )
+        deck = before_the_bounce(models, e, mu, ranks)
+        deck += BOUNCE.format(vx=0.7 if mu else 0.0, wall=WALLS[program].format(models=models))
         # 0.0101 m in 13 elements: feet and element borders fall anywhere
         return decks.good(deck, files=flat(-0.005, -0.005, 0.0101, 0.0097, 13, 11), ranks=ranks, program=program).table
 
@@ -162,9 +134,8 @@ class FlatWall(unittest.TestCase):
 
     def test_rolling_balls_stay_with_their_stock_twins(self):
         def roll(program, ranks):
-            deck = ROLL.format(
-                processors=f"{ranks} 1 1", columns=columns_of_three_balls(), wall=WALLS[program].format(models=MODEL_ROLL)
-            )
+            wall = WALLS[program].format(models=MODEL_ROLL)
+            deck = before_they_roll(ranks) + ROLL.format(columns=columns_of_three_balls(), wall=wall)
             return decks.good(deck, files=flat(-0.11, -0.012, 0.22, 0.024, 161, 17), ranks=ranks, program=program).table
 
         stock = roll(decks.STOCK, 1)

@@ -21,10 +21,6 @@ import histories
 IGA_SOLVE = os.environ.get("IGA_SOLVE", "iga-solve")
 STEP = 2.0**-27  # [s], so that times are exact sums
 EVERY = 8
-RESTART = (
-    "clear\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\ncommunicate single vel yes\n"
-    "read_restart state\nneighbor 0.0002 bin\nhard_particles yes\n"
-)
 
 
 def model(every: float = EVERY * STEP, loads: str = "", probes: str = "", **settings) -> str:
@@ -120,10 +116,8 @@ class Histories(unittest.TestCase):
                 np.testing.assert_array_equal(seen["linear_momentum"][:, 2], table["plate11"][rows])
 
     def restarted(self, name: str = "plate") -> str:
-        whole = deck("", **HIT)
-        middle = whole[whole.index("fix m1") : whole.index("create_atoms")]
-        rest = "fix integrate all nve/sphere\n" + bob.wall() + bob.output((15,))
-        return RESTART + middle + rest.replace("fix plate", f"fix {name}").replace("f_plate", f"f_{name}")
+        rest = (bob.wall() + bob.output((15,))).replace("fix plate", f"fix {name}").replace("f_plate", f"f_{name}")
+        return bob.prelude(restart="state", timestep=STEP, **HIT) + rest
 
     def test_a_restart_goes_on_with_the_file(self):
         self.write(model())

@@ -12,8 +12,11 @@ import decks
 FILES = {"block.yaml": bob.block()}
 COLUMNS = (3, 7, 8, 11, 15, 16, 20)  # force, contacts, overlap, momentum, energies, probe
 START = bob.prelude() + bob.wall() + bob.output(COLUMNS)
-DAMPED = dict(restitution=0.6, friction=0.3, models="model hertz tangential history")
-START_DAMPED = bob.prelude(velocity=(0.5, 0.1, -1.0), **DAMPED) + bob.wall(DAMPED["models"]) + bob.output(COLUMNS)
+DAMPED = dict(restitution=0.6, friction=0.3, velocity=(0.5, 0.1, -1.0), models="model hertz tangential history")
+
+
+def damped(restart: str = "") -> str:
+    return bob.prelude(restart=restart, **DAMPED) + bob.wall(DAMPED["models"]) + bob.output(COLUMNS)
 
 
 class LifeCycle(unittest.TestCase):
@@ -72,13 +75,8 @@ class LifeCycle(unittest.TestCase):
 
     def test_restart_continues_a_contact_to_the_last_bit(self):
         files = dict(FILES)
-        write = START_DAMPED + "run 260\nwrite_restart contact.restart\nrun 340\n"
-        read = (
-            "clear\natom_style granular\natom_modify map array\nboundary f f f\nnewton off\n"
-            "communicate single vel yes\nread_restart contact.restart\nneighbor 0.0002 bin\nhard_particles yes\n"
-            + START_DAMPED[START_DAMPED.index("fix m1") : START_DAMPED.index("create_atoms")]
-            + "fix integrate all nve/sphere\n" + bob.wall(DAMPED["models"]) + bob.output(COLUMNS) + "run 340\n"
-        )
+        write = damped() + "run 260\nwrite_restart contact.restart\nrun 340\n"
+        read = "clear\n" + damped(restart="contact.restart") + "run 340\n"
         for ranks in (1, 2):
             tables = decks.good(write + read, files=files, ranks=ranks).tables
             self.assertGreater(tables[1]["fz"][0], 0.1, "the restart falls into the contact")
@@ -95,7 +93,7 @@ class LifeCycle(unittest.TestCase):
     @unittest.skipIf(decks.PATIENCE > 1, "not in builds with sanitizers: one memory checker at a time")
     def test_valgrind_finds_no_error_of_ours(self):
         small = {"block.yaml": bob.block(elements=(2, 2, 1))}
-        deck = START_DAMPED + "run 60\nthermo_style custom step\nunfix plate\nrun 5\nclear\n" + START_DAMPED + "run 10\n"
+        deck = damped() + "run 60\nthermo_style custom step\nunfix plate\nrun 5\nclear\n" + damped() + "run 10\n"
         launcher = ["valgrind", "--error-exitcode=99", "--leak-check=no", "-q",
                     "--suppressions=/usr/share/openmpi/openmpi-valgrind.supp"]
         result = decks.run(deck, files=small, launcher=launcher, timeout=500)

@@ -7,7 +7,7 @@ import unittest
 
 import decks
 import numpy as np
-from branch_decks import FLOOR, L, OUTPUT, R, SIDE, model_file, nurbs, prelude, quad, run, table
+from branch_decks import FLOOR, L, OUTPUT, R, SIDE, model_file, nurbs, prelude, quad, run
 
 
 class Reports(unittest.TestCase):
@@ -74,7 +74,7 @@ class Reports(unittest.TestCase):
             "sphere": (f"sphere: {{centre: [0, 0, 0], radius: {big}, elements: [4, 2]}}", 2),
             "cylinder": (f"cylinder: {{origin: [-0.02, 0, 0], axis: [1, 0, 0], radius: {big}, length: 0.04, elements: [4, 3]}}", 1),
         }
-        box = "region box block -0.02 0.02 -0.02 0.02 -0.02 0.02 units box"
+        box = "-0.02 0.02 -0.02 0.02 -0.02 0.02"
         for name, (shape, curved) in shapes.items():
             files = {"wall.yaml": f"units: si\ngeometry:\n  {shape}\nsurfaces: {{wall: all}}\n"}
             for side in (1, -1):

@@ -34,14 +34,9 @@ def writer(words: str = STRUCTURE) -> str:
 
 def reader(words: str = STRUCTURE, models: str = MODELS, wall: tuple[float, float] = (5e9, 0.3), name: str = "plate") -> str:
     """A deck that continues it."""
-    prelude = bob.prelude(**SETTINGS | dict(models=models, wall=wall))
-    materials = prelude[prelude.index("fix m1") : prelude.index("create_atoms")]
+    prelude = bob.prelude(restart="contact", **SETTINGS | dict(models=models, wall=wall))
     fix = bob.wall(models, words).replace("fix plate", f"fix {name}")
-    return (
-        "atom_style granular\natom_modify map array\nboundary f f f\nnewton off\ncommunicate single vel yes\n"
-        "read_restart contact\nneighbor 0.0002 bin\nhard_particles yes\n"
-        f"{materials}fix integrate all nve/sphere\n{fix}{bob.output(COLUMNS).replace('f_plate', f'f_{name}')}run 40\n"
-    )
+    return prelude + fix + bob.output(COLUMNS).replace("f_plate", f"f_{name}") + "run 40\n"
 
 
 def older(restart: bytes) -> bytes:

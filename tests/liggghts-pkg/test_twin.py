@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 import decks
-from test_wall_output import MATERIAL, MODELS, SETUP
+from test_wall_output import MODELS, START
 
 RADIUS, LENGTH = 0.003, 0.006
 CYLINDER = f"""
@@ -50,7 +50,7 @@ class Twin(unittest.TestCase):
         self.folder = Path(scratch.name)
 
     def twin_of_the_cylinder(self, words: str, ranks: int = 1) -> np.ndarray:
-        deck = SETUP + "create_box 2 box\n" + MATERIAL + BALL_FAR_AWAY + f"""
+        deck = START.text() + BALL_FAR_AWAY + f"""
 fix drum all wall/nurbs {MODELS} type 2 geometry drum.yaml surface wall {words}
 fix twin all mesh/surface fix drum type 2
 dump twin all mesh/stl 1 {self.folder}/twin*.stl twin
@@ -80,7 +80,7 @@ run 0
         """A quarter turn about a line beside the drum and a lift: the twin is where the wall is by then."""
         steps, dt, lift = 100, 1e-7, 0.0004
         turn = f"motion rotate origin 0.001 0 0 axis 0 0 1 period {4 * steps * dt!r}"
-        deck = SETUP + "create_box 2 box\n" + MATERIAL + BALL_FAR_AWAY + f"""
+        deck = START.text() + BALL_FAR_AWAY + f"""
 timestep {dt!r}
 fix drum all wall/nurbs {MODELS} type 2 geometry drum.yaml surface wall twin 1 {turn} motion linear 0 0 {lift / steps / dt!r}
 thermo_style custom step f_drum[1]
@@ -111,7 +111,7 @@ run 0
                 self.assertLess(decks.largest_difference(nurbs[name], twin[name]), 1e-10)
 
     def bounce(self, group: str, mesh: str) -> dict[str, np.ndarray]:
-        deck = SETUP + "create_box 2 box\n" + MATERIAL + f"""
+        deck = START.text() + f"""
 create_atoms 1 single 0.0012 0.0027 0.00101 units box
 set group all diameter 0.002 density 2480
 velocity all set 0.2 0.1 -0.5 units box

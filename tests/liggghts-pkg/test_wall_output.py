@@ -11,6 +11,7 @@ import numpy as np
 import ball_on_block as bob
 import decks
 import vtu
+from prelude import INTEGRATION, Prelude
 from test_first_touch import about
 
 ELEMENTS, SIDE = 8, 0.008
@@ -24,42 +25,23 @@ surfaces: {{floor: all}}
 ELEMENT_AREA = (SIDE / ELEMENTS) ** 2
 MODELS = "model hertz tangential history"
 
-SETUP = """
-units si
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-region box block -0.005 0.005 -0.005 0.005 -0.001 0.006 units box
-"""
-MATERIAL = f"""
-neighbor 0.0002 bin
-hard_particles yes
-fix m1 all property/global youngsModulus peratomtype 1e8 1e8
-fix m2 all property/global poissonsRatio peratomtype 0.3 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 2 0.7 0.7 0.7 0.7
-fix m4 all property/global coefficientFriction peratomtypepair 2 0.3 0.3 0.3 0.3
-fix m5 all property/global k_finnie peratomtypepair 2 1e-10 2e-10 2e-10 4e-10
-pair_style gran {MODELS}
-pair_coeff * *
-timestep 1e-6
-"""
+START = Prelude(
+    "-0.005 0.005 -0.005 0.005 -0.001 0.006", E=(1e8, 1e8), nu=(0.3, 0.3), e=0.7, mu=0.3, models=MODELS, timestep=1e-6,
+    further={"k_finnie": (1e-10, 2e-10, 2e-10, 4e-10)}, particles="hard",
+)
 # Balls apart from each other that fall on the floor one after the other, at an angle.
-BALLS = SETUP + "create_box 2 box\n" + MATERIAL + "".join(
+BALLS = START.text() + "".join(
     f"create_atoms 1 single {-0.003 + 0.0015 * (k % 5)} {-0.003 + 0.0015 * (k // 5)} {0.0005 + 7e-6 * k} units box\n"
     for k in range(20)
 ) + """
 set group all diameter 0.001 density 2480
 velocity all set 0.4 0.3 -0.5 units box
-fix integrate all nve/sphere
-"""
-ONE_BALL = SETUP + "create_box 2 box\n" + MATERIAL + """
+""" + INTEGRATION
+ONE_BALL = START.text() + """\
 create_atoms 1 single 0.0013 -0.0015 0.00101 units box
 set group all diameter 0.002 density 2480
 set atom 1 vx {vx} vy 0.5 vz {vz}
-fix integrate all nve/sphere
-"""
+""" + INTEGRATION
 THERMO = """
 thermo_style custom step f_wall[1] f_wall[2] f_wall[3] f_wall[7]
 thermo_modify format float %.17g lost error
@@ -189,8 +171,7 @@ run 400
         self.run_deck(head + f"run 120\nwrite_restart {restart}\nrun 80\n")
         whole = self.state(200)
         self.run_deck(
-            SETUP + f"read_restart {restart}\n" + MATERIAL + wall(self.folder, 50, fields)
-            + "fix integrate all nve/sphere\n" + THERMO.format(every=100) + "run 80\n"
+            START.again(restart) + wall(self.folder, 50, fields) + INTEGRATION + THERMO.format(every=100) + "run 80\n"
         )
         again = self.state(200)
         for name in ("pressure", "wear"):

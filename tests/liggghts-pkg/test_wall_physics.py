@@ -10,27 +10,10 @@ from scipy.optimize import brentq
 from scipy.special import ellipe, ellipk
 
 import decks
+from prelude import Prelude, create
 
 G = 9.81
-DECK = """
-units si
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-region box block {low[0]!r} {high[0]!r} {low[1]!r} {high[1]!r} {low[2]!r} {high[2]!r} units box
-create_box 2 box
-neighbor {skin!r} bin
-hard_particles yes
-fix m1 all property/global youngsModulus peratomtype {young[0]!r} {young[1]!r}
-fix m2 all property/global poissonsRatio peratomtype {nu[0]!r} {nu[1]!r}
-fix m3 all property/global coefficientRestitution peratomtypepair 2 {e} {e} {e} {e}
-fix m4 all property/global coefficientFriction peratomtypepair 2 {mu} {mu} {mu} {mu}
-pair_style gran model hertz tangential history
-pair_coeff * *
-timestep {dt!r}
-{balls}
+DECK = """\
 set group all diameter {diameter!r} density {density!r}
 fix gravity all gravity {gravity!r} vector 0 0 -1
 fix wall all wall/nurbs model hertz tangential history type 2 geometry wall.yaml surface wall {words}
@@ -88,10 +71,13 @@ class Case:
 
     def run(self) -> dict[str, np.ndarray]:
         """The thermo table, with the time of each row as t."""
-        balls = "".join(f"create_atoms 1 single {x!r} {y!r} {z!r} units box\n" for x, y, z in self.at)
-        words = vars(self) | dict(balls=balls, diameter=2 * self.radius, skin=0.2 * self.radius)
+        start = Prelude(
+            " ".join(f"{a!r} {b!r}" for a, b in zip(self.low, self.high)), E=self.young, nu=self.nu, e=self.e, mu=self.mu,
+            timestep=self.dt, skin=0.2 * self.radius, particles="hard",
+        )
+        words = vars(self) | dict(diameter=2 * self.radius)
         velocity = "set group all vx {!r} vy {!r} vz {!r}\n".format(*self.v)
-        deck = DECK.format(**words) + velocity + self.output.format(**words)
+        deck = start.text() + create(*self.at) + DECK.format(**words) + velocity + self.output.format(**words)
         file = f"units: si\ngeometry:\n  {self.wall}\nsurfaces: {{wall: all}}\n"
         table = decks.good(deck, files={"wall.yaml": file}).table
         return table | {"t": self.dt * table["Step"]}

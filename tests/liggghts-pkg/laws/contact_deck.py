@@ -13,6 +13,7 @@ from typing import Iterable
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 import decks  # noqa: E402
+from prelude import Prelude  # noqa: E402
 
 RADIUS, OTHER_RADIUS = 1e-3, 1.5e-3
 DENSITY = 2480.0
@@ -41,41 +42,25 @@ def run_each(parts: Iterable[str], **options) -> list[dict]:
     return tables
 
 
-def box(restitution=1.0, friction=0.0, factor=1.0) -> str:
-    """An empty box and all material properties that any contact model may ask for."""
-
-    def pairs(value: float) -> str:
-        return "peratomtypepair 2 " + " ".join([repr(value)] * 4)
-
-    return f"""
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-units si
-hard_particles yes
-processors * 1 1
-region box block -0.01 0.01 -0.01 0.01 -0.01 0.01 units box
-create_box 2 box
-neighbor 0.0005 bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype {YOUNG[0]} {YOUNG[1]}
-fix m2 all property/global poissonsRatio peratomtype {POISSON[0]} {POISSON[1]}
-fix m3 all property/global coefficientRestitution {pairs(restitution)}
-fix m4 all property/global coefficientFriction {pairs(friction)}
-fix m5 all property/global coefficientRollingFriction {pairs(0.05)}
-fix m6 all property/global coefficientRollingViscousDamping {pairs(0.1)}
-fix m7 all property/global rollingStiffness scalar 2.0
-fix m8 all property/global cohesionEnergyDensity {pairs(1e6)}
-fix m9 all property/global penaltyFactor {pairs(factor)}
-fix l1 all property/global surfaceLiquidContentInitial scalar 0.01
-fix l2 all property/global surfaceTension scalar 0.07
-fix l3 all property/global fluidViscosity scalar 0.1
-fix l4 all property/global contactAngle peratomtype 0.2 0.2
-fix l5 all property/global minSeparationDistanceRatio scalar 0.01
-fix l6 all property/global maxSeparationDistanceRatio scalar 1.1
-"""
+def begin(models: str, restitution=1.0, friction=0.0, factor=1.0) -> str:
+    """An empty box, all material properties that any contact model may ask for, and the model of pairs."""
+    further = {
+        "coefficientRollingFriction": 0.05,
+        "coefficientRollingViscousDamping": 0.1,
+        "rollingStiffness": "scalar 2.0",
+        "cohesionEnergyDensity": 1e6,
+        "penaltyFactor": factor,
+        "surfaceLiquidContentInitial": "scalar 0.01",
+        "surfaceTension": "scalar 0.07",
+        "fluidViscosity": "scalar 0.1",
+        "contactAngle": "peratomtype 0.2 0.2",
+        "minSeparationDistanceRatio": "scalar 0.01",
+        "maxSeparationDistanceRatio": "scalar 1.1",
+    }
+    return Prelude(
+        "-0.01 0.01 -0.01 0.01 -0.01 0.01", E=YOUNG, nu=POISSON, e=restitution, mu=friction, further=further, models=models,
+        skin=5e-4, lists="delay 0", processors="* 1 1", particles="hard",
+    ).text()
 
 
 def watch(atoms: Iterable[int], every: int, dt: float) -> str:
@@ -108,10 +93,8 @@ def ball_on_plane(
 ) -> str:
     """Ball 1 at z = r - overlap above a stock plane z = 0 of type 2; `models` are the words from `model`."""
     return (
-        box(**properties)
-        + f"""
-pair_style gran model hertz tangential no_history
-pair_coeff * *
+        begin("model hertz tangential no_history", **properties)
+        + f"""\
 create_atoms 1 single 0 0 {RADIUS - overlap!r} units box
 set group all density {DENSITY} diameter {2 * RADIUS!r}
 velocity all set {velocity[0]} {velocity[1]} {velocity[2]}
@@ -135,10 +118,8 @@ def two_balls(
 ) -> str:
     """Ball 1 (type 1) with the given velocity meets ball 2 (type 2, larger) at rest; contact at x = 0."""
     return (
-        box(**properties)
-        + f"""
-pair_style gran {models} {settings}
-pair_coeff * *
+        begin(f"{models} {settings}", **properties)
+        + f"""\
 create_atoms 1 single {-RADIUS + overlap!r} 0 0 units box
 create_atoms 2 single {OTHER_RADIUS!r} 0 0 units box
 group one type 1

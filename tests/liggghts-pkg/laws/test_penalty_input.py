@@ -7,7 +7,7 @@ import unittest
 import contact_deck
 from contact_deck import decks
 
-FACTOR_LINE = re.compile(r"^fix m9 .*$", re.MULTILINE)
+FACTOR_LINE = re.compile(r"^fix \w+ all property/global penaltyFactor .*$", re.MULTILINE)
 
 
 def with_factor_line(deck: str, line: str) -> str:

@@ -5,7 +5,7 @@ for the NURBS wall, for the stock primitive and for the triangle twin."""
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from random import Random
 
 import numpy as np
@@ -14,6 +14,7 @@ import changes
 import motions
 import solids
 import walls
+from prelude import Prelude
 from walls import BOX, Site, Wall
 
 DENSITY = (1500.0, 3000.0)
@@ -73,9 +74,7 @@ class Deck:
     settings: str  # words that follow the wall's own
     words: str  # of fix wall/nurbs alone: search, slots, ...
     motion: motions.Motion
-    properties: list[str]
-    skin: float
-    every: int
+    start: Prelude
     balls: list[Ball]
     segments: list[Segment]
     contact_step: float  # timestep over the shortest contact
@@ -85,12 +84,9 @@ class Deck:
     gravity_at_end: tuple[float, float, float]
     restart_at: int  # the segment before which the run is interrupted; 0: not
 
-    def head(self, processors: str) -> str:
-        boundary = " ".join("p" if p else "f" for p in self.periodic)
-        return (
-            f"units si\natom_style granular\natom_modify map array\nboundary {boundary}\nnewton off\n"
-            f"communicate single vel yes\nprocessors {processors}\n"
-        )
+    def prelude(self, processors: str, begin: int) -> str:
+        start = replace(self.start, processors=processors, timestep=self.segments[begin].timestep)
+        return start.again("half.restart") if begin else start.text()
 
     def wall_lines(self, variant: str) -> list[str]:
         source = f"{'structure' if self.wall.deforms else 'geometry'} wall.yaml surface wall"
@@ -109,18 +105,11 @@ class Deck:
 
     def text(self, variant: str = "nurbs", processors: str = "* * *", begin: int = 0, dump: str = "dump.txt") -> str:
         """The whole deck, or what reads the restart file and goes on with segment `begin`."""
-        lines = self.head(processors).splitlines()
-        if begin == 0:
-            lines += [f"region box block {-BOX} {BOX} {-BOX} {BOX} {-BOX} {BOX} units box", "create_box 3 box"]
-        else:
-            lines += ["read_restart half.restart"]
-        lines += [f"neighbor {self.skin!r} bin", f"neigh_modify every {self.every} delay 0 check yes"]
-        lines += self.properties + [f"pair_style gran {self.models}", "pair_coeff * *"]
+        lines = self.prelude(processors, begin).splitlines()
         if begin == 0:
             for number, ball in enumerate(self.balls, 1):
                 lines += ball.lines(number)
-        start = self.segments[begin]
-        lines += [f"timestep {start.timestep!r}", changes.gravity_line(start.gravity)]
+        lines.append(changes.gravity_line(self.segments[begin].gravity))
         lines += self.motion.variables + self.wall_lines(variant) + ["fix integrate all nve/sphere"]
         lines += self.output(variant, dump)
         for number, segment in enumerate(self.segments[begin:], begin):
@@ -153,30 +142,27 @@ class Deck:
         ]
 
 
-def draw_material(rng: Random, wall: Wall, conservative: bool) -> tuple[list[str], list[float], list[float]]:
-    """fix property/global of types 1 and 3 (balls) and 2 (wall); Young's moduli and Poisson's ratios."""
+def draw_material(rng: Random, wall: Wall, conservative: bool) -> dict:
+    """Properties of types 1 and 3 (balls) and 2 (wall), as Prelude takes them."""
     E = [10 ** rng.uniform(6.9, 7.5) for _ in range(3)]
     nu = [rng.uniform(0.1, 0.4) for _ in range(3)]
     if wall.material:
         E[1], nu[1] = wall.material
 
-    def pairs(low: float, high: float) -> str:
+    def pairs(low: float, high: float) -> list[float]:
         values = {(i, j): rng.uniform(low, high) for i in range(3) for j in range(i, 3)}
-        return "peratomtypepair 3 " + " ".join(repr(values[min(i, j), max(i, j)]) for i in range(3) for j in range(3))
+        return [values[min(i, j), max(i, j)] for i in range(3) for j in range(3)]
 
-    one, none = "peratomtypepair 3" + " 1.0" * 9, "peratomtypepair 3" + " 0.0" * 9
-    values = {
-        "youngsModulus": "peratomtype " + " ".join(map(repr, E)),
-        "poissonsRatio": "peratomtype " + " ".join(map(repr, nu)),
-        "coefficientRestitution": one if conservative else pairs(0.3, 1.0),
-        "coefficientFriction": none if conservative else pairs(0.0, 0.8),
+    e = 1.0 if conservative else pairs(0.3, 1.0)
+    mu = 0.0 if conservative else pairs(0.0, 0.8)
+    further = {
         "coefficientRollingFriction": pairs(0.01, 0.3),
         "coefficientRollingViscousDamping": pairs(0.1, 0.5),
         "cohesionEnergyDensity": pairs(1e3, 2e4),
         "characteristicVelocity": "scalar 0.5",
         "penaltyFactor": pairs(0.8, 1.2),
     }
-    return [f"fix m{k} all property/global {name} {value}" for k, (name, value) in enumerate(values.items())], E, nu
+    return dict(E=E, nu=nu, e=e, mu=mu, further=further)
 
 
 def draw_models(rng: Random, conservative: bool, stock: bool) -> tuple[str, str]:
@@ -271,7 +257,7 @@ def draw(seed: int) -> Deck:
         make = rng.choice(walls.CURVED if kind == "curved twin" else walls.CURVED + solids.RIGID)
     wall = make(rng, periodic) if stock else make(rng)
 
-    properties, E, nu = draw_material(rng, wall, conservative)
+    material = draw_material(rng, wall, conservative)
     curved_twin = kind == "curved twin"
     if curved_twin:
         models, settings = "model hertz tangential no_history", ""
@@ -289,7 +275,7 @@ def draw(seed: int) -> Deck:
     behind = 0.0 if curved_twin else rng.choice((0.0, 0.3))
     balls = draw_balls(rng, wall, many, alike, behind, curved_twin)
     smallest = min(balls, key=lambda b: b.radius)
-    shortest = 0.85 * contact_time(smallest.radius, min(b.density for b in balls), max(E), max(nu))
+    shortest = 0.85 * contact_time(smallest.radius, min(b.density for b in balls), max(material["E"]), max(material["nu"]))
     timestep = min(shortest / rng.uniform(60, 150), wall.stable_step)
     gravity = (0.0, 0.0, 0.0) if rng.random() < 0.4 or curved_twin else tuple(9.81 * walls.direction(rng))
 
@@ -300,8 +286,11 @@ def draw(seed: int) -> Deck:
         total = rng.uniform(8e-4, 1.2e-3) / timestep
         segments = [Segment(int(total / count), [], [], timestep, gravity) for _ in range(count)]
     ranks, processors = draw_ranks(rng)
+    start = Prelude(
+        f"{-BOX} {BOX} " * 3, models=models, boundary=" ".join("p" if p else "f" for p in periodic),
+        skin=rng.uniform(5e-5, 4e-4), lists=f"every {rng.choice((1, 1, 5, 10))} delay 0 check yes", **material,
+    )
     return Deck(
-        seed, kind, wall, periodic, models, settings, " ".join(words), motion, properties, rng.uniform(5e-5, 4e-4),
-        rng.choice((1, 1, 5, 10)), balls, segments, timestep / shortest, conservative, ranks, processors, gravity,
-        rng.randrange(1, len(segments)) if len(segments) > 1 else 0,
+        seed, kind, wall, periodic, models, settings, " ".join(words), motion, start, balls, segments, timestep / shortest,
+        conservative, ranks, processors, gravity, rng.randrange(1, len(segments)) if len(segments) > 1 else 0,
     )
