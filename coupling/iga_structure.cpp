@@ -105,15 +105,16 @@ Fingerprint IgaStructure::fingerprint() const {
   const nurbs::Volume& patch = solver_.solid().patch();
   const structure::Material& material = solver_.solid().material();
   const double E = material.youngs_modulus(), nu = material.poissons_ratio(), density = material.density();
+  std::vector<double> constants{E, nu, density};
+  if (material.state_size() > 0) constants.push_back(material.state_size());
   const std::vector<int>& fixed = solver_.supports().fixed_dofs();
   std::vector<std::string> faces;
   for (const nurbs::Face face : faces_) faces.emplace_back(nurbs::face_name(face));
   return {geometry_part<3>({patch.space}, patch.control_points),
           word_part("surface", fmt::format("{}", fmt::join(faces, ", "))),
           word_part("law of the material", material.law()),
-          {"material",
-           fmt::format("E = {:.10g}, nu = {:.10g}, density = {:.10g}", E, nu, density),
-           {E, nu, density}},
+          {"material", fmt::format("E = {:.10g}, nu = {:.10g}, density = {:.10g}", E, nu, density),
+           std::move(constants)},
           {"supports",
            fmt::format("{} fixed degrees of freedom", fixed.size()),
            {static_cast<double>(fixed.size()), checksum({fixed.begin(), fixed.end()})}}};

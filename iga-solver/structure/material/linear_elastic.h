@@ -14,8 +14,12 @@ class LinearElastic final : public IsotropicElastic {
       : IsotropicElastic("LinearElastic", youngs_modulus, poissons_ratio, density) {}
 
   const char* law() const override { return "linear_elastic"; }
-  Matrix3 stress(const Matrix3& H) const override { return hooke(0.5 * (H + H.transpose())); }
-  double energy_density(const Matrix3& H) const override { return 0.5 * stress(H).cwiseProduct(H).sum(); }
+  Matrix3 stress(const Matrix3& H, const double* /*state*/) const override {
+    return hooke(0.5 * (H + H.transpose()));
+  }
+  double energy_density(const Matrix3& H, const double* state) const override {
+    return 0.5 * stress(H, state).cwiseProduct(H).sum();
+  }
 };
 
 }  // namespace structure

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The material seam: displacement gradient -> first Piola-Kirchhoff stress.
+// The material seam: displacement gradient and memory -> first Piola-Kirchhoff stress.
+// A law is a stored energy W(H, z) of the displacement gradient and of its memory z (internal variables), and
+// a rule by which z evolves over a time step.  What is asked about a state, as energies and the stable step
+// are, sees z held: P = dW/dH, so the stiffness is symmetric whatever the law.
+// Source: generalised standard materials, Halphen & Nguyen (1975), J. Mecanique 14, 39-63.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,10 +15,17 @@ using Matrix3 = Eigen::Matrix3d;
 class Material {
  public:
   virtual ~Material() = default;
-  /// First Piola-Kirchhoff stress P [Pa] from the displacement gradient H = du/dX [-].
-  virtual Matrix3 stress(const Matrix3& H) const = 0;
+  /// First Piola-Kirchhoff stress P [Pa] at the displacement gradient H = du/dX [-], memory held at `state`
+  /// (state_size() numbers).
+  virtual Matrix3 stress(const Matrix3& H, const double* state) const = 0;
   /// Stored energy per reference volume [J/m^3]; stress is its derivative with respect to H.
-  virtual double energy_density(const Matrix3& H) const = 0;
+  virtual double energy_density(const Matrix3& H, const double* state) const = 0;
+
+  /// Numbers that a point remembers, all 0 before the first step; none for an elastic law, which may ignore
+  /// its state and is never asked to evolve it.
+  virtual int state_size() const { return 0; }
+  /// Memory after a time step dt [time] from `old` that ends at H: sets all of `next`.
+  virtual void evolve(const Matrix3& /*H*/, double /*dt*/, const double* /*old*/, double* /*next*/) const {}
 
   virtual const char* law() const = 0;        ///< its word in model files
   virtual double density() const = 0;         ///< reference mass density [kg/m^3]

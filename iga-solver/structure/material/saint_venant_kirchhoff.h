@@ -16,11 +16,11 @@ class SaintVenantKirchhoff final : public IsotropicElastic {
       : IsotropicElastic("SaintVenantKirchhoff", youngs_modulus, poissons_ratio, density) {}
 
   const char* law() const override { return "saint_venant_kirchhoff"; }
-  Matrix3 stress(const Matrix3& H) const override {
+  Matrix3 stress(const Matrix3& H, const double* /*state*/) const override {
     const Matrix3 S = hooke(green_lagrange(H));
     return S + H * S;
   }
-  double energy_density(const Matrix3& H) const override {
+  double energy_density(const Matrix3& H, const double* /*state*/) const override {
     const Matrix3 E = green_lagrange(H);
     return 0.5 * hooke(E).cwiseProduct(E).sum();
   }

@@ -39,13 +39,18 @@ inline void add_force(const Matrix3& P, const double* __restrict dR_dX, int n, d
 
 /// Padded > 0 is known at compile time; 0 takes the element's own.
 template <int Padded>
-void element_force(const Material& material, const ElementGeometry& element, const double* u, double* f) {
+void element_force(const Material& material, const ElementGeometry& element, const ElementMemory& memory,
+                   const double* u, double* f) {
   const int n = Padded > 0 ? Padded : element.padded;
+  const int remembered = material.state_size();
+  const double* const held = memory.next ? memory.next : memory.state;
   std::fill_n(f, 3 * n, 0.0);
   for (int q = 0; q < element.points; ++q) {
     const double* dR_dX = element.dR_dX + 3 * n * q;
     const Matrix3 H = displacement_gradient(u, dR_dX, n);
-    add_force(element.wJ[q] * material.stress(H), dR_dX, n, f);
+    if (memory.next)
+      material.evolve(H, memory.dt, memory.state + q * remembered, memory.next + q * remembered);
+    add_force(element.wJ[q] * material.stress(H, held + q * remembered), dR_dX, n, f);
   }
 }
 
@@ -62,11 +67,13 @@ ForceKernel force_kernel(int padded) {
   }
 }
 
-double element_energy(const Material& material, const ElementGeometry& element, const double* u) {
-  const int n = element.padded;
+double element_energy(const Material& material, const ElementGeometry& element, const double* state,
+                      const double* u) {
+  const int n = element.padded, remembered = material.state_size();
   double energy = 0.0;
   for (int q = 0; q < element.points; ++q)
-    energy += element.wJ[q] * material.energy_density(displacement_gradient(u, element.dR_dX + 3 * n * q, n));
+    energy += element.wJ[q] * material.energy_density(displacement_gradient(u, element.dR_dX + 3 * n * q, n),
+                                                      state + q * remembered);
   return energy;
 }
 

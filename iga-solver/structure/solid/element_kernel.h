@@ -22,16 +22,24 @@ struct ElementGeometry {
   int padded;
 };
 
+/// What the points of one element remember, [point][Material::state_size()].
+struct ElementMemory {
+  const double* state = nullptr;
+  double* next = nullptr;  ///< of a time step: where the memory at its end goes; null: held at `state`
+  double dt = 0.0;         ///< of this step [time]
+};
+
 /// Nodal forces f of the nodal displacements u, both [3][padded].
-using ForceKernel = void (*)(const Material& material, const ElementGeometry& element, const double* u,
-                             double* f);
+using ForceKernel = void (*)(const Material& material, const ElementGeometry& element,
+                             const ElementMemory& memory, const double* u, double* f);
 
 /// The kernel for a padded number of functions: unrolled for the usual ones (degrees 2 and 3), general
 /// otherwise.
 ForceKernel force_kernel(int padded);
 
-/// Stored energy [energy] of one element.
-double element_energy(const Material& material, const ElementGeometry& element, const double* u);
+/// Stored energy [energy] of one element whose points remember `state`.
+double element_energy(const Material& material, const ElementGeometry& element, const double* state,
+                      const double* u);
 
 /// Smallest det(I + H) [-] at the quadrature points; not a number if it is none at one of them.
 double smallest_volume_ratio(const ElementGeometry& element, const double* u);

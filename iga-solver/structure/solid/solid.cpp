@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 
@@ -26,6 +27,12 @@ Matrix3 jacobian(const nurbs::RationalBasis<3>& basis, const NodalVectors& X) {
   return J;
 }
 
+/// Gauss points of one direction in one span.
+nurbs::QuadratureRule rule_of(const nurbs::Space<3>& space, int direction, int span) {
+  const std::vector<double>& breaks = space.knots(direction).breaks();
+  return nurbs::gauss_legendre(space.degree(direction) + 1, breaks[span], breaks[span + 1]);
+}
+
 [[noreturn]] void throw_not_positive(double det_J, int element, const std::array<int, 3>& span) {
   throw std::invalid_argument(fmt::format(
       "Solid: Jacobian determinant {} in element {} (spans {}, {}, {} of xi, eta, zeta), expected > 0: "
@@ -43,7 +50,8 @@ Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material)
   functions_ = points_ =
       space.functions_per_element();  // degree + 1 points per direction: as many as functions
   padded_ = padded(functions_);
-  nurbs::expect_memory(sizeof(double) * (3.0 * points_ + 1.0) * padded_ * elements,
+  remembered_ = std::size_t(points_) * material_->state_size();
+  nurbs::expect_memory(sizeof(double) * ((3.0 * points_ + 1.0) * padded_ + 2.0 * remembered_) * elements,
                        fmt::format("a solid of {} elements of degrees {}, {}, {}", elements, space.degree(0),
                                    space.degree(1), space.degree(2)));
   nodes_.resize(elements * functions_);
@@ -52,6 +60,8 @@ Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material)
   element_mass_.assign(elements * padded_, 0.0);
   row_sum_mass_ = Eigen::VectorXd::Zero(node_count());
   force_kernel_ = force_kernel(padded_);
+  memory_.assign(elements * remembered_, 0.0);
+  next_memory_ = memory_;
   for (int e = 0; e < space.element_count(); ++e) integrate_element(e);
 }
 
@@ -59,10 +69,7 @@ void Solid::integrate_element(int element) {
   const nurbs::Space<3>& space = patch_.space;
   const std::array<int, 3> span = space.element_indices(element);
   nurbs::QuadratureRule rule[3];
-  for (int d = 0; d < 3; ++d) {
-    const std::vector<double>& breaks = space.knots(d).breaks();
-    rule[d] = nurbs::gauss_legendre(space.degree(d) + 1, breaks[span[d]], breaks[span[d] + 1]);
-  }
+  for (int d = 0; d < 3; ++d) rule[d] = rule_of(space, d, span[d]);
   int* nodes = &nodes_[std::size_t(element) * functions_];
   space.element_control_points(element, nodes);
   int point = 0;
@@ -110,15 +117,25 @@ void Solid::gather(int element, const NodalVectors& nodal, double* values) const
   }
 }
 
+ElementMemory Solid::held_memory(int element) const { return {memory_.data() + element * remembered_}; }
+
+void Solid::set_memory(std::vector<double> memory) {
+  if (memory.size() != memory_.size())
+    throw std::invalid_argument(
+        fmt::format("Solid: memory of {} numbers, expected {}", memory.size(), memory_.size()));
+  memory_ = std::move(memory);
+}
+
 void Solid::element_force(int element, const double* u, double* f) const {
-  force_kernel_(*material_, geometry(element), u, f);
+  force_kernel_(*material_, geometry(element), held_memory(element), u, f);
 }
 
 double Solid::smallest_volume_ratio(int element, const double* u) const {
   return structure::smallest_volume_ratio(geometry(element), u);
 }
 
-void Solid::internal_force(const NodalVectors& u, NodalVectors& f) const {
+template <class ElementForce>
+void Solid::assemble(const NodalVectors& u, NodalVectors& f, ElementForce element_force) const {
   NURBS_ASSERT(u.cols() == node_count() && f.cols() == node_count(), u.cols(), f.cols(), node_count());
   double u_element[kMaxElementValues], f_element[kMaxElementValues];
   f.setZero();
@@ -131,12 +148,26 @@ void Solid::internal_force(const NodalVectors& u, NodalVectors& f) const {
   }
 }
 
+void Solid::internal_force(const NodalVectors& u, NodalVectors& f) const {
+  assemble(u, f, [this](int e, const double* u_e, double* f_e) { element_force(e, u_e, f_e); });
+}
+
+void Solid::evolve(const NodalVectors& u, double dt, NodalVectors& f) {
+  if (remembered_ == 0) return internal_force(u, f);
+  assemble(u, f, [&](int e, const double* u_e, double* f_e) {
+    ElementMemory memory = held_memory(e);
+    memory.next = next_memory_.data() + e * remembered_;
+    memory.dt = dt;
+    force_kernel_(*material_, geometry(e), memory, u_e, f_e);
+  });
+}
+
 double Solid::strain_energy(const NodalVectors& u) const {
   double u_element[kMaxElementValues];
   double energy = 0.0;
   for (int e = 0; e < patch_.space.element_count(); ++e) {
     gather(e, u, u_element);
-    energy += element_energy(*material_, geometry(e), u_element);
+    energy += element_energy(*material_, geometry(e), held_memory(e).state, u_element);
   }
   return energy;
 }
@@ -148,7 +179,24 @@ Matrix3 Solid::displacement_gradient(const NodalVectors& u, const nurbs::Paramet
 }
 
 Matrix3 Solid::stress(const NodalVectors& u, const nurbs::Parameter<3>& xi) const {
-  return material_->stress(displacement_gradient(u, xi));
+  return material_->stress(displacement_gradient(u, xi),
+                           memory_.data() + nearest_point(xi) * material_->state_size());
+}
+
+/// Quadrature point, counted through all elements, that is nearest in parameters.
+std::size_t Solid::nearest_point(const nurbs::Parameter<3>& xi) const {
+  const nurbs::Space<3>& space = patch_.space;
+  const int element = space.element_at(xi);
+  const std::array<int, 3> span = space.element_indices(element);
+  std::size_t point = 0;
+  for (int d = 2; d >= 0; --d) {
+    const std::vector<double> points = rule_of(space, d, span[d]).points;
+    const auto nearest = std::min_element(points.begin(), points.end(), [&](double a, double b) {
+      return std::abs(a - xi[d]) < std::abs(b - xi[d]);
+    });
+    point = point * points.size() + (nearest - points.begin());
+  }
+  return std::size_t(element) * points_ + point;
 }
 
 }  // namespace structure

@@ -30,8 +30,17 @@ class Solid {
   double volume() const;  ///< [length^3]
 
   /// f = internal forces [force] of the displacements u [length], both 3 x node_count, f sized by the caller:
-  /// equilibrium is f = external forces.  No allocation.
+  /// equilibrium is f = external forces.  What points remember is held.  No allocation.
   void internal_force(const NodalVectors& u, NodalVectors& f) const;
+  /// The same at the end of a time step dt [time], over which the memory evolves from what it was at the last
+  /// commit(): the step may be worked out again, and nothing else sees it before commit().
+  void evolve(const NodalVectors& u, double dt, NodalVectors& f);
+  /// The end of a step: what points remember is now what evolve() found.
+  void commit() { memory_.swap(next_memory_); }
+  /// What points remember, [element][point][Material::state_size()]: empty for a law without memory.
+  const std::vector<double>& memory() const { return memory_; }
+  /// Throws std::invalid_argument if the size does not fit.
+  void set_memory(std::vector<double> memory);
   /// Stored energy of the displacements [energy].
   double strain_energy(const NodalVectors& u) const;
   /// Row sums of the consistent mass matrix, integral of density R_A [mass], one per node, all > 0.
@@ -40,6 +49,7 @@ class Solid {
   /// H = du/dX [-] at a parameter point.
   Matrix3 displacement_gradient(const NodalVectors& u, const nurbs::Parameter<3>& xi) const;
   /// First Piola-Kirchhoff stress [stress] at a parameter point; the Cauchy stress while strains are small.
+  /// A law with memory takes that of the nearest quadrature point.
   Matrix3 stress(const NodalVectors& u, const nurbs::Parameter<3>& xi) const;
 
   // Single elements, for estimates that look at one element at a time.  Element values are
@@ -57,6 +67,10 @@ class Solid {
   void integrate_element(int element);
   void integrate_point(int element, int point, const nurbs::Parameter<3>& xi, double weight);
   ElementGeometry geometry(int element) const;
+  ElementMemory held_memory(int element) const;
+  std::size_t nearest_point(const nurbs::Parameter<3>& xi) const;
+  template <class ElementForce>
+  void assemble(const NodalVectors& u, NodalVectors& f, ElementForce element_force) const;
   const int* element_nodes(int element) const { return &nodes_[std::size_t(element) * functions_]; }
 
   nurbs::Volume patch_;
@@ -66,6 +80,8 @@ class Solid {
   std::vector<double> dR_dX_;         // [element][point][direction][padded]
   std::vector<double> wJ_;            // [element][point]
   std::vector<double> element_mass_;  // [element][padded]
+  std::size_t remembered_;            // numbers per element
+  std::vector<double> memory_, next_memory_;
   Eigen::VectorXd row_sum_mass_;
   ForceKernel force_kernel_;
 };

@@ -54,6 +54,7 @@ void ExplicitSolver::set_time_step(double dt) {
 
 void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   check_size(F, "forces");
+  solid_.internal_force(u_, f_int_);
   update_accelerations(F);
   power_ = (f_ext_ + F).cwiseProduct(v_).sum();
   start_energy_budget();
@@ -77,8 +78,10 @@ void ExplicitSolver::begin_step() {
 
 void ExplicitSolver::end_step(const NodalVectors& F) {
   check_size(F, "forces");
+  solid_.evolve(u_, dt_, f_int_);
   update_accelerations(F);
   half_kick();
+  solid_.commit();
   time_ += dt_;
   const double power = (f_ext_ + F).cwiseProduct(v_).sum();
   if (budget_)
@@ -104,7 +107,6 @@ void ExplicitSolver::check_divergence(const NodalVectors& F) const {
 }
 
 void ExplicitSolver::update_accelerations(const NodalVectors& F) {
-  solid_.internal_force(u_, f_int_);
   F_ = F;
   residual_ = f_ext_ + F_ - f_int_;
   NURBS_ASSERT(residual_.cols() == mass_->nodal_mass().size(), residual_.cols(), mass_->nodal_mass().size());
@@ -140,23 +142,26 @@ Vector3 ExplicitSolver::angular_momentum(const Vector3& about) const {
 
 std::vector<double> ExplicitSolver::save() const {
   std::vector<double> state{time_};
-  state.reserve(1 + 3 * u_.size());
+  const std::vector<double>& memory = solid_.memory();
+  state.reserve(1 + 3 * u_.size() + memory.size());
   for (const NodalVectors* values : {&u_, &v_, &a_})
     state.insert(state.end(), values->data(), values->data() + values->size());
+  state.insert(state.end(), memory.begin(), memory.end());
   return state;
 }
 
 void ExplicitSolver::load(const std::vector<double>& state) {
-  const std::size_t size = u_.size();
-  if (state.size() != 1 + 3 * size)
+  const std::size_t size = u_.size(), expected = 1 + 3 * size + solid_.memory().size();
+  if (state.size() != expected)
     throw std::invalid_argument(
-        fmt::format("ExplicitSolver: state of {} numbers, expected {}", state.size(), 1 + 3 * size));
+        fmt::format("ExplicitSolver: state of {} numbers, expected {}", state.size(), expected));
   auto next = state.begin();
   time_ = *next++;
   for (NodalVectors* values : {&u_, &v_, &a_}) {
     std::copy_n(next, size, values->data());
     next += size;
   }
+  solid_.set_memory({next, state.end()});
   x_ = solid_.patch().control_points + u_;
   budget_.reset();
 }

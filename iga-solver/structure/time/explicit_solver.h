@@ -64,14 +64,15 @@ class ExplicitSolver {
   Vector3 linear_momentum() const;                       ///< sum m_A v_A
   Vector3 angular_momentum(const Vector3& about) const;  ///< sum (x_A - about) x m_A v_A
 
-  /// Time, displacements, velocities and accelerations as 1 + 9 node_count numbers, to continue to the last
-  /// bit.
+  /// Time, displacements, velocities and accelerations as 1 + 9 node_count numbers, and what the material
+  /// remembers, to continue to the last bit.
   std::vector<double> save() const;
   /// Throws std::invalid_argument if the size does not fit.
   void load(const std::vector<double>& state);
 
  private:
   void check_size(const NodalVectors& values, const char* what) const;
+  /// From f_int_, f_ext_ and F.
   void update_accelerations(const NodalVectors& F);
   void start_energy_budget();
   void check_divergence(const NodalVectors& F) const;
