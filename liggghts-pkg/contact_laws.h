@@ -21,6 +21,7 @@
 // with zeta = -ln e/sqrt(ln^2 e + pi^2), S_n = dF/dd the law's tangent stiffness and a its contact radius.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <tuple>
@@ -110,8 +111,52 @@ struct QuadraticLaw {  // eq. 33
   }
 };
 
+// Elastic, perfectly plastic spheres without adhesion: C. Thornton, J. Appl. Mech. 64 (1997) 383-386;
+// C. Thornton, Z. Ning, Powder Technology 99 (1998) 154-162.  The pressure in the contact is Hertz' until it
+// reaches the yield pressure p_y in the middle, at the overlap d_y, and is cut off there from then on:
+//
+//   d <= d_y     F = 4/3 E* sqrt(r*) d^(3/2)            d_y = r* (pi p_y/(2 E*))^2
+//   loading      F = F_y + pi p_y r* (d - d_y)          as steep as Hertz' law at d_y
+//   below d_max  F = 4/3 E* sqrt(r_p) (d - d_p)^(3/2)   Hertz on the flattened surface, of radius r_p > r*
+//
+// with the largest overlap d_max of this contact the only memory: there F is F_max and the contact radius
+// a_max = sqrt(r* d_max), also that of Hertz on r_p, so r_p = 4 E* a_max^3/(3 F_max) and
+// d_p = d_max - a_max^2/r_p, the depth that is left.  Between d_p and the end of the overlap the bodies are
+// apart, and the force is 0.  LIGGGHTS' own `thornton_ning`, with adhesion, sums up increments of the force.
+struct ThorntonLaw {
+  static constexpr const char* word = "plastic/thornton";
+  static constexpr int id = 43;
+  static constexpr double exponent = HertzLaw::exponent;
+  static constexpr double damping_factor = HertzLaw::damping_factor;
+  // of two materials the softer yields
+  static constexpr std::array<LawProperty, 1> properties = {{{"yieldPressure", LawProperty::Per::type, 0.0}}};
+  static constexpr std::array<const char*, 1> history = {"largest_overlap"};
+
+  static LawForce evaluate(const LawContact& c, const double* old, double* next) {
+    const double d_max = std::max(old[0], c.d);
+    next[0] = d_max;
+    const double S_y = kPi * c.property[0] * c.r;  // dF/dd while it yields
+    const double root_y = kPi * c.property[0] / (2. * c.E), d_y = c.r * root_y * root_y;
+    if (d_max <= d_y) return hertz(c.E, std::sqrt(c.r * c.d), 1.0);
+
+    const double a_max = std::sqrt(c.r * d_max), F_max = S_y * (d_max - d_y / 3.);
+    if (c.d == d_max) return {F_max / d_max, S_y, a_max};
+    const double rebound = 3. * F_max / (4. * c.E * a_max);  // d_max - d_p
+    const double elastic = std::max(c.d - (d_max - rebound), 0.0);
+    return hertz(c.E, a_max * std::sqrt(elastic / rebound), elastic > 0.0 ? elastic / c.d : 0.0);
+  }
+
+ private:
+  static constexpr double kPi = 3.14159265358979323846;
+
+  /// On a contact radius a; the overlap is `elastic_part` of the whole.
+  static LawForce hertz(double E, double a, double elastic_part) {
+    return {4. / 3. * E * a * elastic_part, 2. * E * a, a};
+  }
+};
+
 /// All laws.
-using ContactLaws = std::tuple<LinearLaw, HertzLaw, QuadraticLaw>;
+using ContactLaws = std::tuple<LinearLaw, HertzLaw, QuadraticLaw, ThorntonLaw>;
 
 /// Calls visit(law) for each of them.
 template <class Visit>

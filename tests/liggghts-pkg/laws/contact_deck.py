@@ -22,6 +22,7 @@ POISSON = (0.2285, 0.286)
 SPEED = 1.0
 LAWS = ("penalty/linear", "penalty/hertz", "penalty/quadratic")
 EXPONENT = dict(zip(LAWS, (1.0, 1.5, 2.0)))
+PLASTIC = "plastic/thornton"
 
 
 def mass(radius: float) -> float:
@@ -42,7 +43,7 @@ def run_each(parts: Iterable[str], **options) -> list[dict]:
     return tables
 
 
-def begin(models: str, restitution=1.0, friction=0.0, factor=1.0) -> str:
+def begin(models: str, restitution=1.0, friction=0.0, factor=1.0, yield_pressure=(1e30, 1e30)) -> str:
     """An empty box, all material properties that any contact model may ask for, and the model of pairs."""
     further = {
         "coefficientRollingFriction": 0.05,
@@ -50,6 +51,7 @@ def begin(models: str, restitution=1.0, friction=0.0, factor=1.0) -> str:
         "rollingStiffness": "scalar 2.0",
         "cohesionEnergyDensity": 1e6,
         "penaltyFactor": factor,
+        "yieldPressure": "peratomtype {!r} {!r}".format(*yield_pressure),
         "surfaceLiquidContentInitial": "scalar 0.01",
         "surfaceTension": "scalar 0.07",
         "fluidViscosity": "scalar 0.1",

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Every combination of a penalty law with LIGGGHTS' other models, as a wall and as a pair style.
+"""Every combination of a contact law with LIGGGHTS' other models, as a wall and as a pair style.
 
-Which models there are is read from LIGGGHTS' installed headers.  A combination works, and with penalty/hertz
-and lambda = 1 gives the bits of stock hertz in the same combination; or it is refused with one line.
+Which models there are is read from LIGGGHTS' installed headers.  A combination works, and penalty/hertz with
+lambda = 1 and plastic/thornton below its yield pressure give the bits of stock hertz in the same combination; or it
+is refused with one line.
 """
 
 import itertools
@@ -15,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 import contact_deck
-from contact_deck import LAWS, decks
+from contact_deck import LAWS, PLASTIC, decks
 
 
 def model_words(kind: str) -> list[str]:
@@ -50,14 +51,14 @@ def refused(rest: tuple[str, str, str, str], wall: bool) -> bool:
     )
 
 
-def deck(normal: str, rest: tuple[str, str, str, str], wall: bool, factor: float) -> str:
+def deck(normal: str, rest: tuple[str, str, str, str], wall: bool, factor=1.0, yield_pressure=1e30) -> str:
     """Ten steps that begin in contact and, unless the bodies stick, end out of it; both bodies spin."""
     tangential, cohesion, rolling, surface = rest
     models = f"model {normal} tangential {tangential} cohesion {cohesion} "
     models += f"rolling_friction {rolling} surface {surface}"
     make = contact_deck.ball_on_plane if wall else contact_deck.two_balls
     velocity = (0.3, 0.1, 1.0) if wall else (-1.0, 0.3, 0.1)
-    properties = dict(restitution=0.8, friction=0.4, factor=factor)
+    properties = dict(restitution=0.8, friction=0.4, factor=factor, yield_pressure=(yield_pressure, 1e30))
     motion = dict(velocity=velocity, spin=(50.0, 80.0, -30.0), overlap=5e-7, dt=1e-7, every=5)
     return make(models, **motion, **properties) + "run 10\n"
 
@@ -69,19 +70,25 @@ class Combinations(unittest.TestCase):
     def check_working(self, wall: bool):
         working = [rest for rest in ALL if not refused(rest, wall)]
         self.assertGreaterEqual(len(working), 60 if wall else 75)
-        normals = [("hertz", 1.0), ("penalty/hertz", 1.0)]
-        normals += [("penalty/linear", 1e-3), ("penalty/quadratic", 500.0)]
-        cases = list(itertools.product(working, normals))
+        normals = (
+            ("hertz", {}),
+            ("penalty/hertz", {}),
+            (PLASTIC, {}),
+            ("penalty/linear", dict(factor=1e-3)),
+            ("penalty/quadratic", dict(factor=500.0)),
+            (PLASTIC, dict(yield_pressure=2e8)),
+        )
         tables = contact_deck.run_each(
-            deck(normal, rest, wall, factor) for rest, (normal, factor) in cases
+            deck(normal, rest, wall, **properties) for rest, (normal, properties) in itertools.product(working, normals)
         )
         for k, rest in enumerate(working):
-            stock, hertz, linear, quadratic = tables[4 * k : 4 * k + 4]
+            stock, *ours = tables[6 * k : 6 * k + 6]
             with self.subTest(rest=rest, wall=wall):
-                for column, values in stock.items():
-                    np.testing.assert_array_equal(hertz[column], values, err_msg=column)
+                for table in ours[:2]:
+                    for column, values in stock.items():
+                        np.testing.assert_array_equal(table[column], values, err_msg=column)
                 force = "fz1" if wall else "fx1"
-                for table in (linear, quadratic):
+                for table in ours[2:]:
                     self.assertTrue(all(np.isfinite(values).all() for values in table.values()))
                     self.assertNotEqual(table[force][0], 0.0)
                     self.assertNotEqual(table[force][0], stock[force][0])
@@ -99,12 +106,12 @@ class Combinations(unittest.TestCase):
 
         cases = [
             (law, rest, wall)
-            for law, rest, wall in itertools.product(LAWS, ALL, (True, False))
+            for law, rest, wall in itertools.product((*LAWS, PLASTIC), ALL, (True, False))
             if refused(rest, wall) and extras(rest) <= (2 if law == LAWS[0] else 1)
         ]
         self.assertGreater(len(cases), 50)
         with ThreadPoolExecutor(8) as pool:
-            runs = pool.map(lambda case: decks.run(deck(case[0], case[1], case[2], 1.0)), cases)
+            runs = pool.map(lambda case: decks.run(deck(*case)), cases)
         for case, run in zip(cases, runs):
             with self.subTest(case=case):
                 self.assertNotEqual(run.code, 0)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Wrong input to the penalty laws ends in one line that says what was given; lambda comes in two units."""
+"""Wrong input to the contact laws ends in one line that says what was given; lambda comes in two units."""
 
 import re
 import unittest
@@ -8,6 +8,7 @@ import contact_deck
 from contact_deck import decks
 
 FACTOR_LINE = re.compile(r"^fix \w+ all property/global penaltyFactor .*$", re.MULTILINE)
+YIELD_LINE = re.compile(r"^fix \w+ all property/global yieldPressure .*$", re.MULTILINE)
 
 
 def with_factor_line(deck: str, line: str) -> str:
@@ -35,6 +36,23 @@ class WrongInput(unittest.TestCase):
                 deck = with_factor_line(contact_deck.ball_on_plane("model penalty/quadratic"), line)
                 self.check(deck, f"penaltyFactor of atom types 1 and 2 is {value}, expected a number > 0")
 
+    def test_yield_pressure(self):
+        line = "fix ID all property/global yieldPressure peratomtype P_1 P_2"
+        missing = f"model plastic/thornton needs yieldPressure, expected the line '{line}'"
+        cases = {
+            "": missing,
+            "peratomtypepair 2 1 1 1 1": missing,
+            "scalar 1e9": missing,
+            "peratomtype 1e9": "yieldPressure",
+            "peratomtype 1e9 0": "yieldPressure of atom types 1 and 2 is 0, expected a number > 0",
+            "peratomtype -1e9 1e9": "yieldPressure of atom types 1 and 1 is -1e\\+09, expected a number > 0",
+        }
+        for values, message in cases.items():
+            line = f"fix p all property/global yieldPressure {values}" if values else ""
+            for deck in (contact_deck.ball_on_plane, contact_deck.two_balls):
+                with self.subTest(line, deck=deck.__name__):
+                    self.check(YIELD_LINE.sub(line, deck("model plastic/thornton")), message)
+
     def test_unknown_models(self):
         for word in ("penalty", "penalty/cubic"):
             with self.subTest(word=word):
@@ -56,10 +74,16 @@ class WrongInput(unittest.TestCase):
         self.check(contact_deck.two_balls("model penalty/hertz", settings="limitforce on"), "'limitforce'")
 
 
-class PrintedFactor(unittest.TestCase):
+class PrintedProperties(unittest.TestCase):
     def lines(self, deck: str) -> list[str]:
         text = decks.good(deck + "run 0\nrun 0\n").text
         return [line for line in text.splitlines() if "penaltyFactor" in line]
+
+    def test_of_two_types_the_smaller(self):
+        deck = contact_deck.ball_on_plane("model plastic/thornton", yield_pressure=(3e8, 2e9))
+        text = decks.good(deck + "run 0\nrun 0\n").text
+        lines = [line for line in text.splitlines() if "yieldPressure" in line]
+        self.assertEqual(lines, ["Model plastic/thornton: yieldPressure 3e+08 (types 1-1 1-2); 2e+09 (types 2-2)"])
 
     def test_both_units_once_per_law(self):
         deck = contact_deck.ball_on_plane("model penalty/linear", factor=1.741939e-3)
