@@ -12,7 +12,7 @@
 #include "modify.h"
 #include "update.h"
 #include "variable.h"
-#include "wall_nurbs_setup.h"
+#include "wall_nurbs_message.h"
 
 namespace liggghts_pkg {
 

@@ -18,6 +18,7 @@
 #include "primitive_wall.h"
 #include "update.h"
 #include "wall_nurbs_checks.h"
+#include "wall_nurbs_message.h"
 
 using namespace LAMMPS_NS;
 using namespace FixConst;

@@ -14,6 +14,7 @@
 #include "lammps.h"
 #include "motion_words.h"
 #include "update.h"
+#include "wall_nurbs_message.h"
 
 using namespace LAMMPS_NS;
 using liggghts_pkg::WallNurbsOptions;
@@ -68,10 +69,6 @@ double smallest_radius(const LAMMPS& lmp) {
 }
 
 }  // namespace
-
-std::string LAMMPS_NS::wall_nurbs_message(const char* id, const std::string& what) {
-  return fmt::format("Fix wall/nurbs (id {}): {}", id, what);
-}
 
 void WallNurbsSetup::complete_servo(LAMMPS* lmp, coupling::ServoSettings& servo) {
   if (!servo.automatic) return;

@@ -13,9 +13,6 @@
 
 namespace LAMMPS_NS {
 
-/// "Fix wall/nurbs (id plate): ...", the head of all of the fix's messages.
-std::string wall_nurbs_message(const char* id, const std::string& what);
-
 /// The checked words, the opened structure, and a stock command line from which FixWallGran builds LIGGGHTS'
 /// contact models.  Anything wrong ends the program here, with one line.
 class WallNurbsSetup {

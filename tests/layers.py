@@ -1,77 +1,155 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The layers of the tree hold: liggghts-pkg -> coupling -> iga-solver/structure -> iga-solver/nurbs, never backwards;
-no LIGGGHTS header outside liggghts-pkg; no mpi.h in the geometry kernel; an SPDX line in every source file; .clang-format
-kept."""
+"""The layers of the tree hold.  What a file may include follows from what its CMake target links, and what a folder may link
+stands in MAY_LINK; so a new file or folder is in the layers from the start, or fails here.  No circle of files, no LIGGGHTS
+header outside liggghts-pkg, an SPDX line in every source file, .clang-format kept.
 
+usage: TARGETS=build/release/targets.json python3 layers.py
+"""
+
+import graphlib
 import re
 import subprocess
 import unittest
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parents[1]
+from source_tree import (
+    ROOT, compiled_with, files, headers_of, imported_files, included_files, includes, owners, product, product_files,
+    program_of, targets,
+)  # fmt: skip
+
 LIGGGHTS_HEADERS = {path.name for path in Path("/usr/include/liggghts").glob("*.h")}
-
-# folder -> what its files must not include
-FORBIDDEN = {
-    "iga-solver/nurbs": r"^(mpi\.h|yaml-cpp/|search/|geometry_io/|structure/|io/|vtk/|coupling/|liggghts)",
-    "iga-solver/search": r"^(mpi\.h|yaml-cpp/|geometry_io/|structure/|io/|vtk/|coupling/|liggghts)",
-    "iga-solver/geometry_io": r"^(mpi\.h|search/|structure/|io/|vtk/|coupling/|liggghts)",
-    "iga-solver/vtk": r"^(mpi\.h|search/|structure/|io/|coupling/|liggghts)",
-    "iga-solver/structure": r"^(mpi\.h|search/|geometry_io/|io/|vtk/|coupling/|liggghts)",
-    "iga-solver/io": r"^(coupling/|liggghts)",
-    "iga-solver/app": r"^(coupling/|liggghts)",
-    "coupling": r"^liggghts",
+KERNEL = "iga-solver/nurbs"
+SOLVER = [f"iga-solver/{room}" for room in ("nurbs", "search", "geometry_io", "vtk", "structure", "io")]
+# folder of targets -> those that it may link, directly or not
+MAY_LINK = {
+    "iga-solver/nurbs": [],
+    "iga-solver/search": [KERNEL],
+    "iga-solver/geometry_io": [KERNEL],
+    "iga-solver/vtk": [KERNEL, "iga-solver/geometry_io"],
+    "iga-solver/structure": [KERNEL],
+    "iga-solver/io": [KERNEL, "iga-solver/geometry_io", "iga-solver/structure"],
+    "iga-solver/app": SOLVER,
+    "coupling": SOLVER,
+    "liggghts-pkg": [*SOLVER, "coupling"],
 }
-# a rigid wall needs these and no structural code
-RIGID = ["contact_surface", "surface_exchange", "surface_fields", "finnie", "rigid_frame", "model_text", "structure_solver",
-         "fingerprint", "open_rigid_surface", "rigid/*", "contact/*"]
+# targets that a rigid wall needs, and what they must not have
+RIGID = ("coupling", "coupling_contact")
+STRUCTURAL = ("iga-solver/structure", "iga-solver/io")
+# header of a library -> what links it
+LIBRARIES = {
+    r"mpi\.h": "MPI::MPI_C",
+    r"hdf5\.h": "hdf5::hdf5",
+    r"pugixml\.hpp": "pugixml::pugixml",
+    r"yaml-cpp/": "yaml-cpp",
+    r"fmt/": "fmt::fmt",
+    r"Eigen/": "Eigen3::Eigen",
+    r"CLI/": "CLI11::CLI11",
+}
+# circles of includes that are still to be broken
+TO_BREAK = [
+    ("iga-solver/search/surface_search", "iga-solver/search/surface_projector"),
+    ("iga-solver/structure/time/divergence", "iga-solver/structure/time/explicit_solver"),
+]
 
 
-def includes(path: Path) -> list[str]:
-    return re.findall(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', path.read_text(), flags=re.M)
+def name(path: Path) -> str:
+    return str(path.relative_to(ROOT))
 
 
-def sources(folder: str) -> list[Path]:
-    files = [p for p in (ROOT / folder).rglob("*") if p.suffix in (".h", ".cpp")]
-    assert files, folder
-    return files
+def folders(names) -> set[str]:
+    """Of these targets; libraries of others have none."""
+    return {name(targets()[target].folder) for target in names if target in targets()}
 
 
-class Layers(unittest.TestCase):
-    def test_no_include_runs_backwards(self):
-        for folder, pattern in FORBIDDEN.items():
-            for path in sources(folder):
-                for name in includes(path):
-                    self.assertNotRegex(name, pattern, f"{path.relative_to(ROOT)} includes {name}")
+class Targets(unittest.TestCase):
+    def test_every_file_belongs_to_one_folder_of_targets(self):
+        self.assertGreater(len(product_files()), 150)
+        for path in product_files():
+            self.assertEqual(len(folders(owners(path))), 1, f"{name(path)}: which target compiles it?")
+
+    def test_every_header_is_included(self):
+        seen = set().union(*(compiled_with(source) for target in targets().values() for source in target.sources))
+        self.assertEqual([name(path) for path in product_files() if path not in seen], [])
+
+    def test_no_link_runs_backwards(self):
+        self.assertLessEqual(folders(targets()), set(MAY_LINK), "folders with targets, and the rows of MAY_LINK")
+        for target in targets().values():
+            own = name(target.folder)
+            found = folders(program_of(target)) - {own}
+            self.assertLessEqual(found, set(MAY_LINK[own]), f"what {target.name} links")
+
+    def test_rigid_walls_have_no_structural_code(self):
+        for target in RIGID:
+            self.assertTrue(folders(program_of(targets()[target])).isdisjoint(STRUCTURAL), target)
+
+
+class Includes(unittest.TestCase):
+    def test_what_is_included_is_linked(self):
+        """Of the tree's own headers, through other headers as well."""
+        for target in targets().values():
+            linked = headers_of(target)
+            for source in target.sources:
+                for path in compiled_with(source):
+                    self.assertFalse(owners(path).isdisjoint(linked), f"{name(source)} of {target.name} sees {name(path)}")
+
+    def test_libraries_that_are_included_are_linked(self):
+        for target in targets().values():
+            linked = headers_of(target)
+            for path in (path for source in target.sources for path in compiled_with(source)):
+                for pattern, library in LIBRARIES.items():
+                    if any(re.match(pattern, header) for header in includes(path)):
+                        self.assertIn(library, linked, f"{name(path)}, compiled in {target.name}")
+
+    def test_mpi_is_no_business_of_the_solver(self):
+        """iga-solver/parallel apart; HDF5 brings its own."""
+        for path in files("iga-solver", ".h", ".cpp"):
+            if "parallel" not in path.parts:
+                self.assertNotIn("mpi.h", includes(path), name(path))
 
     def test_no_liggghts_header_outside_its_package(self):
         self.assertIn("fix_wall_gran.h", LIGGGHTS_HEADERS)
-        for folder in ("iga-solver", "coupling"):
-            for path in sources(folder):
-                own = {p.name for p in path.parent.glob("*.h")}
-                for name in includes(path):
-                    self.assertFalse(name in LIGGGHTS_HEADERS - own, f"{path.relative_to(ROOT)} includes {name}")
+        for path in (path for folder in ("iga-solver", "coupling") for path in files(folder, ".h", ".cpp")):
+            own = {header.name for header in path.parent.glob("*.h")}
+            self.assertTrue((LIGGGHTS_HEADERS - own).isdisjoint(includes(path)), name(path))
+        for target in targets().values():
+            if "LIGGGHTS::liggghts" in target.links:
+                self.assertEqual(name(target.folder), "liggghts-pkg", target.name)
 
-    def test_rigid_walls_include_no_structural_code(self):
-        for stem in RIGID:
-            for path in (ROOT / "coupling").glob(stem + ".[hc]*"):
-                for name in includes(path):
-                    self.assertNotRegex(name, r"^(structure|io)/", f"{path.relative_to(ROOT)} includes {name}")
 
+class Circles(unittest.TestCase):
+    def check(self, graph: dict) -> None:
+        try:
+            graphlib.TopologicalSorter(graph).prepare()
+        except graphlib.CycleError as error:
+            self.fail(" -> ".join(map(name, error.args[1])))
+
+    def test_of_includes(self):
+        """A header and the source of its name are one."""
+        graph = {}
+        for path in product_files() + files("tests", ".h", ".cpp"):
+            stem = path.with_suffix("")
+            graph.setdefault(stem, set()).update({header.with_suffix("") for header in included_files(path)} - {stem})
+        for a, b in TO_BREAK:
+            graph[ROOT / a].discard(ROOT / b)
+        self.check(graph)
+
+    def test_of_imports(self):
+        self.check({path: imported_files(path) for folder in ("inputs", "tests") for path in files(folder, ".py")})
+
+
+class Text(unittest.TestCase):
     def test_every_file_names_its_licence(self):
         suffixes = (".h", ".cpp", ".py", ".cmake", ".in", ".yaml", ".map", ".md", ".svg")
-        folders = ("iga-solver", "coupling", "liggghts-pkg", "inputs", "tests", ".ci")
-        for path in (p for folder in folders for p in (ROOT / folder).rglob("*") if p.is_file()):
+        for path in (p for folder in (*product(), "inputs", "tests", ".ci") for p in (ROOT / folder).rglob("*") if p.is_file()):
             named = path.suffix in suffixes or path.name in ("CMakeLists.txt", "run", "setup") or path.name.startswith("in.")
             if named:
                 head = "\n".join(path.read_text().splitlines()[:4])
-                self.assertIn("SPDX-License-Identifier: GPL-2.0-or-later", head, str(path.relative_to(ROOT)))
-
+                self.assertIn("SPDX-License-Identifier: GPL-2.0-or-later", head, name(path))
 
     def test_sources_are_formatted(self):
-        files = [str(p) for folder in (*FORBIDDEN, "liggghts-pkg", "tests") for p in sources(folder)]
+        sources = [str(path) for folder in (*product(), "tests") for path in files(folder, ".h", ".cpp")]
         done = subprocess.run(
-            ["clang-format", "--dry-run", "-Werror", *files], capture_output=True, text=True, check=False
+            ["clang-format", "--dry-run", "-Werror", *sources], capture_output=True, text=True, check=False
         )
         self.assertEqual(done.returncode, 0, done.stderr[-2000:])
 

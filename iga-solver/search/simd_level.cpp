@@ -7,20 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "search/power_kernel.h"
-
 namespace nurbs {
-
-// Of power_kernel.cpp, compiled once for each level.
-namespace portable {
-ElementKernel element_kernel(int p, int q, bool rational);
-}
-namespace avx2 {
-ElementKernel element_kernel(int p, int q, bool rational);
-}
-namespace avx512 {
-ElementKernel element_kernel(int p, int q, bool rational);
-}
 
 namespace {
 constexpr SimdLevel kHighestFirst[] = {SimdLevel::avx512, SimdLevel::avx2, SimdLevel::portable};
@@ -52,16 +39,6 @@ SimdLevel simd_level() {
   }
   throw std::invalid_argument(
       fmt::format("LIGGGHTS_NURBS_SIMD is \"{}\", expected portable, avx2 or avx512", wanted));
-}
-
-ElementKernel element_kernel(int p, int q, bool rational, SimdLevel level) {
-  if (!available(level))
-    throw std::invalid_argument(fmt::format("this machine or this program has no {} kernels", name(level)));
-#ifdef NURBS_X86_64
-  if (level == SimdLevel::avx512) return avx512::element_kernel(p, q, rational);
-  if (level == SimdLevel::avx2) return avx2::element_kernel(p, q, rational);
-#endif
-  return portable::element_kernel(p, q, rational);
 }
 
 }  // namespace nurbs

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# project_write_targets(FILE folder...): of each target of these folders and those below them its name, folder, sources and
+# links, as JSON for source_tree.py.  To be called when all targets are there.
+function(project_write_targets file)
+  set(folders ${ARGN})
+  set(entries)
+  while(folders)
+    list(POP_FRONT folders folder)
+    get_property(below DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+    list(APPEND folders ${below})
+    get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
+    foreach(target IN LISTS targets)
+      project_words(sources ${target} SOURCES)
+      project_words(links ${target} LINK_LIBRARIES)
+      project_words(interface ${target} INTERFACE_LINK_LIBRARIES)
+      cmake_path(RELATIVE_PATH folder BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE name)
+      list(APPEND entries
+        "{\"name\": \"${target}\", \"folder\": \"${name}\", \"sources\": ${sources}, \"links\": ${links}, \"interface\": ${interface}}")
+    endforeach()
+  endwhile()
+  list(JOIN entries ",\n" text)
+  file(WRITE ${file} "[\n${text}\n]\n")
+endfunction()
+
+# A property of a target as a JSON list; other names of targets of ours are resolved.
+function(project_words result target property)
+  get_target_property(values ${target} ${property})
+  set(words)
+  foreach(value IN LISTS values)
+    if(TARGET "${value}")
+      get_target_property(real ${value} ALIASED_TARGET)
+      if(real)
+        set(value ${real})
+      endif()
+    endif()
+    if(value)  # not "values-NOTFOUND"
+      list(APPEND words "\"${value}\"")
+    endif()
+  endforeach()
+  list(JOIN words ", " text)
+  set(${result} "[${text}]" PARENT_SCOPE)
+endfunction()
