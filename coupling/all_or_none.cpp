@@ -18,7 +18,7 @@ void agree_on_problem(MPI_Comm comm, std::string problem) {
   MPI_Bcast(&length, 1, MPI_INT, first, comm);
   problem.resize(length);
   MPI_Bcast(problem.data(), length, MPI_CHAR, first, comm);
-  throw nurbs::InputError(problem);
+  throw geometry_io::InputError(problem);
 }
 
 std::string in_words(const std::exception& error, const std::string& file) {

@@ -14,8 +14,8 @@
 
 namespace coupling {
 
-/// Collective.  Throws nurbs::InputError on every rank if `problem` is not empty on one of them: the problem
-/// of the lowest such rank.
+/// Collective.  Throws geometry_io::InputError on every rank if `problem` is not empty on one of them: the
+/// problem of the lowest such rank.
 void agree_on_problem(MPI_Comm comm, std::string problem);
 
 using nurbs::out_of_memory;

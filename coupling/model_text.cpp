@@ -14,11 +14,11 @@ namespace {
 
 // Returns the complaint, if there is one.
 std::string read(const std::string& path, std::string& text) try {
-  nurbs::FileContent content = nurbs::read_regular_file(path);
+  geometry_io::FileContent content = geometry_io::read_regular_file(path);
   if (!content.problem.empty()) return "cannot read '" + path + "': " + content.problem;
   try {
     text = geometry_io::readable(path, std::move(content.bytes));
-  } catch (const nurbs::InputError& error) {
+  } catch (const geometry_io::InputError& error) {
     return error.what();
   }
   return text.size() > std::numeric_limits<int>::max() ? path + ": holds more than 2 GiB" : std::string();
@@ -41,7 +41,7 @@ std::string read_text_on_all_ranks(MPI_Comm comm, const std::string& path) {
   std::string text, problem;
   if (rank == 0) problem = read(path, text);
   broadcast(comm, path, problem);
-  if (!problem.empty()) throw nurbs::InputError(problem);
+  if (!problem.empty()) throw geometry_io::InputError(problem);
   broadcast(comm, path, text);
   return text;
 }
@@ -49,7 +49,7 @@ std::string read_text_on_all_ranks(MPI_Comm comm, const std::string& path) {
 bool is_same_file(MPI_Comm comm, const std::string& path, const std::string& other) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  int same = rank == 0 && nurbs::same_file(path, other);
+  int same = rank == 0 && geometry_io::same_file(path, other);
   MPI_Bcast(&same, 1, MPI_INT, 0, comm);
   return same != 0;
 }

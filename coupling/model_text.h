@@ -10,7 +10,7 @@
 
 namespace coupling {
 
-/// Collective.  Throws nurbs::InputError on every rank if rank 0 cannot read the file.
+/// Collective.  Throws geometry_io::InputError on every rank if rank 0 cannot read the file.
 std::string read_text_on_all_ranks(MPI_Comm comm, const std::string& path);
 
 /// The same as a function of the path, for readers of files that name others.

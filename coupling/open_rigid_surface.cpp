@@ -20,15 +20,15 @@ void expect_room(const std::vector<nurbs::Surface>& patches, const std::string& 
   try {
     nurbs::expect_memory(kBytesPerElement * elements, fmt::format("a wall of {:.3g} elements", elements));
   } catch (const std::invalid_argument& error) {
-    throw nurbs::InputError(fmt::format("{}: {}", path, error.what()));
+    throw geometry_io::InputError(fmt::format("{}: {}", path, error.what()));
   }
 }
 
 OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface) {
-  const nurbs::GeometryFile file = geometry_io::read_geometry(path, reader_on_all_ranks(comm));
+  const geometry_io::GeometryFile file = geometry_io::read_geometry(path, reader_on_all_ranks(comm));
   std::vector<nurbs::Surface> patches;
   std::vector<int> outward_sign;
-  for (nurbs::OrientedSurface& patch : nurbs::named_surface(file, surface, path)) {
+  for (geometry_io::OrientedSurface& patch : geometry_io::named_surface(file, surface, path)) {
     patches.push_back(std::move(patch.surface));
     outward_sign.push_back(patch.outward_sign);
   }

@@ -17,16 +17,17 @@ namespace coupling {
 /// What a deck's `structure` or `geometry` keyword opens.
 struct OpenedStructure {
   std::unique_ptr<StructureSolver> solver;
-  nurbs::Units units;
+  geometry_io::Units units;
 };
 
-/// Rigid wall: the named surface of a geometry file, and what moves it.  Collective; throws nurbs::InputError
-/// or std::invalid_argument on every rank.
+/// Rigid wall: the named surface of a geometry file, and what moves it.  Collective; throws
+/// geometry_io::InputError or std::invalid_argument on every rank.
 OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
                                    RigidDrive drive = {});
 
-/// Deforming solid of iga-solver: the named surface of a model file.  Collective; throws nurbs::InputError on
-/// every rank.  Lives in the library coupling_iga, so that a rigid wall links no structural code.
+/// Deforming solid of iga-solver: the named surface of a model file.  Collective; throws
+/// geometry_io::InputError on every rank.  Lives in the library coupling_iga, so that a rigid wall links no
+/// structural code.
 OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface);
 
 }  // namespace coupling

@@ -27,19 +27,19 @@ struct RigidFrame {
 
   /// Largest distance between the places that a body point of the box has in the two frames [length].  The
   /// distance is a convex function of the point, so it is largest at a corner.
-  double max_displacement(const RigidFrame& other, const nurbs::Box& body_bounds) const {
+  double max_displacement(const RigidFrame& other, const search::Box& body_bounds) const {
     return largest_at_corners(
         body_bounds, [&](const nurbs::Vector3& X) { return (to_space(X) - other.to_space(X)).norm(); });
   }
   /// Largest speed of a body point of the box [length/time].
-  double max_speed(const nurbs::Box& body_bounds) const {
+  double max_speed(const search::Box& body_bounds) const {
     return largest_at_corners(body_bounds,
                               [&](const nurbs::Vector3& X) { return velocity_at(to_space(X)).norm(); });
   }
 
  private:
   template <class Function>
-  static double largest_at_corners(const nurbs::Box& box, Function value_at) {
+  static double largest_at_corners(const search::Box& box, Function value_at) {
     double largest = 0.0;
     for (int corner = 0; corner < 8; ++corner) {
       nurbs::Vector3 X;

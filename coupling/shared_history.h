@@ -15,7 +15,7 @@ namespace coupling {
 
 class SharedHistory {
  public:
-  SharedHistory(MPI_Comm comm, io::HistoryOutput output, nurbs::Units units,
+  SharedHistory(MPI_Comm comm, io::HistoryOutput output, geometry_io::Units units,
                 std::vector<structure::Probe> probes)
       : comm_(comm), output_(std::move(output)), units_(units), probes_(std::move(probes)) {}
 
@@ -30,7 +30,7 @@ class SharedHistory {
 
   MPI_Comm comm_;
   io::HistoryOutput output_;
-  nurbs::Units units_;
+  geometry_io::Units units_;
   std::vector<structure::Probe> probes_;
   bool resumes_ = false;
   std::optional<io::OutputTimes> times_;  // from the first call on

@@ -293,7 +293,7 @@ void FixWallNurbs::build_candidates() {
   check_images(images);
   candidates_.build(frame_, images, {atom->nlocal, atom->x, list_reach_.data()});
   constexpr double kResolution = 1e-10;  // of the wall's coordinates, which feet know to about 1e-16
-  const nurbs::Box& bounds = candidates_.wall_bounds();
+  const search::Box& bounds = candidates_.wall_bounds();
   resolution_ = kResolution * bounds.low.cwiseAbs().cwiseMax(bounds.high.cwiseAbs()).maxCoeff();
   tracker_.list_is_new();
   surface_motion_ = 0.0;

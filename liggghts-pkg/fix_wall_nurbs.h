@@ -108,22 +108,22 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
 
   // fix_wall_nurbs_contact.cpp
   void resolve_contacts(const contact::ContactTracker::Query& query);
-  nurbs::Vector3 wall_velocity(const nurbs::SurfaceFoot& foot, const nurbs::Vector3& point,
+  nurbs::Vector3 wall_velocity(const search::SurfaceFoot& foot, const nurbs::Vector3& point,
                                const nurbs::Vector3& delta) const;
   void apply_contact(int particle, contact::TrackedFoot& tracked, const nurbs::Vector3& delta,
                      const nurbs::Vector3& v_wall);
-  void call_contact_model(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta,
+  void call_contact_model(int particle, const search::SurfaceFoot& foot, const nurbs::Vector3& delta,
                           contact::ContactSlot slot, nurbs::Vector3 v_wall);
   void take_slot(int particle, contact::TrackedFoot& tracked, const nurbs::Vector3& delta,
                  const contact::ContactMemory& memory);
-  int side_of(const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
+  int side_of(const search::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
   nurbs::Vector3 leave_surface(int particle, contact::TrackedFoot& tracked, const nurbs::Vector3& delta,
                                const contact::ContactMemory& memory) const;
-  [[noreturn]] void fail_on_contact(int particle, const nurbs::SurfaceFoot& foot) const;
-  double effective_radius(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
-  bool inside_body(const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
-  bool may_cross(int particle, const nurbs::SurfaceFoot& foot) const;
-  void check_crossing(int particle, const nurbs::SurfaceFoot& foot, const nurbs::Vector3& delta,
+  [[noreturn]] void fail_on_contact(int particle, const search::SurfaceFoot& foot) const;
+  double effective_radius(int particle, const search::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
+  bool inside_body(const search::SurfaceFoot& foot, const nurbs::Vector3& delta) const;
+  bool may_cross(int particle, const search::SurfaceFoot& foot) const;
+  void check_crossing(int particle, const search::SurfaceFoot& foot, const nurbs::Vector3& delta,
                       const nurbs::Vector3& v_wall);
 
   // fix_wall_nurbs_output.cpp
@@ -153,9 +153,9 @@ class FixWallNurbs : private WallNurbsSetup, public FixWallGran {
 
   coupling::StructureSolver& structure_;
   coupling::SurfaceExchange exchange_;
-  nurbs::MultiPatch surface_;             // of the structure; welded across periodic faces, too
-  nurbs::MultiPatchProjector projector_;  // of the imported control points, as is what follows
-  nurbs::Regularity regularity_;
+  nurbs::MultiPatch surface_;              // of the structure; welded across periodic faces, too
+  search::MultiPatchProjector projector_;  // of the imported control points, as is what follows
+  search::Regularity regularity_;
   contact::CandidateList candidates_;
   contact::LocalSearch search_;
   contact::ContactTracker tracker_;

@@ -19,8 +19,8 @@ using contact::ContactMemory;
 using contact::ContactSlot;
 using contact::ContactTracker;
 using contact::TrackedFoot;
-using nurbs::SurfaceFoot;
 using nurbs::Vector3;
+using search::SurfaceFoot;
 
 inline Vector3 FixWallNurbs::wall_velocity(const SurfaceFoot& foot, const Vector3& point,
                                            const Vector3& delta) const {
@@ -80,7 +80,7 @@ inline void FixWallNurbs::take_slot(int i, TrackedFoot& tracked, const Vector3& 
 }
 
 int FixWallNurbs::side_of(const SurfaceFoot& foot, const Vector3& delta) const {
-  const Vector3 normal = foot.status == nurbs::ProjectionStatus::interior
+  const Vector3 normal = foot.status == search::ProjectionStatus::interior
                              ? nurbs::shape_at(surface_, exchange_.positions(), foot.at()).normal
                              : nurbs::normal_at(surface_, exchange_.positions(), foot.at());
   return normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1 : 1;
@@ -203,7 +203,7 @@ double FixWallNurbs::effective_radius(int i, const SurfaceFoot& foot, const Vect
 
 inline bool FixWallNurbs::inside_body(const SurfaceFoot& foot, const Vector3& delta) const {
   const int sign = outward_sign_[foot.patch];
-  if (sign == 0 || foot.status != nurbs::ProjectionStatus::interior) return false;
+  if (sign == 0 || foot.status != search::ProjectionStatus::interior) return false;
   return sign * side_of(foot, delta) < 0;
 }
 

@@ -37,7 +37,7 @@ void FixWallNurbs::refuse_second_solid() const {
 
 WallState::Origin FixWallNurbs::origin() const {
   coupling::Fingerprint fingerprint = structure_.fingerprint();
-  fingerprint.push_back(coupling::word_part("units", nurbs::units_name(opened_.units)));
+  fingerprint.push_back(coupling::word_part("units", geometry_io::units_name(opened_.units)));
   return {std::move(fingerprint), options_.slots, dnum_};
 }
 

@@ -92,7 +92,7 @@ std::vector<std::string> words_of(const std::vector<ModelWord>& models) {
 void check_known(const Keyword& keyword, const std::string& given) {
   const std::vector<std::string> known = words_of(known_models(keyword.kind));
   if (std::find(known.begin(), known.end(), given) != known.end()) return;
-  const std::string near = nurbs::nearest_word(given, known);
+  const std::string near = geometry_io::nearest_word(given, known);
   throw std::invalid_argument(fmt::format("unknown {} model '{}'{}, expected one of {}",
                                           keyword.kind == ModelKind::normal ? "contact" : keyword.word, given,
                                           near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near),

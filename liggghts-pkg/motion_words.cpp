@@ -120,7 +120,7 @@ Motion read_motion(WordReader& words, const VariableLookup& variable) {
   const std::string given = words.value(fmt::format("one of {}", fmt::join(known, ", ")));
   for (const Verb& verb : kVerbs)
     if (given == verb.word) return verb.read(words, variable);
-  const std::string near = nurbs::nearest_word(given, known);
+  const std::string near = geometry_io::nearest_word(given, known);
   fail(fmt::format("unknown motion '{}'{}, expected one of {}", given,
                    near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near), fmt::join(known, ", ")));
 }

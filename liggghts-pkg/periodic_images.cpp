@@ -7,8 +7,8 @@
 
 namespace liggghts_pkg {
 
-using nurbs::Box;
 using nurbs::Vector3;
+using search::Box;
 
 namespace {
 

@@ -17,7 +17,7 @@ std::vector<nurbs::Vector3> periods(const LAMMPS_NS::Domain& domain);
 
 /// By how much the wall must be moved so that it comes within `reach` of the box: 0 first, then sums of at
 /// most one period per direction [length].  Box of the wall in its frame.
-std::vector<nurbs::Vector3> wall_images(const LAMMPS_NS::Domain& domain, const nurbs::Box& wall,
+std::vector<nurbs::Vector3> wall_images(const LAMMPS_NS::Domain& domain, const search::Box& wall,
                                         const coupling::RigidFrame& frame, double reach);
 
 }  // namespace liggghts_pkg

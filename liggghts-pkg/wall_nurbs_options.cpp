@@ -34,7 +34,7 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
         "'{}' stands too late: model, tangential, cohesion, rolling_friction and the surface model come "
         "first, in this order",
         word));
-  const std::string near = nurbs::nearest_word(word, kKeywords);
+  const std::string near = geometry_io::nearest_word(word, kKeywords);
   fail(fmt::format("unknown keyword '{}'{}, expected one of {}, or a contact model's setting with on or off",
                    word, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near),
                    fmt::join(kKeywords, ", ")));

@@ -50,10 +50,10 @@ void check_type(int type, int types) {
         fmt::format("type is {}, expected 1 to {}, the number of types in create_box", type, types));
 }
 
-void check_units(const WallNurbsOptions& options, nurbs::Units units, const char* deck_units) {
-  if (std::strcmp(nurbs::units_name(units), deck_units) != 0)
+void check_units(const WallNurbsOptions& options, geometry_io::Units units, const char* deck_units) {
+  if (std::strcmp(geometry_io::units_name(units), deck_units) != 0)
     throw std::invalid_argument(fmt::format("'{}' has units {}, the deck has units {}: they must be the same",
-                                            options.file, nurbs::units_name(units), deck_units));
+                                            options.file, geometry_io::units_name(units), deck_units));
 }
 
 liggghts_pkg::VariableLookup variables_of(LAMMPS* lmp, const std::string& fix_id) {

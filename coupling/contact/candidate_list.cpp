@@ -10,10 +10,10 @@ namespace contact {
 using nurbs::Vector3;
 
 void CandidateList::set_surface(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points) {
-  std::vector<nurbs::Box> boxes;
+  std::vector<search::Box> boxes;
   boxes.reserve(surface.element_count());
   for (int p = 0; p < surface.patch_count(); ++p)
-    nurbs::add_element_boxes(surface.patch(p), surface.control_points_of(p, control_points), boxes);
+    search::add_element_boxes(surface.patch(p), surface.control_points_of(p, control_points), boxes);
   tree_.build(boxes);
   control_points_at_build_ = control_points;
 }

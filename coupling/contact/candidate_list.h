@@ -35,7 +35,7 @@ class CandidateList {
   void set_surface(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points);
   bool has_surface() const { return !tree_.empty(); }
   /// Of the wall in its frame.
-  const nurbs::Box& wall_bounds() const { return tree_.bounds(); }
+  const search::Box& wall_bounds() const { return tree_.bounds(); }
 
   /// Each particle becomes a candidate of the elements whose boxes, moved by one of the images, are within
   /// its reach.
@@ -63,7 +63,7 @@ class CandidateList {
   std::vector<ImageElements> image_elements_;
   std::vector<int> elements_;
   std::vector<nurbs::Vector3> images_;
-  nurbs::BoxTree tree_;
+  search::BoxTree tree_;
   nurbs::NodalVectors control_points_at_build_;
   coupling::RigidFrame frame_at_build_;
 };

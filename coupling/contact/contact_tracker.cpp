@@ -8,9 +8,9 @@
 
 namespace contact {
 
-using nurbs::SurfaceFoot;
 using nurbs::SurfacePoint;
 using nurbs::Vector3;
+using search::SurfaceFoot;
 
 namespace {
 
@@ -137,7 +137,7 @@ Vector3 ContactTracker::nearest_image(const Candidate& candidate, const SurfaceP
                                       const Vector3& centre) const {
   const ImageElements* images = candidates_.image_elements(candidate);
   if (candidate.image_count == 1) return candidates_.images()[images[0].image];
-  const nurbs::SurfaceProjector& patch = search_.projector().patch(at.patch);
+  const search::SurfaceProjector& patch = search_.projector().patch(at.patch);
   const Vector3 S = nurbs::interpolate(patch.space(), patch.control_points(), at.xi);
   const ImageElements* nearest = std::min_element(
       images, images + candidate.image_count, [&](const ImageElements& a, const ImageElements& b) {

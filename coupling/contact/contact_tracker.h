@@ -19,7 +19,7 @@
 namespace contact {
 
 struct TrackedFoot {
-  nurbs::SurfaceFoot foot;
+  search::SurfaceFoot foot;
   int slot;  ///< of the particle's memory; -1: none yet
 };
 struct FeetRange {
@@ -32,7 +32,7 @@ struct FeetRange {
 class ContactTracker {
  public:
   /// Keeps references to all three.
-  ContactTracker(LocalSearch& search, nurbs::Regularity& regularity, const CandidateList& candidates)
+  ContactTracker(LocalSearch& search, search::Regularity& regularity, const CandidateList& candidates)
       : search_(search), regularity_(regularity), candidates_(candidates) {}
 
   /// After the list was rebuilt.
@@ -97,12 +97,12 @@ class ContactTracker {
                                const nurbs::Vector3& centre) const;
 
   LocalSearch& search_;
-  nurbs::Regularity& regularity_;
+  search::Regularity& regularity_;
   const CandidateList& candidates_;
   std::vector<State> states_;          // per candidate
   std::vector<TrackedFoot> feet_;      // of regular candidates
   std::vector<TrackedFoot> all_feet_;  // of one that is not, this step
-  std::vector<nurbs::SurfaceFoot> found_;
+  std::vector<search::SurfaceFoot> found_;
   double surface_motion_ = 0.0;
 };
 

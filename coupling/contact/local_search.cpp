@@ -7,10 +7,10 @@
 
 namespace contact {
 
-using nurbs::ProjectionStatus;
-using nurbs::SurfaceFoot;
 using nurbs::SurfacePoint;
 using nurbs::Vector3;
+using search::ProjectionStatus;
+using search::SurfaceFoot;
 
 inline void LocalSearch::count(const SurfaceFoot& foot) {
   ++counts_.by_status[static_cast<int>(foot.status)];
@@ -21,9 +21,9 @@ SurfaceFoot LocalSearch::follow(const Vector3& centre, const SurfacePoint& from,
   SurfaceFoot foot;
   foot.status = ProjectionStatus::not_converged;
   if (method_ == SearchMethod::simplex_brent) {
-    const nurbs::SurfaceProjector& patch = projector_.patch(from.patch);
-    const nurbs::Projection p = nurbs::closest_point_simplex_brent(patch.space(), patch.control_points(),
-                                                                   centre - image, from.xi, true);
+    const search::SurfaceProjector& patch = projector_.patch(from.patch);
+    const search::Projection p = search::closest_point_simplex_brent(patch.space(), patch.control_points(),
+                                                                     centre - image, from.xi, true);
     foot = {p, from.patch, image};
     foot.foot += image;
     if (foot.status != ProjectionStatus::interior) ++counts_.fallbacks;

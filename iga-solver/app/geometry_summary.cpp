@@ -15,11 +15,11 @@
 namespace app {
 namespace {
 
+using geometry_io::Shape;
 using nurbs::Border;
 using nurbs::KnotVector;
 using nurbs::Patch;
 using nurbs::RationalBasis;
-using nurbs::Shape;
 using nurbs::Surface;
 using nurbs::Vector3;
 using nurbs::Volume;
@@ -170,7 +170,7 @@ std::string borders_text(const std::vector<Surface>& patches, const std::vector<
 
 }  // namespace
 
-std::string summary(const nurbs::GeometryFile& geometry) {
+std::string summary(const geometry_io::GeometryFile& geometry) {
   std::string text;
   std::vector<Surface> surfaces;
   std::vector<std::string> names;
@@ -186,14 +186,14 @@ std::string summary(const nurbs::GeometryFile& geometry) {
   if (!surfaces.empty()) text += "borders\n" + borders_text(surfaces, names);
   for (const auto& [name, pieces] : geometry.surfaces) {
     text += fmt::format("surface '{}': {}\n", name,
-                        fmt::join(nurbs::surface_words(pieces, geometry.patches), ", "));
+                        fmt::join(geometry_io::surface_words(pieces, geometry.patches), ", "));
     if (!std::any_of(pieces.begin(), pieces.end(), [](const auto& piece) { return piece.face.has_value(); }))
       continue;
     surfaces.clear();
     names.clear();
-    for (const nurbs::SurfacePiece& piece : pieces) {
+    for (const geometry_io::SurfacePiece& piece : pieces) {
       surfaces.push_back(extract(piece, geometry.patches).surface);
-      names.push_back(nurbs::surface_words({piece}, geometry.patches).front());
+      names.push_back(geometry_io::surface_words({piece}, geometry.patches).front());
     }
     text += borders_text(surfaces, names);
   }

@@ -10,6 +10,6 @@ namespace app {
 
 /// Patches with degrees, sizes, extents, area or volume and continuity at interior knots; how their edges
 /// meet; and the named surfaces.  Several lines.
-std::string summary(const nurbs::GeometryFile& geometry);
+std::string summary(const geometry_io::GeometryFile& geometry);
 
 }  // namespace app

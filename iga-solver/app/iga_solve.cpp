@@ -67,7 +67,7 @@ long step_count(double end, double largest_step) {
 
 void print_model(const io::ModelFile& model, const ExplicitSolver& solver) {
   const nurbs::Space<3>& space = solver.solid().patch().space;
-  fmt::print("{} (units {})\n", model.file, nurbs::units_name(model.geometry.units));
+  fmt::print("{} (units {})\n", model.file, geometry_io::units_name(model.geometry.units));
   fmt::print("  elements     {} ({} x {} x {}), degrees {} {} {}\n", space.element_count(),
              space.knots(0).element_count(), space.knots(1).element_count(), space.knots(2).element_count(),
              space.degree(0), space.degree(1), space.degree(2));

@@ -14,7 +14,7 @@
 
 namespace {
 
-using nurbs::GeometryFile;
+using geometry_io::GeometryFile;
 
 struct Options {
   std::string in, out, surface, units = "si";
@@ -23,7 +23,7 @@ struct Options {
 // The patches of one named surface, as a geometry of its own; faces of volumes become surfaces.
 GeometryFile only(const GeometryFile& geometry, const std::string& surface, const std::string& file) {
   GeometryFile kept{geometry.units, {}, {}};
-  for (nurbs::OrientedSurface& patch : named_surface(geometry, surface, file)) {
+  for (geometry_io::OrientedSurface& patch : named_surface(geometry, surface, file)) {
     kept.surfaces[surface].push_back({static_cast<int>(kept.patches.size()), std::nullopt});
     kept.patches.push_back(std::move(patch.surface));
   }
@@ -42,12 +42,12 @@ void write(const GeometryFile& geometry, const std::string& path, const std::vec
     throw std::runtime_error(fmt::format("{}: {}", path, error.what()));
   }
   for (const std::string& input : inputs)
-    for (const std::string& written : {path, nurbs::unfinished_name(path)})
-      if (nurbs::same_file(written, input))
+    for (const std::string& written : {path, geometry_io::unfinished_name(path)})
+      if (geometry_io::same_file(written, input))
         throw std::runtime_error(
             fmt::format("{}: is the file {} that is read and would be overwritten, expected another name",
                         written, input));
-  const std::string problem = nurbs::write_file(path, [&](std::ostream& file) { file << bytes; });
+  const std::string problem = geometry_io::write_file(path, [&](std::ostream& file) { file << bytes; });
   if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
   fmt::print("written to {} ({})\n", path, geometry_io::format_name(*format));
 }
@@ -59,9 +59,9 @@ void run(const Options& options) {
     return geometry_io::read_file(path);
   };
   GeometryFile geometry =
-      geometry_io::read_geometry(options.in, read_and_note, nurbs::units_from_name(options.units));
+      geometry_io::read_geometry(options.in, read_and_note, geometry_io::units_from_name(options.units));
   if (!options.surface.empty()) geometry = only(geometry, options.surface, options.in);
-  fmt::print("{}: units {}, {} patch{}\n{}", options.in, nurbs::units_name(geometry.units),
+  fmt::print("{}: units {}, {} patch{}\n{}", options.in, geometry_io::units_name(geometry.units),
              geometry.patches.size(), geometry.patches.size() == 1 ? "" : "es", app::summary(geometry));
   if (!options.out.empty()) write(geometry, options.out, inputs);
 }

@@ -9,7 +9,7 @@
 
 #include "geometry_io/input_error.h"
 
-namespace nurbs {
+namespace geometry_io {
 namespace {
 
 using std::string_view;
@@ -143,4 +143,4 @@ void expect_kind(FileKind expected, const std::string& path, const std::string& 
   refuse_kind(given, path);
 }
 
-}  // namespace nurbs
+}  // namespace geometry_io

@@ -5,7 +5,7 @@
 
 #include <string>
 
-namespace nurbs {
+namespace geometry_io {
 
 enum class FileKind { text, hdf5, xml, step, iges, stl, binary };
 
@@ -18,4 +18,4 @@ FileKind kind_of_file(const std::string& path, const std::string& bytes);
 /// a reader of `expected` (text: YAML) can read.
 void expect_kind(FileKind expected, const std::string& path, const std::string& bytes);
 
-}  // namespace nurbs
+}  // namespace geometry_io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The formats behind geometry_io.h.  Readers throw nurbs::InputError, writers std::invalid_argument.
+// The formats behind geometry_io.h.  Readers throw InputError, writers std::invalid_argument.
 #pragma once
 
 #include <string>
@@ -8,16 +8,14 @@
 
 namespace geometry_io {
 
-using nurbs::GeometryFile;
-
 std::string write_yaml(const GeometryFile& geometry);
 
 /// `units` are not used: HDF5 files have their own.
-GeometryFile parse_hdf5(const std::string& bytes, const std::string& file, nurbs::Units units);
+GeometryFile parse_hdf5(const std::string& bytes, const std::string& file, Units units);
 std::string write_hdf5(const GeometryFile& geometry);
 
 /// `units` are those of a file without.
-GeometryFile parse_gismo(const std::string& text, const std::string& file, nurbs::Units units);
+GeometryFile parse_gismo(const std::string& text, const std::string& file, Units units);
 std::string write_gismo(const GeometryFile& geometry);
 
 }  // namespace geometry_io

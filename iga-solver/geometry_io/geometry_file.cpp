@@ -9,7 +9,7 @@
 
 #include "geometry_io/shape_reader.h"
 
-namespace nurbs {
+namespace geometry_io {
 namespace {
 
 constexpr const char* kUnitsNames[] = {"si", "cgs", "mm-g-ms"};
@@ -83,4 +83,4 @@ std::vector<OrientedSurface> named_surface(const GeometryFile& geometry, const s
   return patches;
 }
 
-}  // namespace nurbs
+}  // namespace geometry_io

@@ -43,7 +43,7 @@
 #include "geometry_io/named_surface.h"
 #include "geometry_io/yaml_map.h"
 
-namespace nurbs {
+namespace geometry_io {
 
 enum class Units { si, cgs, mm_g_ms };
 const char* units_name(Units units);
@@ -72,4 +72,4 @@ GeometryFile parse_geometry_file(const std::string& text, const std::string& fil
 std::vector<OrientedSurface> named_surface(const GeometryFile& geometry, const std::string& name,
                                            const std::string& file);
 
-}  // namespace nurbs
+}  // namespace geometry_io

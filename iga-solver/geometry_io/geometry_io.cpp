@@ -16,12 +16,12 @@ struct FormatEntry {
   Format format;
   const char* name;
   std::initializer_list<const char*> extensions;
-  GeometryFile (*parse)(const std::string& bytes, const std::string& file, nurbs::Units units);
+  GeometryFile (*parse)(const std::string& bytes, const std::string& file, Units units);
   std::string (*write)(const GeometryFile& geometry);
 };
 
-GeometryFile parse_yaml(const std::string& text, const std::string& file, nurbs::Units) {
-  return nurbs::parse_geometry_file(text, file);
+GeometryFile parse_yaml(const std::string& text, const std::string& file, Units) {
+  return parse_geometry_file(text, file);
 }
 
 const FormatEntry kFormats[] = {
@@ -34,11 +34,11 @@ const FormatEntry& entry(Format format) { return kFormats[static_cast<int>(forma
 Format input_format(const std::string& path) { return format_of_path(path).value_or(Format::yaml); }
 
 // The file that a geometry file names names no further one.
-GeometryFile read_other_file(const std::string& path, nurbs::Units units, const ReadFile& read) {
+GeometryFile read_other_file(const std::string& path, Units units, const ReadFile& read) {
   GeometryFile geometry = entry(input_format(path)).parse(read(path), path, units);
   if (geometry.units != units)
-    throw nurbs::InputError(fmt::format("{}: units are {}, expected {} as in the file that names this one",
-                                        path, nurbs::units_name(geometry.units), nurbs::units_name(units)));
+    throw InputError(fmt::format("{}: units are {}, expected {} as in the file that names this one", path,
+                                 units_name(geometry.units), units_name(units)));
   return geometry;
 }
 
@@ -55,9 +55,9 @@ std::optional<Format> format_of_path(const std::string& path) {
 }
 
 std::string read_file(const std::string& path) {
-  nurbs::FileContent content = nurbs::read_regular_file(path);
+  FileContent content = read_regular_file(path);
   if (!content.problem.empty())
-    throw nurbs::InputError(fmt::format("{}: cannot read this file: {}", path, content.problem));
+    throw InputError(fmt::format("{}: cannot read this file: {}", path, content.problem));
   return readable(path, std::move(content.bytes));
 }
 
@@ -66,15 +66,15 @@ std::string readable(const std::string& path, std::string bytes) {
   return bytes;
 }
 
-GeometryFile read_geometry(const std::string& path, const ReadFile& read, nurbs::Units units) {
+GeometryFile read_geometry(const std::string& path, const ReadFile& read, Units units) {
   const Format format = input_format(path);
   const std::string bytes = read(path);
-  if (format == Format::yaml) return nurbs::parse_geometry_file(bytes, path, geometry_opener(read));
+  if (format == Format::yaml) return parse_geometry_file(bytes, path, geometry_opener(read));
   return entry(format).parse(bytes, path, units);
 }
 
-nurbs::OpenGeometry geometry_opener(ReadFile read) {
-  return [read = std::move(read)](const std::string& path, nurbs::Units units) {
+OpenGeometry geometry_opener(ReadFile read) {
+  return [read = std::move(read)](const std::string& path, Units units) {
     return read_other_file(path, units, read);
   };
 }

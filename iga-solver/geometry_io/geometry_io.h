@@ -12,15 +12,13 @@
 
 namespace geometry_io {
 
-using nurbs::GeometryFile;
-
 enum class Format { yaml, hdf5, xml };
 /// "YAML", "HDF5", "G+Smo XML".
 const char* format_name(Format format);
 /// By the file's extension: .h5, .hdf5, .xml, .yaml or .yml.
 std::optional<Format> format_of_path(const std::string& path);
 
-/// Gives the bytes of the file at `path`, or what `readable` makes of them; throws nurbs::InputError if it
+/// Gives the bytes of the file at `path`, or what `readable` makes of them; throws InputError if it
 /// cannot.
 using ReadFile = std::function<std::string(const std::string& path)>;
 /// Reads in this process, `readable` included.
@@ -30,12 +28,11 @@ std::string read_file(const std::string& path);
 std::string readable(const std::string& path, std::string bytes);
 
 /// Reads a geometry file, YAML unless its extension says otherwise, and another one that it names.  `units`
-/// are those of formats that have none. Throws nurbs::InputError: one line with file and place, what was
+/// are those of formats that have none. Throws InputError: one line with file and place, what was
 /// given and what was expected.
-GeometryFile read_geometry(const std::string& path, const ReadFile& read,
-                           nurbs::Units units = nurbs::Units::si);
+GeometryFile read_geometry(const std::string& path, const ReadFile& read, Units units = Units::si);
 /// For model files: what their key `geometry: {file: ...}` reads; its units must be the model's.
-nurbs::OpenGeometry geometry_opener(ReadFile read);
+OpenGeometry geometry_opener(ReadFile read);
 
 /// The file's bytes; reading them gives the same numbers to the last bit.  Throws std::invalid_argument if
 /// the format cannot hold the geometry.

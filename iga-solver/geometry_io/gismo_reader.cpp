@@ -15,7 +15,6 @@ namespace geometry_io {
 namespace {
 
 using nurbs::KnotVector;
-using nurbs::Shape;
 using pugi::xml_node;
 
 // What may stand beside geometry in a file and says nothing about it.
@@ -36,8 +35,8 @@ auto blame(const XmlInput& file, xml_node node, Build build) {
 void expect_attribute(const XmlInput& file, xml_node node, const char* name, const std::string& expected) {
   const std::string given = file.attribute(node, name);
   if (given != expected)
-    file.fail(node, fmt::format("{} of <{}> is '{}', expected '{}'", name, node.name(), nurbs::shown(given),
-                                expected));
+    file.fail(node,
+              fmt::format("{} of <{}> is '{}', expected '{}'", name, node.name(), shown(given), expected));
 }
 
 // Numbers that G+Smo would take from another encoding or order, or generate, are refused.
@@ -46,7 +45,7 @@ std::vector<double> plain_numbers(const XmlInput& file, xml_node node) {
     const std::string given = node.attribute(name).value();
     if (node.attribute(name) && given != "ascii" && given != "ASCII")
       file.fail(node, fmt::format("<{}> has {}='{}', expected numbers written out, point after point",
-                                  node.name(), name, nurbs::shown(given)));
+                                  node.name(), name, shown(given)));
   }
   return file.numbers(node);
 }
@@ -125,8 +124,7 @@ Shape read_geometry(const XmlInput& file, xml_node geometry) {
   const auto type = std::find_if(std::begin(kTypes), std::end(kTypes),
                                  [&](const GeometryType& known) { return given == known.name; });
   if (type == std::end(kTypes))
-    file.fail(geometry,
-              fmt::format("geometry of type '{}', expected {}", nurbs::shown(given), kExpectedTypes));
+    file.fail(geometry, fmt::format("geometry of type '{}', expected {}", shown(given), kExpectedTypes));
   for (const xml_node part : geometry.children())
     if (part.name() != std::string("Basis") && part.name() != std::string("coefs"))
       file.fail(
@@ -139,7 +137,7 @@ Shape read_geometry(const XmlInput& file, xml_node geometry) {
 // The patches and names of a file, collected from its MultiPatch elements.
 class Collector {
  public:
-  Collector(const XmlInput& file, nurbs::Units units) : file_(file), geometry_{units, {}, {}} {}
+  Collector(const XmlInput& file, Units units) : file_(file), geometry_{units, {}, {}} {}
 
   GeometryFile collect() {
     bool multi_patch = false;
@@ -159,8 +157,8 @@ class Collector {
     if (name == "MultiPatch") return true;
     if (name != "Geometry" &&
         std::find(std::begin(kPassedOver), std::end(kPassedOver), name) == std::end(kPassedOver))
-      file_.fail(node, fmt::format("<{}>, expected <Geometry> or <MultiPatch>: {}", nurbs::shown(name),
-                                   kExpectedTypes));
+      file_.fail(node,
+                 fmt::format("<{}>, expected <Geometry> or <MultiPatch>: {}", shown(name), kExpectedTypes));
     return false;
   }
 
@@ -187,7 +185,7 @@ class Collector {
     if (type == "id_index") return given;
     if (type != "id_range")
       file_.fail(patches,
-                 fmt::format("type of <patches> is '{}', expected id_range or id_index", nurbs::shown(type)));
+                 fmt::format("type of <patches> is '{}', expected id_range or id_index", shown(type)));
     constexpr int kMaxPatches = 1000000;
     if (given.size() != 2 || given[0] > given[1] || given[1] - static_cast<double>(given[0]) >= kMaxPatches)
       file_.fail(patches,
@@ -200,7 +198,7 @@ class Collector {
   void add_multi_patch(xml_node node) {
     const xml_node patches = file_.child(node, "patches");
     const int dim = file_.integer_attribute(node, "parDim");
-    std::vector<nurbs::SurfacePiece> pieces;
+    std::vector<SurfacePiece> pieces;
     for (const int id : ids(patches)) {
       const int p = patch_of_id(id, patches);
       const int given = std::holds_alternative<nurbs::Surface>(geometry_.patches[p]) ? 2 : 3;
@@ -220,7 +218,7 @@ class Collector {
     if (pairs.size() % 2 != 0 || pairs.empty())
       file_.fail(boundary,
                  fmt::format("{} numbers in <boundary>, expected pairs of patch and side", pairs.size()));
-    std::vector<nurbs::SurfacePiece>& pieces = geometry_.surfaces[boundary.attribute("name").value()];
+    std::vector<SurfacePiece>& pieces = geometry_.surfaces[boundary.attribute("name").value()];
     for (size_t i = 0; i < pairs.size(); i += 2) {
       if (pairs[i + 1] < 1 || pairs[i + 1] > 6)
         file_.fail(boundary, fmt::format("side is {}, expected 1 to 6", pairs[i + 1]));
@@ -233,10 +231,11 @@ class Collector {
     const auto is_volume = [](const Shape& shape) { return std::holds_alternative<nurbs::Volume>(shape); };
     const int volumes =
         static_cast<int>(std::count_if(geometry_.patches.begin(), geometry_.patches.end(), is_volume));
-    if (volumes == 0) geometry_.surfaces["all"] = nurbs::parse_surface({"all"}, geometry_.patches);
+    if (volumes == 0) geometry_.surfaces["all"] = parse_surface({"all"}, geometry_.patches);
     if (volumes == 1 && geometry_.patches.size() == 1)
       for (int face = 0; face < 6; ++face)
-        geometry_.surfaces[face_name(static_cast<nurbs::Face>(face))] = {{0, static_cast<nurbs::Face>(face)}};
+        geometry_.surfaces[nurbs::face_name(static_cast<nurbs::Face>(face))] = {
+            {0, static_cast<nurbs::Face>(face)}};
   }
 
   const XmlInput& file_;
@@ -246,14 +245,13 @@ class Collector {
 
 }  // namespace
 
-GeometryFile parse_gismo(const std::string& text, const std::string& file_name, nurbs::Units units) {
+GeometryFile parse_gismo(const std::string& text, const std::string& file_name, Units units) {
   const XmlInput file(text, file_name);
   const xml_node root = file.root();
   if (root.name() != std::string("xml"))
-    file.fail(root,
-              fmt::format("<{}> at the top, expected <xml> as in files of G+Smo", nurbs::shown(root.name())));
+    file.fail(root, fmt::format("<{}> at the top, expected <xml> as in files of G+Smo", shown(root.name())));
   if (root.attribute("units"))
-    units = blame(file, root, [&] { return nurbs::units_from_name(root.attribute("units").value()); });
+    units = blame(file, root, [&] { return units_from_name(root.attribute("units").value()); });
   return Collector(file, units).collect();
 }
 

@@ -85,11 +85,11 @@ xml_node add_multi_patch(xml_node root, int dim, size_t id, const std::vector<in
 }
 
 // Names of volumes' faces belong to the whole domain; each named set of surfaces is a domain of its own.
-void write_name(const std::string& name, const std::vector<nurbs::SurfacePiece>& pieces, size_t id,
-                xml_node root, xml_node domain) {
+void write_name(const std::string& name, const std::vector<SurfacePiece>& pieces, size_t id, xml_node root,
+                xml_node domain) {
   std::vector<int> patches;
   std::string faces;
-  for (const nurbs::SurfacePiece& piece : pieces) {
+  for (const SurfacePiece& piece : pieces) {
     patches.push_back(piece.patch);
     if (piece.face) faces += fmt::format("{} {} ", piece.patch, static_cast<int>(*piece.face) + 1);
   }
@@ -107,7 +107,7 @@ void write_name(const std::string& name, const std::vector<nurbs::SurfacePiece>&
 std::string write_gismo(const GeometryFile& geometry) {
   std::vector<nurbs::Surface> surfaces;
   std::vector<int> all;
-  for (const nurbs::Shape& shape : geometry.patches) {
+  for (const Shape& shape : geometry.patches) {
     all.push_back(static_cast<int>(all.size()));
     if (const auto* surface = std::get_if<nurbs::Surface>(&shape)) surfaces.push_back(*surface);
   }
@@ -117,7 +117,7 @@ std::string write_gismo(const GeometryFile& geometry) {
 
   pugi::xml_document document;
   xml_node root = document.append_child("xml");
-  root.append_attribute("units") = nurbs::units_name(geometry.units);
+  root.append_attribute("units") = units_name(geometry.units);
   for (size_t p = 0; p < geometry.patches.size(); ++p)
     std::visit([&](const auto& patch) { write_patch(patch, p, root); }, geometry.patches[p]);
   size_t id = geometry.patches.size();

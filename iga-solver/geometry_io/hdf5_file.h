@@ -13,7 +13,7 @@ namespace geometry_io {
 /// "[3][2]", or "one value".
 std::string shape_text(const std::vector<std::uint64_t>& shape);
 
-/// Every function throws nurbs::InputError "file: path: what is there, what is expected".
+/// Every function throws InputError "file: path: what is there, what is expected".
 class Hdf5Input {
  public:
   /// An HDF5 file, or what unpacked_hdf5 makes of it.
@@ -41,7 +41,7 @@ class Hdf5Input {
 };
 
 /// The file's contents as bytes that others can parse without HDF5: by this process if this program wrote the
-/// file, else by one of its own (hdf5_process.h).  Throws nurbs::InputError.
+/// file, else by one of its own (hdf5_process.h).  Throws InputError.
 std::string unpacked_hdf5(const std::string& bytes, const std::string& file);
 
 /// Every function throws std::runtime_error if HDF5 fails.

@@ -18,7 +18,6 @@ constexpr const char* kKnots[] = {"knots_xi", "knots_eta", "knots_zeta"};
 
 using nurbs::KnotVector;
 using nurbs::Patch;
-using nurbs::Shape;
 
 // Shape of control-point data, the first direction fastest: [n_eta][n_xi].
 template <int Dim>
@@ -82,7 +81,7 @@ Shape read_shape(const Hdf5Input& file, const std::string& path) {
     const bool known = std::find(kKnots, kKnots + dim, name) != kKnots + dim;
     if (!known && name != "control_points" && name != "weights")
       file.fail(path, fmt::format("unknown data set '{}' of a patch, expected {}, control_points and weights",
-                                  nurbs::shown(name), fmt::join(kKnots, kKnots + dim, ", ")));
+                                  shown(name), fmt::join(kKnots, kKnots + dim, ", ")));
   }
   if (dim == 2) return read_patch<2>(file, path, degrees, std::make_index_sequence<2>());
   return read_patch<3>(file, path, degrees, std::make_index_sequence<3>());
@@ -91,8 +90,7 @@ Shape read_shape(const Hdf5Input& file, const std::string& path) {
 void check_version(const Hdf5Input& file) {
   const std::string format = file.text("/", "format");
   if (format != kFormatName)
-    file.fail("/",
-              fmt::format("attribute 'format' is '{}', expected '{}'", nurbs::shown(format), kFormatName));
+    file.fail("/", fmt::format("attribute 'format' is '{}', expected '{}'", shown(format), kFormatName));
   const std::vector<int> version = file.integers("/", "version");
   if (version != std::vector<int>{kVersion})
     file.fail("/", fmt::format("attribute 'version' is {}, expected {}", fmt::join(version, " "), kVersion));
@@ -116,11 +114,11 @@ void write_patch(const Patch<Dim>& patch, const std::string& path, Hdf5Output& f
 
 }  // namespace
 
-GeometryFile parse_hdf5(const std::string& bytes, const std::string& file_name, nurbs::Units) {
+GeometryFile parse_hdf5(const std::string& bytes, const std::string& file_name, Units) {
   const Hdf5Input file(bytes, file_name);
   check_version(file);
   const std::string units = file.text("/", "units");
-  GeometryFile geometry{blame(file, "/", [&] { return nurbs::units_from_name(units); }), {}, {}};
+  GeometryFile geometry{blame(file, "/", [&] { return units_from_name(units); }), {}, {}};
   const size_t count = file.members("/patches").size();
   if (count == 0) file.fail("/patches", "is empty, expected the groups 0, 1, ...");
   for (size_t p = 0; p < count; ++p)
@@ -129,8 +127,7 @@ GeometryFile parse_hdf5(const std::string& bytes, const std::string& file_name, 
   for (const std::string& name : file.members("/surfaces")) {
     const std::string path = "/surfaces/" + name;
     const std::vector<std::string>& words = file.texts(path);
-    geometry.surfaces[name] =
-        blame(file, path, [&] { return nurbs::parse_surface(words, geometry.patches); });
+    geometry.surfaces[name] = blame(file, path, [&] { return parse_surface(words, geometry.patches); });
   }
   return geometry;
 }
@@ -139,7 +136,7 @@ std::string write_hdf5(const GeometryFile& geometry) {
   Hdf5Output file;
   file.set_text("/", "format", kFormatName);
   file.set_integers("/", "version", {kVersion});
-  file.set_text("/", "units", nurbs::units_name(geometry.units));
+  file.set_text("/", "units", units_name(geometry.units));
   file.add_group("/patches");
   for (size_t p = 0; p < geometry.patches.size(); ++p) {
     const std::string path = fmt::format("/patches/{}", p);
@@ -150,8 +147,8 @@ std::string write_hdf5(const GeometryFile& geometry) {
   for (const auto& [name, pieces] : geometry.surfaces) {
     if (name.find('/') != std::string::npos || name == ".")
       throw std::invalid_argument(
-          fmt::format("surface '{}': a name in HDF5 has no '/' and is not '.'", nurbs::shown(name)));
-    file.add_texts("/surfaces/" + name, nurbs::surface_words(pieces, geometry.patches));
+          fmt::format("surface '{}': a name in HDF5 has no '/' and is not '.'", shown(name)));
+    file.add_texts("/surfaces/" + name, surface_words(pieces, geometry.patches));
   }
   return file.bytes();
 }

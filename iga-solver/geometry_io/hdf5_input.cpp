@@ -31,11 +31,10 @@ const char* described(Kind kind) {
 
 void expect_hdf5(const std::string& bytes, const std::string& file) {
   if (begins_with_seal(bytes)) return;
-  const nurbs::FileKind kind = nurbs::kind_of_file(file, bytes);
-  if (kind == nurbs::FileKind::hdf5) return;
-  if (kind != nurbs::FileKind::xml && kind != nurbs::FileKind::binary)
-    nurbs::expect_kind(nurbs::FileKind::hdf5, file, bytes);
-  throw nurbs::InputError(file + ": is no HDF5 file, expected one by its name");
+  const FileKind kind = kind_of_file(file, bytes);
+  if (kind == FileKind::hdf5) return;
+  if (kind != FileKind::xml && kind != FileKind::binary) expect_kind(FileKind::hdf5, file, bytes);
+  throw InputError(file + ": is no HDF5 file, expected one by its name");
 }
 
 // h5repack keeps the user block, and with it the checksum.
@@ -58,26 +57,26 @@ std::string unpacked_hdf5(const std::string& bytes, const std::string& file) {
     if (begins_with_seal(bytes)) throw std::runtime_error(kChanged);
     return unpack_in_own_process(bytes);
   } catch (const std::bad_alloc&) {
-    throw nurbs::InputError(nurbs::out_of_memory(file));
+    throw InputError(nurbs::out_of_memory(file));
   } catch (const std::runtime_error& error) {
-    throw nurbs::InputError(nurbs::one_line(file + ": " + error.what()));
+    throw InputError(one_line(file + ": " + error.what()));
   }
 }
 
 Hdf5Input::Hdf5Input(const std::string& bytes, std::string file) : file_name_(std::move(file)) {
   try {
     contents_ = decoded(is_encoded(bytes) ? bytes : unpacked_hdf5(bytes, file_name_));
-  } catch (const nurbs::InputError&) {
+  } catch (const InputError&) {
     throw;
   } catch (const std::bad_alloc&) {
-    throw nurbs::InputError(nurbs::out_of_memory(file_name_));
+    throw InputError(nurbs::out_of_memory(file_name_));
   } catch (const std::runtime_error& error) {
-    throw nurbs::InputError(file_name_ + ": " + error.what());
+    throw InputError(file_name_ + ": " + error.what());
   }
 }
 
 void Hdf5Input::fail(const std::string& path, const std::string& message) const {
-  throw nurbs::InputError(nurbs::one_line(fmt::format("{}: {}: {}", file_name_, path, message)));
+  throw InputError(one_line(fmt::format("{}: {}: {}", file_name_, path, message)));
 }
 
 const Hdf5Object& Hdf5Input::object(const std::string& path) const {

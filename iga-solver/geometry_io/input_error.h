@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace nurbs {
+namespace geometry_io {
 
 /// What a user's file got wrong: "plate.yaml:7: material.density is -1, expected a number > 0".  One line.
 struct InputError : std::runtime_error {
@@ -31,4 +31,4 @@ inline std::string shown(const std::string& text) {
   throw InputError(file + ":" + std::to_string(line) + ": " + one_line(message));
 }
 
-}  // namespace nurbs
+}  // namespace geometry_io

@@ -8,15 +8,15 @@
 
 #include "geometry_io/parse_number.h"
 
-namespace nurbs {
+namespace geometry_io {
 namespace {
 
 constexpr const char* kAll = "all";
 
-bool is_volume(const Shape& shape) { return std::holds_alternative<Volume>(shape); }
+bool is_volume(const Shape& shape) { return std::holds_alternative<nurbs::Volume>(shape); }
 
 SurfacePiece parse_face(int patch, const std::string& word, const std::vector<Shape>& patches) {
-  if (is_volume(patches[patch])) return {patch, face_from_name(word)};
+  if (is_volume(patches[patch])) return {patch, nurbs::face_from_name(word)};
   throw std::invalid_argument(
       patches.size() == 1 ? fmt::format("unknown face '{}' of a surface patch, expected {}", word, kAll)
                           : fmt::format("face '{}' of patch {}, which is a surface: expected '{}' alone",
@@ -81,33 +81,33 @@ std::vector<SurfacePiece> parse_surface(const std::vector<std::string>& words,
     if (std::find(pieces.begin(), pieces.begin() + i, pieces[i]) != pieces.begin() + i)
       throw std::invalid_argument(fmt::format("patch {}{}{} is named twice, expected once", pieces[i].patch,
                                               pieces[i].face ? " " : "",
-                                              pieces[i].face ? face_name(*pieces[i].face) : ""));
+                                              pieces[i].face ? nurbs::face_name(*pieces[i].face) : ""));
   return pieces;
 }
 
 std::vector<std::string> surface_words(const std::vector<SurfacePiece>& pieces,
                                        const std::vector<Shape>& patches) {
   if (patches.size() == 1 && pieces.front().face && pieces.size() == 1)
-    return {face_name(*pieces.front().face)};
+    return {nurbs::face_name(*pieces.front().face)};
   bool all = pieces.size() == patches.size();
   for (size_t i = 0; all && i < pieces.size(); ++i)
     all = pieces[i] == SurfacePiece{static_cast<int>(i), std::nullopt};
   if (all) return {kAll};
   std::vector<std::string> words;
   for (const SurfacePiece& piece : pieces)
-    words.push_back(piece.face ? fmt::format("{} {}", piece.patch, face_name(*piece.face))
+    words.push_back(piece.face ? fmt::format("{} {}", piece.patch, nurbs::face_name(*piece.face))
                                : fmt::format("{}", piece.patch));
   return words;
 }
 
 OrientedSurface extract(const SurfacePiece& piece, const std::vector<Shape>& patches) {
-  if (!piece.face) return {std::get<Surface>(patches[piece.patch]), 0};
-  const Volume& volume = std::get<Volume>(patches[piece.patch]);
-  BoundarySurface face = boundary_surface(volume.space, *piece.face);
-  NodalVectors control_points(3, face.space.control_point_count());
+  if (!piece.face) return {std::get<nurbs::Surface>(patches[piece.patch]), 0};
+  const nurbs::Volume& volume = std::get<nurbs::Volume>(patches[piece.patch]);
+  nurbs::BoundarySurface face = nurbs::boundary_surface(volume.space, *piece.face);
+  nurbs::NodalVectors control_points(3, face.space.control_point_count());
   for (int a = 0; a < face.space.control_point_count(); ++a)
     control_points.col(a) = volume.control_points.col(face.volume_control_point[a]);
   return {{std::move(face.space), std::move(control_points)}, face.outward_sign};
 }
 
-}  // namespace nurbs
+}  // namespace geometry_io

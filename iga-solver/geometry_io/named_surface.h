@@ -10,14 +10,14 @@
 #include "nurbs/boundary.h"
 #include "nurbs/patch.h"
 
-namespace nurbs {
+namespace geometry_io {
 
-using Shape = std::variant<Surface, Volume>;
+using Shape = std::variant<nurbs::Surface, nurbs::Volume>;
 
 /// A patch that is a surface, or a face of a patch that is a volume.
 struct SurfacePiece {
-  int patch;                 ///< from 0
-  std::optional<Face> face;  ///< nothing for a surface
+  int patch;                        ///< from 0
+  std::optional<nurbs::Face> face;  ///< nothing for a surface
   bool operator==(const SurfacePiece& other) const { return patch == other.patch && face == other.face; }
 };
 
@@ -32,9 +32,9 @@ std::vector<std::string> surface_words(const std::vector<SurfacePiece>& pieces,
 
 /// One patch of a surface; `outward_sign` as in BoundarySurface, 0 for a surface patch (two-sided).
 struct OrientedSurface {
-  Surface surface;
+  nurbs::Surface surface;
   int outward_sign;
 };
 OrientedSurface extract(const SurfacePiece& piece, const std::vector<Shape>& patches);
 
-}  // namespace nurbs
+}  // namespace geometry_io

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <string_view>
 
-namespace nurbs {
+namespace geometry_io {
 
 /// The whole text as a number, in every locale the same way and correctly rounded; false if it is anything
 /// else.
@@ -19,4 +19,4 @@ bool parse_number(std::string_view text, Number& number) {
   return error == std::errc() && end == last;
 }
 
-}  // namespace nurbs
+}  // namespace geometry_io

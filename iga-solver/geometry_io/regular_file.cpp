@@ -12,7 +12,7 @@
 
 #include "nurbs/memory.h"
 
-namespace nurbs {
+namespace geometry_io {
 namespace {
 
 using std::filesystem::file_type;
@@ -66,7 +66,7 @@ FileContent read_regular_file(const std::string& path) {
   try {
     content.bytes.resize(size);
   } catch (const std::bad_alloc&) {
-    return {{}, fmt::format("{}: {}", std::strerror(ENOMEM), size_text(static_cast<double>(size)))};
+    return {{}, fmt::format("{}: {}", std::strerror(ENOMEM), nurbs::size_text(static_cast<double>(size)))};
   }
   file.read(content.bytes.data(), static_cast<std::streamsize>(size));
   if (file.bad()) return {{}, last_problem()};
@@ -118,4 +118,4 @@ bool same_file(const std::string& a, const std::string& b) {
   return std::filesystem::equivalent(a, b, missing);
 }
 
-}  // namespace nurbs
+}  // namespace geometry_io

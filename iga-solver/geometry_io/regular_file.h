@@ -7,7 +7,7 @@
 #include <iosfwd>
 #include <string>
 
-namespace nurbs {
+namespace geometry_io {
 
 /// The content of a file, or why there is none.
 struct FileContent {
@@ -31,4 +31,4 @@ std::string write_file(const std::string& path, const std::function<void(std::os
 /// Whether both names are of one file that exists.
 bool same_file(const std::string& a, const std::string& b);
 
-}  // namespace nurbs
+}  // namespace geometry_io

@@ -11,7 +11,18 @@
 #include "nurbs/memory.h"
 #include "nurbs/primitives.h"
 
-namespace nurbs {
+namespace geometry_io {
+
+using nurbs::Curve;
+using nurbs::Frame;
+using nurbs::kMaxDegree;
+using nurbs::KnotVector;
+using nurbs::NodalVectors;
+using nurbs::Patch;
+using nurbs::Space;
+using nurbs::Strip;
+using nurbs::Vector3;
+
 namespace {
 
 // Guards against a slip of the finger: elements of one direction, control points of a patch.
@@ -46,8 +57,8 @@ void check_size(const YamlMap& map, const std::vector<int>& elements, const std:
   double count = 1.0;
   for (size_t d = 0; d < elements.size(); ++d) count *= static_cast<double>(elements[d]) + degrees[d];
   blame(map, key, prefix, [&] {
-    expect_memory(sizeof(Vector3) * count,
-                  fmt::format("elements [{}]: {:.3g} control points", fmt::join(elements, ", "), count));
+    nurbs::expect_memory(sizeof(Vector3) * count, fmt::format("elements [{}]: {:.3g} control points",
+                                                              fmt::join(elements, ", "), count));
   });
   if (count > kMaxControlPoints)
     map.fail(key,
@@ -98,7 +109,7 @@ Shape read_box(const YamlMap& map) {
   map.allow_only({"origin", "size", "elements", "breaks", "degree"});
   const std::vector<KnotVector> knots = read_mesh(map, 3);
   const Vector3 origin = map.vector3("origin"), size = map.vector3("size");
-  return blame(map, "size", "", [&] { return box(origin, size, {knots[0], knots[1], knots[2]}); });
+  return blame(map, "size", "", [&] { return nurbs::box(origin, size, {knots[0], knots[1], knots[2]}); });
 }
 
 // `thickness` of a strip: a number, or [from, to] of a ramp.
@@ -129,7 +140,7 @@ Shape read_rolled_plate(const YamlMap& map) {
   const Vector3 origin = map.vector3("origin");
   const double width = map.number("width", positive());
   return blame(map, "strips", "", [&] {
-    return rolled_plate(
+    return nurbs::rolled_plate(
         origin, width, strips, degrees[0],
         {KnotVector::uniform(degrees[1], elements[0]), KnotVector::uniform(degrees[2], elements[1])});
   });
@@ -144,7 +155,7 @@ Shape read_plane(const YamlMap& map) {
   for (const std::vector<double>& edge : edges)
     if (edge.size() != 3) map.fail("edges", fmt::format("edge of {} numbers, expected 3", edge.size()));
   return blame(map, "edges", "", [&] {
-    return plane(origin, Vector3(edges[0].data()), Vector3(edges[1].data()), {knots[0], knots[1]});
+    return nurbs::plane(origin, Vector3(edges[0].data()), Vector3(edges[1].data()), {knots[0], knots[1]});
   });
 }
 
@@ -174,7 +185,7 @@ Curve read_arc(const YamlMap& map, const std::string& key, const std::vector<dou
   const int degree = mesh.degrees[direction];
   if (degree < 2)
     map.fail("degree", fmt::format("degree of an arc is {}, expected 2 to {}", degree, kMaxDegree));
-  const Curve quarters = blame(map, key, key + ": ", [&] { return arc(angles[0], angles[1]); });
+  const Curve quarters = blame(map, key, key + ": ", [&] { return nurbs::arc(angles[0], angles[1]); });
   return blame(map, "elements", key + ": ",
                [&] { return refined(quarters, mesh.elements[direction], degree); });
 }
@@ -186,9 +197,9 @@ Curve read_turn(const YamlMap& map, const std::string& key, const RoundMesh& mes
 // The point under `origin`, the `axis`, and the `reference` direction if there is one.
 Frame read_frame(const YamlMap& map, const std::string& origin, const Vector3& axis) {
   const Vector3 point = map.vector3(origin);
-  const Frame placed = blame(map, "axis", "", [&] { return frame(point, axis); });
+  const Frame placed = blame(map, "axis", "", [&] { return nurbs::frame(point, axis); });
   if (!map.has("reference")) return placed;
-  return blame(map, "reference", "", [&] { return frame(point, axis, map.vector3("reference")); });
+  return blame(map, "reference", "", [&] { return nurbs::frame(point, axis, map.vector3("reference")); });
 }
 
 Shape read_cylinder(const YamlMap& map) {
@@ -329,4 +340,4 @@ std::vector<Shape> read_shapes(const YamlMap& geometry) {
   return read_patches(geometry);
 }
 
-}  // namespace nurbs
+}  // namespace geometry_io

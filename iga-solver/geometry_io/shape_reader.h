@@ -7,10 +7,10 @@
 #include "geometry_io/named_surface.h"
 #include "geometry_io/yaml_map.h"
 
-namespace nurbs {
+namespace geometry_io {
 
 /// Patches of one shape, or those listed under `patches`; one at least.  Throws InputError, with file and
 /// line, what was given and what was expected.
 std::vector<Shape> read_shapes(const YamlMap& geometry);
 
-}  // namespace nurbs
+}  // namespace geometry_io

@@ -13,14 +13,13 @@
 namespace geometry_io {
 namespace {
 
-bool parse_value(std::string_view word, int& value) { return nurbs::parse_number(word, value); }
+bool parse_value(std::string_view word, int& value) { return parse_number(word, value); }
 
 bool parse_value(std::string_view word, double& value) {
   const size_t slash = word.find('/');
-  if (slash == std::string_view::npos) return nurbs::parse_number(word, value);
+  if (slash == std::string_view::npos) return parse_number(word, value);
   double divisor = 0.0;
-  if (!nurbs::parse_number(word.substr(0, slash), value) ||
-      !nurbs::parse_number(word.substr(slash + 1), divisor))
+  if (!parse_number(word.substr(0, slash), value) || !parse_number(word.substr(slash + 1), divisor))
     return false;
   value /= divisor;
   return true;
@@ -29,15 +28,15 @@ bool parse_value(std::string_view word, double& value) {
 }  // namespace
 
 XmlInput::XmlInput(const std::string& text, std::string file) : text_(text), file_(std::move(file)) {
-  nurbs::expect_kind(nurbs::FileKind::xml, file_, text);
+  expect_kind(FileKind::xml, file_, text);
   const pugi::xml_parse_result result = document_.load_buffer(text.data(), text.size());
   if (!result) fail_at(result.offset, fmt::format("broken XML: {}", result.description()));
 }
 
 void XmlInput::fail_at(std::ptrdiff_t offset, const std::string& message) const {
   const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, text_.size());
-  throw nurbs::InputError(
-      nurbs::one_line(fmt::format("{}:{}: {}", file_, 1 + std::count(text_.begin(), end, '\n'), message)));
+  throw InputError(
+      one_line(fmt::format("{}:{}: {}", file_, 1 + std::count(text_.begin(), end, '\n'), message)));
 }
 
 void XmlInput::fail(pugi::xml_node node, const std::string& message) const {
@@ -63,7 +62,7 @@ int XmlInput::integer_attribute(pugi::xml_node node, const char* name) const {
   int value = 0;
   if (!parse_value(text, value))
     fail(node, fmt::format("attribute '{}' of <{}> is '{}', expected a whole number", name, node.name(),
-                           nurbs::shown(text)));
+                           shown(text)));
   return value;
 }
 
@@ -77,7 +76,7 @@ static std::vector<Number> parse_list(const XmlInput& file, pugi::xml_node node)
     const std::string_view word = text.substr(begin, end - begin);
     if (!parse_value(word, values.emplace_back()))
       file.fail(node, fmt::format("number {} of <{}> is '{}', expected {}", values.size(), node.name(),
-                                  nurbs::shown(std::string(word)),
+                                  shown(std::string(word)),
                                   std::is_same_v<Number, int> ? "a whole number" : "a number"));
     begin = text.find_first_not_of(kBlanks, end);
   }

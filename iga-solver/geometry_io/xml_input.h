@@ -8,7 +8,7 @@
 
 namespace geometry_io {
 
-/// Every function throws nurbs::InputError "file:line: what is there, what is expected".
+/// Every function throws InputError "file:line: what is there, what is expected".
 class XmlInput {
  public:
   /// `text` must outlive this object.

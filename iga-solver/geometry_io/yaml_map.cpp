@@ -13,7 +13,7 @@
 #include "geometry_io/parse_number.h"
 #include "nurbs/usable_number.h"
 
-namespace nurbs {
+namespace geometry_io {
 namespace {
 
 using Kind = YamlNode::Kind;
@@ -163,7 +163,7 @@ int YamlMap::integer(const std::string& key, int low, int high) const {
   return read_integer(value(key), name_of(key), low, high);
 }
 
-Vector3 YamlMap::vector3(const std::string& key) const {
+nurbs::Vector3 YamlMap::vector3(const std::string& key) const {
   const std::vector<double> xyz = numbers(key);
   if (xyz.size() != 3)
     fail(key, fmt::format("{} is a list of {}, expected 3 numbers", name_of(key), xyz.size()));
@@ -215,9 +215,9 @@ double YamlMap::read_number(const YamlNode& node, const std::string& name, Range
   double x = 0.0;
   if (node.kind != Kind::scalar || !parse_number(node.scalar, x) || !contains(range, x))
     fail_at(node, fmt::format("{} is {}, expected {}", name, described(node), described(range)));
-  if (!is_usable(x))
+  if (!nurbs::is_usable(x))
     fail_at(node, fmt::format("{} is {}, expected a number of at most {} in size", name, described(node),
-                              kLargestNumber));
+                              nurbs::kLargestNumber));
   return x;
 }
 
@@ -250,4 +250,4 @@ void YamlMap::fail_at(const YamlNode& node, const std::string& message) const {
   fail_at_line(file_, node.line, message);
 }
 
-}  // namespace nurbs
+}  // namespace geometry_io

@@ -13,7 +13,7 @@
 #include "geometry_io/yaml_tree.h"
 #include "nurbs/types.h"
 
-namespace nurbs {
+namespace geometry_io {
 
 /// Range of a number, bounds excluded unless said; only what the user may type.
 struct Range {
@@ -49,7 +49,7 @@ class YamlMap {
   std::vector<std::string> words(const std::string& key) const;
   double number(const std::string& key, Range range = {}) const;
   int integer(const std::string& key, int low, int high) const;
-  Vector3 vector3(const std::string& key) const;
+  nurbs::Vector3 vector3(const std::string& key) const;
   std::vector<double> numbers(const std::string& key) const;
   std::vector<int> integers(const std::string& key, int low, int high) const;
   /// A list of lists of numbers (knots, control points).
@@ -81,4 +81,4 @@ class YamlMap {
 /// The candidate nearest to `word` in edit distance, or "" if none is near.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
 
-}  // namespace nurbs
+}  // namespace geometry_io

@@ -13,7 +13,7 @@
 
 #include "geometry_io/input_error.h"
 
-namespace nurbs {
+namespace geometry_io {
 namespace {
 
 constexpr std::size_t kAliasAllowance = 1000000;  // values that aliases may add to those of the text
@@ -117,4 +117,4 @@ YamlTree::YamlTree(const std::string& text, const std::string& file) {
   root_ = builder.roots().front();
 }
 
-}  // namespace nurbs
+}  // namespace geometry_io

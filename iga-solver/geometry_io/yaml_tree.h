@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace nurbs {
+namespace geometry_io {
 
 struct YamlNode {
   enum class Kind { empty, scalar, list, map };
@@ -35,4 +35,4 @@ class YamlTree {
   const YamlNode* root_ = nullptr;
 };
 
-}  // namespace nurbs
+}  // namespace geometry_io

@@ -39,12 +39,12 @@ std::string patch_text(const nurbs::Patch<Dim>& patch) {
 }  // namespace
 
 std::string write_yaml(const GeometryFile& geometry) {
-  std::string text = fmt::format("units: {}\ngeometry:\n  patches:\n", nurbs::units_name(geometry.units));
-  for (const nurbs::Shape& shape : geometry.patches)
+  std::string text = fmt::format("units: {}\ngeometry:\n  patches:\n", units_name(geometry.units));
+  for (const Shape& shape : geometry.patches)
     text += std::visit([](const auto& patch) { return patch_text(patch); }, shape);
   if (!geometry.surfaces.empty()) text += "surfaces:\n";
   for (const auto& [name, pieces] : geometry.surfaces)
-    text += fmt::format("  {}: {}\n", quoted(name), list(nurbs::surface_words(pieces, geometry.patches)));
+    text += fmt::format("  {}: {}\n", quoted(name), list(surface_words(pieces, geometry.patches)));
   return text;
 }
 

@@ -20,13 +20,13 @@ struct UnitNames {
   const char *time, *length, *energy, *momentum, *angular_momentum;
 };
 
-UnitNames unit_names(nurbs::Units units) {
+UnitNames unit_names(geometry_io::Units units) {
   switch (units) {
-    case nurbs::Units::cgs:
+    case geometry_io::Units::cgs:
       return {"s", "cm", "erg", "g cm/s", "g cm^2/s"};
-    case nurbs::Units::mm_g_ms:
+    case geometry_io::Units::mm_g_ms:
       return {"ms", "mm", "mJ", "g mm/ms", "g mm^2/ms"};
-    case nurbs::Units::si:
+    case geometry_io::Units::si:
       break;
   }
   return {"s", "m", "J", "kg m/s", "kg m^2/s"};
@@ -40,23 +40,24 @@ std::set<std::string>& open_files() {
 
 // One name for every spelling, and for links, also to a file that is not there yet.
 std::string full_name(const std::string& path) {
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(nurbs::unfinished_name(path))).string();
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(geometry_io::unfinished_name(path)))
+      .string();
 }
 
 // The path of the file to write.
 std::string checked_path(const HistoryOutput& output) {
   const std::string path = output.file + ".h5";
   for (const std::string& input : output.inputs)
-    for (const std::string& written : {path, nurbs::unfinished_name(path)})
-      if (nurbs::same_file(written, input))
-        throw nurbs::InputError(
+    for (const std::string& written : {path, geometry_io::unfinished_name(path)})
+      if (geometry_io::same_file(written, input))
+        throw geometry_io::InputError(
             fmt::format("{}: output.file is {}: {} is the file {} that the model is read from and would be "
                         "overwritten, expected another name",
-                        output.place, nurbs::shown(output.file), written, input));
+                        output.place, geometry_io::shown(output.file), written, input));
   if (open_files().count(full_name(path)) > 0)
-    throw nurbs::InputError(
+    throw geometry_io::InputError(
         fmt::format("{}: output.file is {}: {} is being written by another solid, expected another name",
-                    output.place, nurbs::shown(output.file), path));
+                    output.place, geometry_io::shown(output.file), path));
   return path;
 }
 
@@ -78,7 +79,7 @@ struct History::Writer {
 
   /// `series(name, width, unit)` gives a series' index.
   template <class Series>
-  void take_series(nurbs::Units units, Series series) {
+  void take_series(geometry_io::Units units, Series series) {
     const UnitNames unit = unit_names(units);
     time = series("time", 1, unit.time);
     kinetic_energy = series("kinetic_energy", 1, unit.energy);
@@ -90,17 +91,17 @@ struct History::Writer {
     for (const structure::Probe& probe : probes)
       probe_displacement.push_back(series("probes/" + probe.name, 3, unit.length));
   }
-  void add_series(nurbs::Units units) {
-    file.set_attribute("units", nurbs::units_name(units));
+  void add_series(geometry_io::Units units) {
+    file.set_attribute("units", geometry_io::units_name(units));
     take_series(units, [&](const std::string& name, int width, const char* unit) {
       return file.add_series(name, width, unit);
     });
   }
   /// Rows after `end` are dropped; the time of the last that is left.
-  std::optional<double> find_series(nurbs::Units units, double end) {
-    if (file.attribute("units") != nurbs::units_name(units))
+  std::optional<double> find_series(geometry_io::Units units, double end) {
+    if (file.attribute("units") != geometry_io::units_name(units))
       throw std::runtime_error(fmt::format("{}: units are '{}', expected '{}'", file.path(),
-                                           file.attribute("units"), nurbs::units_name(units)));
+                                           file.attribute("units"), geometry_io::units_name(units)));
     take_series(units, [&](const std::string& name, int width, const char*) {
       return file.find_series(name, width);
     });
@@ -130,14 +131,14 @@ bool OutputTimes::take(const structure::ExplicitSolver& solver) {
 History::History(std::unique_ptr<Writer> writer, double every, std::optional<double> last_time)
     : writer_(std::move(writer)), last_time_(last_time), times_(every, last_time) {}
 
-History::History(const HistoryOutput& output, nurbs::Units units, std::vector<structure::Probe> probes)
+History::History(const HistoryOutput& output, geometry_io::Units units, std::vector<structure::Probe> probes)
     : History(std::make_unique<Writer>(SeriesFile(checked_path(output)), std::move(probes)), output.every,
               {}) {
   writer_->add_series(units);
 }
 
-History History::resume(const HistoryOutput& output, nurbs::Units units, std::vector<structure::Probe> probes,
-                        double time) {
+History History::resume(const HistoryOutput& output, geometry_io::Units units,
+                        std::vector<structure::Probe> probes, double time) {
   const std::string path = checked_path(output);
   if (!std::filesystem::exists(path)) return {output, units, std::move(probes)};
   try {

@@ -29,14 +29,14 @@ class OutputTimes {
 class History {
  public:
   /// Creates `<output.file>.h5`, replacing an older one.  Throws std::runtime_error, naming the file, if that
-  /// fails, and nurbs::InputError if it is one of `output.inputs`, by whatever name or link, or the file of
-  /// another history that is there.
-  History(const HistoryOutput& output, nurbs::Units units, std::vector<structure::Probe> probes);
+  /// fails, and geometry_io::InputError if it is one of `output.inputs`, by whatever name or link, or the
+  /// file of another history that is there.
+  History(const HistoryOutput& output, geometry_io::Units units, std::vector<structure::Probe> probes);
   /// Goes on with the file of an earlier run, from `time`: later rows are dropped, and come anew.  Without
   /// such a file as above.  Throws std::runtime_error if it is the file of something else, which it leaves as
   /// it is.
-  static History resume(const HistoryOutput& output, nurbs::Units units, std::vector<structure::Probe> probes,
-                        double time);
+  static History resume(const HistoryOutput& output, geometry_io::Units units,
+                        std::vector<structure::Probe> probes, double time);
   ~History();
   History(History&&) noexcept;
 

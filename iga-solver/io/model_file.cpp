@@ -10,16 +10,16 @@
 
 namespace io {
 
-using nurbs::YamlMap;
+using geometry_io::YamlMap;
 
 namespace {
 
 template <class IsotropicLaw>
 std::shared_ptr<const structure::Material> read_isotropic(const YamlMap& map) {
   map.allow_only({"law", "youngs_modulus", "poissons_ratio", "density"});
-  return std::make_shared<IsotropicLaw>(map.number("youngs_modulus", nurbs::positive()),
+  return std::make_shared<IsotropicLaw>(map.number("youngs_modulus", geometry_io::positive()),
                                         map.number("poissons_ratio", {-1.0, 0.5}),
-                                        map.number("density", nurbs::positive()));
+                                        map.number("density", geometry_io::positive()));
 }
 
 /// The word in a model file -> the class.
@@ -77,7 +77,7 @@ structure::Probe read_probe(const YamlMap& probes, const std::string& name, cons
 
 HistoryOutput read_output(const YamlMap& map, const std::vector<std::string>& inputs) {
   map.allow_only({"every", "file"});
-  return {map.number("every", nurbs::positive()), map.word("file"),
+  return {map.number("every", geometry_io::positive()), map.word("file"),
           fmt::format("{}:{}", map.file(), map.line_of("file")), inputs};
 }
 
@@ -94,15 +94,15 @@ void read_loads(const YamlMap& map, ModelFile& model) {
 
 TimeSpan read_time(const YamlMap& map) {
   map.allow_only({"end", "step"});
-  TimeSpan time{map.number("end", nurbs::positive()), {}};
-  if (map.has("step")) time.step = map.number("step", nurbs::positive());
+  TimeSpan time{map.number("end", geometry_io::positive()), {}};
+  if (map.has("step")) time.step = map.number("step", geometry_io::positive());
   return time;
 }
 
 ModelFile read_required(const YamlMap& document, const geometry_io::ReadFile& read) {
   ModelFile model{document.file(),
                   document.line_of("geometry"),
-                  nurbs::read_geometry(document, geometry_io::geometry_opener(read)),
+                  geometry_io::read_geometry(document, geometry_io::geometry_opener(read)),
                   read_material(document.map("material")),
                   {},
                   {},
@@ -111,7 +111,7 @@ ModelFile read_required(const YamlMap& document, const geometry_io::ReadFile& re
                   {},
                   Vector3::Zero(),
                   {}};
-  const std::vector<nurbs::Shape>& patches = model.geometry.patches;
+  const std::vector<geometry_io::Shape>& patches = model.geometry.patches;
   if (patches.size() != 1)
     document.fail("geometry",
                   fmt::format("geometry has {} patches, expected one for a solid", patches.size()));
@@ -155,7 +155,7 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
 ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& read) {
   const std::string text = read(path);
   if (geometry_io::format_of_path(path) == geometry_io::Format::hdf5)  // what was read are its values
-    nurbs::refuse_kind(nurbs::FileKind::hdf5, path);
+    geometry_io::refuse_kind(geometry_io::FileKind::hdf5, path);
   return parse_model_file(text, path, read);
 }
 
@@ -174,7 +174,7 @@ structure::ExplicitSolver build_solver(const ModelFile& model) {
     solver.set_velocities(model.initial_velocity.replicate(1, solver.solid().node_count()));
     return solver;
   } catch (const std::invalid_argument& error) {
-    throw nurbs::InputError(
+    throw geometry_io::InputError(
         fmt::format("{}:{}: geometry: {}", model.file, model.geometry_line, error.what()));
   }
 }

@@ -45,7 +45,7 @@ struct TimeSpan {
 struct ModelFile {
   std::string file;  ///< as given, for messages
   int geometry_line;
-  nurbs::GeometryFile geometry;  ///< holds one patch, a Volume
+  geometry_io::GeometryFile geometry;  ///< holds one patch, a Volume
   std::shared_ptr<const structure::Material> material;
   std::vector<FixedFaces> boundary;
   std::vector<structure::Probe> probes;  ///< in the order of the file
@@ -59,15 +59,15 @@ struct ModelFile {
 };
 
 /// `file` is the name used in messages; `read` gives the geometry file that the text may name.  Throws
-/// nurbs::InputError "file:line: what was given, what was expected".
+/// geometry_io::InputError "file:line: what was given, what was expected".
 ModelFile parse_model_file(const std::string& text, const std::string& file,
                            const geometry_io::ReadFile& read = geometry_io::read_file);
-/// Throws nurbs::InputError also if the file cannot be read.
+/// Throws geometry_io::InputError also if the file cannot be read.
 ModelFile read_model_file(const std::string& path,
                           const geometry_io::ReadFile& read = geometry_io::read_file);
 
 /// The solver in its initial state, loads applied, accelerations not yet worked out.  Throws
-/// nurbs::InputError if the geometry is left-handed or folded.
+/// geometry_io::InputError if the geometry is left-handed or folded.
 structure::ExplicitSolver build_solver(const ModelFile& model);
 
 }  // namespace io

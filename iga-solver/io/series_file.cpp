@@ -18,10 +18,10 @@ constexpr hsize_t kRowsPerChunk = 1024;
 using SilentErrors = geometry_io::SilentHdf5Errors;
 
 hid_t create_file(const std::string& path) {
-  const std::string problem = nurbs::problem_as_output(path);
+  const std::string problem = geometry_io::problem_as_output(path);
   if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
   const SilentErrors silent;
-  return H5Fcreate(nurbs::unfinished_name(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  return H5Fcreate(geometry_io::unfinished_name(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
 }
 
 hid_t open_file(const std::string& path) {
@@ -45,7 +45,7 @@ SeriesFile::SeriesFile(const std::string& path) : SeriesFile(path, create_file(p
 }
 
 SeriesFile::~SeriesFile() {
-  if (unfinished_ && file_ >= 0) nurbs::discard_file(path_);
+  if (unfinished_ && file_ >= 0) geometry_io::discard_file(path_);
 }
 
 SeriesFile SeriesFile::open(const std::string& path) {
@@ -163,7 +163,7 @@ void SeriesFile::end_row(double value) {
   append(0, &value);
   flush();
   if (!unfinished_) return;
-  const std::string problem = nurbs::finish_file(path_);
+  const std::string problem = geometry_io::finish_file(path_);
   if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path_, problem));
   unfinished_ = false;
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace nurbs {
+namespace search {
 namespace {
 
 constexpr int kMaxStack = 64;  // quartering a range of ints reaches boxes after 16 levels; three wait on each
@@ -119,4 +119,4 @@ void BoxTree::query(const Vector3& point, double reach, std::vector<int>& out) c
   std::sort(out.begin() + old_size, out.end());
 }
 
-}  // namespace nurbs
+}  // namespace search

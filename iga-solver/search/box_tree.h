@@ -6,10 +6,10 @@
 
 #include <vector>
 
-#include "nurbs/patch.h"
 #include "search/box_units.h"
+#include "search/names.h"
 
-namespace nurbs {
+namespace search {
 
 /// Axis-aligned box [length].
 struct Box {
@@ -64,4 +64,4 @@ class BoxTree {
   std::vector<int> order_;  // indices of the boxes while the tree is built
 };
 
-}  // namespace nurbs
+}  // namespace search

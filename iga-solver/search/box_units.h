@@ -7,9 +7,9 @@
 #include <cmath>
 #include <limits>
 
-#include "nurbs/types.h"
+#include "search/names.h"
 
-namespace nurbs {
+namespace search {
 
 /// From lengths to units; coordinates of boxes are below 1/2 there.
 class BoxUnits {
@@ -92,4 +92,4 @@ class BoxLanes {
   Lanes middle_[3], half_[3];  // of one coordinate
 };
 
-}  // namespace nurbs
+}  // namespace search

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 
-namespace nurbs {
+namespace search {
 
 /// One iteration, in place: x moves to the nearest zero of the linear model of f_0 at x, then, along the
 /// direction t in which that model stays zero, to the zero of the linear model of f_1.  Near a root with a
@@ -31,4 +31,4 @@ bool brent_sweep(const Equations& f, double step, Eigen::Vector2d& x) {
   return x.allFinite();
 }
 
-}  // namespace nurbs
+}  // namespace search

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace nurbs {
+namespace search {
 namespace {
 
 // Calls f(first coefficient, stride) for every line of an (n[0]+1) x (n[1]+1) net along a direction.
@@ -33,7 +33,7 @@ std::vector<ProductTerm> product_terms(int p, int q) {
   for (int a = 0; a < count; ++a)
     for (int b = a; b < count; ++b) {
       const int k = a % (p + 1) + b % (p + 1), l = a / (p + 1) + b / (p + 1);
-      const double factor = (a == b ? 1.0 : 2.0) / (binomial(2 * p, k) * binomial(2 * q, l));
+      const double factor = (a == b ? 1.0 : 2.0) / (nurbs::binomial(2 * p, k) * nurbs::binomial(2 * q, l));
       terms.push_back({a, b, k + (2 * p + 1) * l, factor});
     }
   return terms;
@@ -163,4 +163,4 @@ LocalPoint DistancePolynomial::corner(int corner) const {
           {(corner & 1 ? part_.high : part_.low)[0], (corner & 2 ? part_.high : part_.low)[1]}};
 }
 
-}  // namespace nurbs
+}  // namespace search

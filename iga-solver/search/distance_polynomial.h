@@ -8,7 +8,7 @@
 
 #include "search/element_descent.h"
 
-namespace nurbs {
+namespace search {
 
 /// What one pair of net points contributes to the product of two Bernstein polynomials.
 struct ProductTerm {
@@ -70,4 +70,4 @@ class DistancePolynomial {
   double G_[kMaxCoefficients], V_[kMaxCoefficients];
 };
 
-}  // namespace nurbs
+}  // namespace search

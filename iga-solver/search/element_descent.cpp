@@ -8,7 +8,7 @@
 
 #include "nurbs/assert.h"
 
-namespace nurbs {
+namespace search {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -321,4 +321,4 @@ DescentResult descend(const ElementStore& elements, const Vector3& d, const Loca
   return Descent(elements, d, start, box).run();
 }
 
-}  // namespace nurbs
+}  // namespace search

@@ -10,7 +10,7 @@
 #include "search/power_element.h"
 #include "search/power_kernel.h"
 
-namespace nurbs {
+namespace search {
 
 /// The elements of a surface, each converted to power form when it is first used after its control points
 /// moved.
@@ -107,4 +107,4 @@ struct DescentResult {
 DescentResult descend(const ElementStore& elements, const Vector3& d, const LocalPoint& start,
                       const LocalBox* box = nullptr);
 
-}  // namespace nurbs
+}  // namespace search

@@ -6,7 +6,7 @@
 
 #include "search/power_kernel.h"
 
-namespace nurbs {
+namespace search {
 
 namespace portable {
 ElementKernel element_kernel(int p, int q, bool rational);
@@ -28,4 +28,4 @@ ElementKernel element_kernel(int p, int q, bool rational, SimdLevel level) {
   return portable::element_kernel(p, q, rational);
 }
 
-}  // namespace nurbs
+}  // namespace search

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace nurbs {
+namespace search {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -156,4 +156,4 @@ double LocalReach::reach(const ElementWindow& window, const NodalVectors& contro
   return reach_of(x);
 }
 
-}  // namespace nurbs
+}  // namespace search

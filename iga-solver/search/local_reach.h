@@ -17,7 +17,7 @@
 
 #include "search/surface_tree.h"
 
-namespace nurbs {
+namespace search {
 
 class LocalReach {
  public:
@@ -71,4 +71,4 @@ class LocalReach {
   mutable std::vector<Stored> stored_[kLevels];
 };
 
-}  // namespace nurbs
+}  // namespace search

@@ -5,7 +5,7 @@
 
 #include "nurbs/assert.h"
 
-namespace nurbs {
+namespace search {
 namespace {
 
 constexpr double kEqual = 1.0 + 1e-14;  // of distances: round-off
@@ -68,13 +68,13 @@ SurfaceFoot MultiPatchProjector::cross_borders(const Vector3& d, SurfaceFoot foo
 // it lies; then where it falls to.
 bool MultiPatchProjector::leads_on(const Vector3& d, const SurfaceFoot& foot, SurfaceFoot& beyond) const {
   if (foot.status == ProjectionStatus::interior) return false;
-  for (int side = 0; side < kSideCount; ++side)
-    if (surface_.border(foot.patch, side).kind == Border::pole && surface_.on_side(foot.at(), side) &&
+  for (int side = 0; side < nurbs::kSideCount; ++side)
+    if (surface_.border(foot.patch, side).kind == nurbs::Border::pole && surface_.on_side(foot.at(), side) &&
         leads_off_pole(d, foot, side, beyond))
       return true;
-  for (int side = 0; side < kSideCount; ++side) {
-    const Border& border = surface_.border(foot.patch, side);
-    if (border.kind != Border::welded || !surface_.on_side(foot.at(), side)) continue;
+  for (int side = 0; side < nurbs::kSideCount; ++side) {
+    const nurbs::Border& border = surface_.border(foot.patch, side);
+    if (border.kind != nurbs::Border::welded || !surface_.on_side(foot.at(), side)) continue;
     const SurfacePoint start = surface_.across(foot.at(), side);
     const Vector3 image = foot.image + border.translation;
     beyond = on_surface(border.patch, image, patches_[border.patch]->warm(d - image, start.xi));
@@ -94,8 +94,8 @@ bool MultiPatchProjector::leads_off_pole(const Vector3& d, const SurfaceFoot& fo
     Vector3 image = foot.image;
     int at_pole = pole, through = pole < 2 ? 2 + way : way;  // sides of corner.patch
     for (int turn = 0; turn < surface_.patch_count(); ++turn) {
-      const Border& border = surface_.border(corner.patch, through);
-      if (border.kind != Border::welded) break;
+      const nurbs::Border& border = surface_.border(corner.patch, through);
+      if (border.kind != nurbs::Border::welded) break;
       corner.xi[through / 2] = surface_.end_of_side(corner.patch, through);
       corner = surface_.across(corner, through);
       image += border.translation;
@@ -105,7 +105,7 @@ bool MultiPatchProjector::leads_off_pole(const Vector3& d, const SurfaceFoot& fo
       beyond = on_surface(corner.patch, image, patches_[corner.patch]->warm(d - image, corner.xi));
       beyond.iterations += foot.iterations;
       if (!surface_.on_side(beyond.at(), at_pole) && beyond.distance <= foot.distance * kEqual) return true;
-      if (surface_.border(corner.patch, at_pole).kind != Border::pole) break;
+      if (surface_.border(corner.patch, at_pole).kind != nurbs::Border::pole) break;
       through = border.side ^ 1;
     }
   }
@@ -143,4 +143,4 @@ void MultiPatchProjector::add_minima(const Vector3& d, const Vector3& image, dou
             [](const SurfaceFoot& a, const SurfaceFoot& b) { return a.distance < b.distance; });
 }
 
-}  // namespace nurbs
+}  // namespace search

@@ -7,10 +7,10 @@
 #include <memory>
 #include <vector>
 
-#include "nurbs/multi_patch.h"
+#include "search/names.h"
 #include "search/surface_projector.h"
 
-namespace nurbs {
+namespace search {
 
 /// A local minimum of the distance: a projection on one patch, with the foot at S(xi) + image.
 struct SurfaceFoot : Projection {
@@ -53,4 +53,4 @@ class MultiPatchProjector {
   mutable std::vector<int> patch_elements_;  // candidates in the patch's own numbering
 };
 
-}  // namespace nurbs
+}  // namespace search

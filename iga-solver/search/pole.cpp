@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace nurbs {
+namespace search {
 namespace {
 
 constexpr double kBeside = 1e-5;    // of an element
@@ -149,4 +149,4 @@ Pole pole_beside(const ElementStore& elements, const Vector3& d, const LocalPoin
   return {PoleKind::none, near, {}};
 }
 
-}  // namespace nurbs
+}  // namespace search

@@ -5,7 +5,7 @@
 
 #include "search/element_descent.h"
 
-namespace nurbs {
+namespace search {
 
 /// What a pole is to |S - d|.
 enum class PoleKind {
@@ -26,4 +26,4 @@ struct Pole {
 /// their second difference is not below the least of them.
 Pole pole_beside(const ElementStore& elements, const Vector3& d, const LocalPoint& near);
 
-}  // namespace nurbs
+}  // namespace search

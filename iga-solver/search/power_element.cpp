@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "search/power_element.h"
 
-namespace nurbs {
+namespace search {
 
 ElementAxis::ElementAxis(const Space<2>& space, int direction)
     : knots_(space.knots(direction)),
@@ -32,4 +32,4 @@ ElementAxis::Place ElementAxis::search(double xi) const {
   return {e, elements_[e].local(xi)};
 }
 
-}  // namespace nurbs
+}  // namespace search

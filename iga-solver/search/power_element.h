@@ -7,9 +7,9 @@
 
 #include <vector>
 
-#include "nurbs/patch.h"
+#include "search/names.h"
 
-namespace nurbs {
+namespace search {
 
 /// (A_x, A_y, A_z, W), or (A_x, A_y, A_z, 0) where the patch is polynomial.
 using Vector4 = Eigen::Array4d;
@@ -20,7 +20,7 @@ struct AxisElement {
   double half_width;  ///< d xi / d s
   double per_half_width;
   double low, high;  ///< local coordinates of the creases or ends before and after; -1, 1 if its own ends
-  const ElementFunctions* functions;
+  const nurbs::ElementFunctions* functions;
   int first;       ///< index of its first control point
   bool at_end[2];  ///< begin, end is an end of the patch
 
@@ -65,4 +65,4 @@ class ElementAxis {
   std::vector<AxisElement> elements_;
 };
 
-}  // namespace nurbs
+}  // namespace search

@@ -6,7 +6,10 @@
 
 #include "search/simd_words.h"
 
-namespace nurbs {
+namespace search {
+
+using nurbs::kMaxDegree;
+
 namespace {
 
 // The formulas are written once, on numbers (double or Lanes) and vectors (Vector4 or LaneVector).
@@ -395,4 +398,4 @@ ElementKernel element_kernel(int p, int q, bool rational) {
 }
 }  // namespace NURBS_SIMD_LEVEL
 
-}  // namespace nurbs
+}  // namespace search

@@ -10,7 +10,7 @@
 #include "nurbs/max_degree.h"
 #include "search/simd_level.h"
 
-namespace nurbs {
+namespace search {
 
 /// phi = |S - d|^2 / 2 at one local point, with derivatives by s.  Symmetric matrices as (00, 01, 11).
 struct DistanceJet {
@@ -73,7 +73,7 @@ struct NewtonBatch {
 
 /// The functions for one pair of degrees and one instruction set.
 struct ElementKernel {
-  using Matrix = double[kMaxDegree + 1];  ///< a row of it
+  using Matrix = double[nurbs::kMaxDegree + 1];  ///< a row of it
 
   int p, q;
   /// out[k + (p+1) l] = sum_ij M0[k][i] M1[l][j] P_ij, four numbers each, with the homogeneous points
@@ -94,4 +94,4 @@ struct ElementKernel {
 /// Throws std::invalid_argument if this machine does not have the instruction set.
 ElementKernel element_kernel(int p, int q, bool rational, SimdLevel level);
 
-}  // namespace nurbs
+}  // namespace search

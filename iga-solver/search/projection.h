@@ -2,9 +2,9 @@
 // What a closest-point search returns.
 #pragma once
 
-#include "nurbs/patch.h"
+#include "search/names.h"
 
-namespace nurbs {
+namespace search {
 
 enum class ProjectionStatus {
   interior,      ///< foot inside the patch: d - S is normal to the surface
@@ -22,4 +22,4 @@ struct Projection {
   int iterations;  ///< of the descent that found the foot
 };
 
-}  // namespace nurbs
+}  // namespace search

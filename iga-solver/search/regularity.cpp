@@ -8,7 +8,7 @@
 
 #include "nurbs/curvature.h"
 
-namespace nurbs {
+namespace search {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -37,7 +37,7 @@ bool Regularity::is_regular(const Vector3& d, double reach, int element) const {
 
 bool Regularity::in_valley(const Vector3& d, const SurfacePoint& foot, double distance) const {
   constexpr double kFlat = 1e-6;
-  const SurfaceShape shape = shape_near(surface_, *control_points_, foot);
+  const nurbs::SurfaceShape shape = nurbs::shape_near(surface_, *control_points_, foot);
   const double side = shape.normal.dot(d - shape.point) < 0.0 ? -1.0 : 1.0;
   const auto flat = [&](double curvature) { return std::abs(1.0 - side * distance * curvature) <= kFlat; };
   return flat(shape.curvature[0]) || flat(shape.curvature[1]);
@@ -58,8 +58,8 @@ void Regularity::measure(int element, Shape& shape) const {
   const Space<2>& space = surface_.patch(p);
   const int in_patch = element - surface_.first_element(p);
   const Indices<2> e = space.element_indices(in_patch);
-  const SurfaceShape centre =
-      shape_on_element(surface_, *control_points_, p, in_patch, space.element_centre(in_patch));
+  const nurbs::SurfaceShape centre =
+      nurbs::shape_on_element(surface_, *control_points_, p, in_patch, space.element_centre(in_patch));
   shape.known = true;
   shape.centre = centre.point;
   shape.normal = centre.normal;
@@ -71,13 +71,13 @@ void Regularity::measure(int element, Shape& shape) const {
         const double* knot = &space.knots(k).breaks()[e[k]];
         xi[k] = knot[0] + (knot[1] - knot[0]) * (k == 0 ? i : j) / (kSamples - 1.0);
       }
-      const SurfaceShape sample = shape_on_element(surface_, *control_points_, p, in_patch, xi);
+      const nurbs::SurfaceShape sample = nurbs::shape_on_element(surface_, *control_points_, p, in_patch, xi);
       if (!std::isfinite(sample.curvature[0])) continue;  // a pole: a kink, see below
       shape.least = std::min(shape.least, sample.curvature[0]);
       shape.greatest = std::max(shape.greatest, sample.curvature[1]);
     }
   shape.first_kink = static_cast<int>(kinks_.size());
-  for (int side = 0; side < kSideCount; ++side)
+  for (int side = 0; side < nurbs::kSideCount; ++side)
     if (!smooth_side(p, e, side)) kinks_.push_back(side_box(p, e, side));
   shape.kink_count = static_cast<int>(kinks_.size()) - shape.first_kink;
 }
@@ -106,8 +106,8 @@ bool Regularity::smooth_side(int patch, const Indices<2>& element, int side) con
   const bool upper = side % 2 == 1;
   const KnotVector& knots = space.knots(i);
   if (element[i] == (upper ? knots.element_count() - 1 : 0)) {
-    const Border& border = surface_.border(patch, side);
-    return border.kind == Border::welded && border.max_angle <= kFlush;
+    const nurbs::Border& border = surface_.border(patch, side);
+    return border.kind == nurbs::Border::welded && border.max_angle <= kFlush;
   }
   const double knot = knots.breaks()[element[i] + (upper ? 1 : 0)];
   if (!std::binary_search(knots.creases().begin(), knots.creases().end(), knot)) return true;
@@ -120,7 +120,7 @@ bool Regularity::smooth_side(int patch, const Indices<2>& element, int side) con
     xi[i] = knot;
     xi[1 - i] = along[0] + (along[1] - along[0]) * k / (kSamples - 1.0);
     const auto normal = [&](const Indices<2>& e) {
-      return shape_on_element(surface_, *control_points_, patch, space.element_index(e), xi).normal;
+      return nurbs::shape_on_element(surface_, *control_points_, patch, space.element_index(e), xi).normal;
     };
     const Vector3 here = normal(element), there = normal(beyond);
     if (!(here.dot(there) > 0.0 && here.cross(there).norm() <= kFlush)) return false;
@@ -128,4 +128,4 @@ bool Regularity::smooth_side(int patch, const Indices<2>& element, int side) con
   return true;
 }
 
-}  // namespace nurbs
+}  // namespace search

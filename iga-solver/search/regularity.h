@@ -8,10 +8,10 @@
 
 #include <vector>
 
-#include "nurbs/multi_patch.h"
 #include "search/box_tree.h"
+#include "search/names.h"
 
-namespace nurbs {
+namespace search {
 
 class Regularity {
  public:
@@ -50,4 +50,4 @@ class Regularity {
   mutable std::vector<Box> kinks_;  // sides of elements beyond which the surface does not go on smoothly
 };
 
-}  // namespace nurbs
+}  // namespace search

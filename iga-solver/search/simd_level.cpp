@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace nurbs {
+namespace search {
 
 namespace {
 constexpr SimdLevel kHighestFirst[] = {SimdLevel::avx512, SimdLevel::avx2, SimdLevel::portable};
@@ -41,4 +41,4 @@ SimdLevel simd_level() {
       fmt::format("LIGGGHTS_NURBS_SIMD is \"{}\", expected portable, avx2 or avx512", wanted));
 }
 
-}  // namespace nurbs
+}  // namespace search

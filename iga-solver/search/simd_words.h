@@ -8,7 +8,7 @@
 #include <immintrin.h>
 #endif
 
-namespace nurbs {
+namespace search {
 namespace {
 
 #if defined(__AVX512F__)
@@ -215,4 +215,4 @@ void transpose(const Vector4 (&rows)[N], typename Word<N>::Numbers (&out)[4]) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

@@ -7,7 +7,7 @@
 #include <Eigen/Core>
 #include <utility>
 
-namespace nurbs {
+namespace search {
 
 /// A triangle and the function's values at its vertices; vertex 0 is the best.
 template <class Function>
@@ -79,4 +79,4 @@ Eigen::Vector2d simplex_minimum(const Function& f, const Eigen::Vector2d& start,
   }
 }
 
-}  // namespace nurbs
+}  // namespace search

@@ -11,7 +11,7 @@
 #include "search/brent.h"
 #include "search/simplex.h"
 
-namespace nurbs {
+namespace search {
 namespace {
 
 using Vector2 = Eigen::Vector2d;
@@ -61,7 +61,7 @@ class DistanceTo {
   // Eqs. 27 (j = 0) and 28 (j = 1), per element: the gradient of |S - d|^2 / 2.  A little outside the patch
   // its border elements go on, so differences need no special side there.
   double operator()(int j, const Vector2& x) const {
-    const BezierElement::PointAndTangent at = evaluate_at(x, j);
+    const nurbs::BezierElement::PointAndTangent at = evaluate_at(x, j);
     return unit_[j] * at.S_j.dot(at.S - d_);
   }
 
@@ -82,7 +82,7 @@ class DistanceTo {
   }
 
  private:
-  BezierElement::PointAndTangent evaluate_at(const Vector2& x, int j) const {
+  nurbs::BezierElement::PointAndTangent evaluate_at(const Vector2& x, int j) const {
     const Vector2 xi = parameter(x);
     const Parameter<2> inside = {std::clamp(xi[0], low_[0], high_[0]), std::clamp(xi[1], low_[1], high_[1])};
     if (!element_.holds(inside)) element_.fetch(space_, control_points_, space_.element_at(inside));
@@ -93,7 +93,7 @@ class DistanceTo {
   const Space<2>& space_;
   const NodalVectors& control_points_;
   Vector2 origin_, unit_, low_, high_;
-  mutable BezierElement element_;  // the last one visited
+  mutable nurbs::BezierElement element_;  // the last one visited
 };
 
 Projection brent_from(const DistanceTo& distance, const Vector2& start) {
@@ -140,4 +140,4 @@ Projection closest_point_simplex_brent_on_elements(const Space<2>& space, const 
   return best;
 }
 
-}  // namespace nurbs
+}  // namespace search

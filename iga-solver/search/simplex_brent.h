@@ -6,10 +6,10 @@
 // creases, where d - S is not normal to the surface.
 #pragma once
 
-#include "nurbs/patch.h"
+#include "search/names.h"
 #include "search/projection.h"
 
-namespace nurbs {
+namespace search {
 
 /// The foot that Brent's method finds from `guess` (warm) or from where the simplex search from `guess` ends.
 /// Status `interior`: a minimum of the distance strictly inside the patch, not farther than the start;
@@ -24,4 +24,4 @@ Projection closest_point_simplex_brent(const Space<2>& space, const NodalVectors
 Projection closest_point_simplex_brent_on_elements(const Space<2>& space, const NodalVectors& control_points,
                                                    const Vector3& d, const int* elements, int element_count);
 
-}  // namespace nurbs
+}  // namespace search

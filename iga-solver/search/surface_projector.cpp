@@ -11,7 +11,7 @@
 #include "search/pole.h"
 #include "search/surface_search.h"
 
-namespace nurbs {
+namespace search {
 namespace {
 
 bool close_to_pole(const ElementStore& elements, const LocalPoint& at) {
@@ -59,7 +59,7 @@ SurfaceProjector::SurfaceProjector(const Space<2>& space, SimdLevel level)
       nets_(static_cast<size_t>(space.element_count()) * space.functions_per_element()) {
   const int p = space.degree(0), q = space.degree(1);
   for (int j = 0; j <= q; ++j)
-    for (int i = 0; i <= p; ++i) binomials_.push_back(binomial(p, i) * binomial(q, j));
+    for (int i = 0; i <= p; ++i) binomials_.push_back(nurbs::binomial(p, i) * nurbs::binomial(q, j));
 }
 
 SurfaceProjector::~SurfaceProjector() = default;
@@ -252,4 +252,4 @@ void SurfaceProjector::collect(const Vector3& d, double reach, std::vector<Proje
             [](const Projection& a, const Projection& b) { return a.distance < b.distance; });
 }
 
-}  // namespace nurbs
+}  // namespace search

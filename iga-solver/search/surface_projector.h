@@ -21,7 +21,7 @@
 #include "search/projection.h"
 #include "search/surface_tree.h"
 
-namespace nurbs {
+namespace search {
 
 class DistancePolynomial;
 struct ProductTerm;
@@ -173,4 +173,4 @@ class SurfaceProjector {
   mutable std::vector<Vector4> nets_;  // Bezier nets times binomials, likewise
 };
 
-}  // namespace nurbs
+}  // namespace search

@@ -8,7 +8,7 @@
 #include "nurbs/assert.h"
 #include "search/distance_polynomial.h"
 
-namespace nurbs {
+namespace search {
 namespace {
 
 constexpr double kSmallestPart = 0x1p-20;  // of an element: below it a part is searched from its centre
@@ -247,4 +247,4 @@ void SurfaceProjector::start_from(const LocalPoint& start, Search& search) const
   search.found(foot_from(search.d, start));
 }
 
-}  // namespace nurbs
+}  // namespace search

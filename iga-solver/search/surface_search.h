@@ -7,7 +7,7 @@
 
 #include "search/surface_projector.h"
 
-namespace nurbs {
+namespace search {
 
 constexpr double kEqual = 4.0 * std::numeric_limits<double>::epsilon();  // of distances, relative: round-off
 
@@ -98,4 +98,4 @@ struct SurfaceProjector::Search {
   }
 };
 
-}  // namespace nurbs
+}  // namespace search

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace nurbs {
+namespace search {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -83,4 +83,4 @@ void SurfaceTree::fit_elements(const NodalVectors& control_points) {
   }
 }
 
-}  // namespace nurbs
+}  // namespace search

@@ -15,7 +15,7 @@
 #include "search/box_units.h"
 #include "search/power_element.h"
 
-namespace nurbs {
+namespace search {
 
 /// The elements [at_i 4^level, (at_i + 1) 4^level) of direction i, as far as there are.
 struct ElementBlock {
@@ -111,4 +111,4 @@ inline unsigned SurfaceTree::below(const Lanes& numbers, float limit) {
   return static_cast<unsigned>(bits);
 }
 
-}  // namespace nurbs
+}  // namespace search

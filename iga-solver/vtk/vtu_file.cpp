@@ -73,8 +73,8 @@ pugi::xml_node start(pugi::xml_document& document, const char* type, const char*
 }
 
 void save(const pugi::xml_document& document, const std::string& path) {
-  const std::string problem =
-      nurbs::write_file(path, [&](std::ostream& file) { document.save(file, " ", pugi::format_indent); });
+  const std::string problem = geometry_io::write_file(
+      path, [&](std::ostream& file) { document.save(file, " ", pugi::format_indent); });
   if (!problem.empty()) throw std::runtime_error(fmt::format("cannot write '{}': {}", path, problem));
 }
 

@@ -18,8 +18,8 @@
 namespace benchmarks {
 namespace {
 
-using nurbs::SimdLevel;
 using nurbs::Vector3;
+using search::SimdLevel;
 
 /// Instruction set that our code was compiled for, but for the kernels chosen at run time.
 #if defined(__AVX512F__)
@@ -51,8 +51,8 @@ struct Case {
   std::vector<Query> queries;
   std::vector<Vector3> points;
   std::vector<nurbs::Parameter<2>> guesses;
-  nurbs::SurfaceProjector ours;
-  std::vector<std::unique_ptr<nurbs::SurfaceProjector>> levels;
+  search::SurfaceProjector ours;
+  std::vector<std::unique_ptr<search::SurfaceProjector>> levels;
   OpenCascade opencascade;
 };
 
@@ -81,17 +81,17 @@ void add_search(Case& c, const std::string& name, Search search) {
 
 /// Warm feet one by one, as a loop over contacts finds them: the start of the next while this one is
 /// searched.
-void add_warm(Case& c, const std::string& name, const nurbs::SurfaceProjector& ours) {
+void add_warm(Case& c, const std::string& name, const search::SurfaceProjector& ours) {
   auto right = std::make_shared<std::optional<double>>();
   benchmark::RegisterBenchmark((name + c.label).c_str(), [&c, &ours, right](benchmark::State& state) {
     if (!*right) *right = fraction_right(c, [&](const Query& q) { return ours.warm(q.d, q.guess).foot; });
     size_t i = 0;
-    nurbs::SurfaceProjector::Start start = ours.start(c.queries[0].guess);
+    search::SurfaceProjector::Start start = ours.start(c.queries[0].guess);
     while (state.KeepRunningBatch(kBatch))
       for (int k = 0; k < kBatch; ++k) {
         const Query& query = c.queries[i];
         if (++i == c.queries.size()) i = 0;
-        const nurbs::SurfaceProjector::Start next = ours.start(c.queries[i].guess);
+        const search::SurfaceProjector::Start next = ours.start(c.queries[i].guess);
         benchmark::DoNotOptimize(ours.warm_from(query.d, start).foot);
         start = next;
       }
@@ -100,10 +100,10 @@ void add_warm(Case& c, const std::string& name, const nurbs::SurfaceProjector& o
 }
 
 /// Feet of all points, kBatch at a time.
-void add_batch(Case& c, const std::string& name, const nurbs::SurfaceProjector& ours) {
+void add_batch(Case& c, const std::string& name, const search::SurfaceProjector& ours) {
   auto right = std::make_shared<std::optional<double>>();
   benchmark::RegisterBenchmark((name + c.label).c_str(), [&c, &ours, right](benchmark::State& state) {
-    std::vector<nurbs::Projection> feet(kPoints);
+    std::vector<search::Projection> feet(kPoints);
     if (!*right) {
       ours.warm_batch(c.points.data(), c.guesses.data(), kPoints, feet.data());
       *right = fraction_right(c, [&](const Query& q) { return feet[&q - c.queries.data()].foot; });
@@ -121,12 +121,12 @@ void add_batch(Case& c, const std::string& name, const nurbs::SurfaceProjector& 
 /// The warm search with every instruction set that this machine has.
 void add_levels(Case& c) {
   for (const SimdLevel level : {SimdLevel::portable, SimdLevel::avx2, SimdLevel::avx512}) {
-    if (!nurbs::available(level)) continue;
-    c.levels.push_back(std::make_unique<nurbs::SurfaceProjector>(c.surface.space, level));
-    const nurbs::SurfaceProjector& ours = *c.levels.back();
+    if (!search::available(level)) continue;
+    c.levels.push_back(std::make_unique<search::SurfaceProjector>(c.surface.space, level));
+    const search::SurfaceProjector& ours = *c.levels.back();
     c.levels.back()->set_control_points(c.surface.control_points);
-    add_warm(c, std::string("warm/") + nurbs::name(level), ours);
-    add_batch(c, std::string("batch/") + nurbs::name(level), ours);
+    add_warm(c, std::string("warm/") + search::name(level), ours);
+    add_batch(c, std::string("batch/") + search::name(level), ours);
   }
 }
 
@@ -137,7 +137,7 @@ void add_searches(Case& c) {
   add_search(c, "nearest/ours", [&c](const Query& q) { return c.ours.nearest(q.d, q.guess).foot; });
   add_search(c, "warm/opencascade", [&c](const Query& q) { return c.opencascade.warm(q.d, q.guess); });
   add_search(c, "warm/simplex_brent", [&c](const Query& q) {
-    return nurbs::closest_point_simplex_brent(c.surface.space, c.surface.control_points, q.d, q.guess, true)
+    return search::closest_point_simplex_brent(c.surface.space, c.surface.control_points, q.d, q.guess, true)
         .foot;
   });
   add_search(c, "cold/ours", [&c](const Query& q) { return c.ours.cold(q.d).foot; });
@@ -147,7 +147,7 @@ void add_searches(Case& c) {
 /// Power form of all elements; the projector does the same, for each element when it is first used.
 void add_rebuild(Case& c) {
   benchmark::RegisterBenchmark(("rebuild/ours" + c.label).c_str(), [&c](benchmark::State& state) {
-    nurbs::ElementStore elements(c.surface.space);
+    search::ElementStore elements(c.surface.space);
     while (state.KeepRunningBatch(c.surface.space.element_count())) {
       elements.set_control_points(c.surface.control_points);
       for (int j = 0; j < c.n; ++j)
@@ -188,11 +188,11 @@ void add_steps(Case& c) {
     while (state.KeepRunningBatch(kPoints)) {
       c.ours.set_control_points(c.surface.control_points);
       f.setZero();
-      nurbs::SurfaceProjector::Start start = c.ours.start(c.queries[0].guess);
+      search::SurfaceProjector::Start start = c.ours.start(c.queries[0].guess);
       for (size_t i = 0; i < c.queries.size(); ++i) {
         const Query &query = c.queries[i], &after = c.queries[std::min(i + 1, c.queries.size() - 1)];
-        const nurbs::SurfaceProjector::Start next = c.ours.start(after.guess);
-        const nurbs::Projection contact = c.ours.warm_from(query.d, start);
+        const search::SurfaceProjector::Start next = c.ours.start(after.guess);
+        const search::Projection contact = c.ours.warm_from(query.d, start);
         coupling::FootBasis(c.surface.space, contact.xi).distribute(contact.foot - query.d, f);
         start = next;
       }
@@ -201,7 +201,7 @@ void add_steps(Case& c) {
   });
   benchmark::RegisterBenchmark(("step_batch/ours" + c.label).c_str(), [&c](benchmark::State& state) {
     nurbs::NodalVectors f(3, c.surface.space.control_point_count());
-    nurbs::Projection feet[kBatch];
+    search::Projection feet[kBatch];
     while (state.KeepRunningBatch(kPoints)) {
       c.ours.set_control_points(c.surface.control_points);
       f.setZero();
@@ -221,7 +221,7 @@ void add_steps(Case& c) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   benchmark::AddCustomContext("compiled_for", benchmarks::kCompiledFor);
-  benchmark::AddCustomContext("dispatched_to", nurbs::name(nurbs::simd_level()));
+  benchmark::AddCustomContext("dispatched_to", search::name(search::simd_level()));
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   std::vector<std::unique_ptr<benchmarks::Case>> cases;
   for (int n : {31, 124})

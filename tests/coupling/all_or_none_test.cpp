@@ -41,7 +41,7 @@ TEST(OnEveryRank, FailsOnAllWhereOneFails) {
   };
   for (int which = 0; which < ranks(); ++which)
     EXPECT_THAT([&] { fail_on(which); },
-                ThrowsMessage<nurbs::InputError>(StrEq("plate.yaml:3: no such thing")));
+                ThrowsMessage<geometry_io::InputError>(StrEq("plate.yaml:3: no such thing")));
 }
 
 TEST(OnEveryRank, SaysWhichFileTheMemoryOfOneDoesNotHold) {
@@ -51,7 +51,7 @@ TEST(OnEveryRank, SaysWhichFileTheMemoryOfOneDoesNotHold) {
       return 0;
     });
   };
-  EXPECT_THAT(fail_on_last, ThrowsMessage<nurbs::InputError>(HasSubstr("plate.yaml: out of memory: ")));
+  EXPECT_THAT(fail_on_last, ThrowsMessage<geometry_io::InputError>(HasSubstr("plate.yaml: out of memory: ")));
 }
 
 TEST(OnFirstRank, ActsThereAlone) {
@@ -64,12 +64,13 @@ TEST(OnFirstRank, FailsOnAll) {
   const auto fail = [] {
     on_first_rank(MPI_COMM_WORLD, [] { throw std::invalid_argument("no room for wall.pvd"); });
   };
-  EXPECT_THAT(fail, ThrowsMessage<nurbs::InputError>(StrEq("no room for wall.pvd")));
+  EXPECT_THAT(fail, ThrowsMessage<geometry_io::InputError>(StrEq("no room for wall.pvd")));
 }
 
 TEST(OnFirstRank, SaysThatMemoryEnded) {
   const auto fail = [] { on_first_rank(MPI_COMM_WORLD, [] { throw std::bad_alloc(); }); };
-  EXPECT_THAT(fail, ThrowsMessage<nurbs::InputError>(HasSubstr("out of memory: this process may have")));
+  EXPECT_THAT(fail,
+              ThrowsMessage<geometry_io::InputError>(HasSubstr("out of memory: this process may have")));
 }
 
 TEST(AllOrNone, TakeAnErrorWithoutWordsForOne) {
@@ -77,8 +78,8 @@ TEST(AllOrNone, TakeAnErrorWithoutWordsForOne) {
     return on_every_rank(MPI_COMM_WORLD, "plate.yaml", []() -> int { throw std::runtime_error(""); });
   };
   const auto first = [] { on_first_rank(MPI_COMM_WORLD, [] { throw std::runtime_error(""); }); };
-  EXPECT_THAT(every, ThrowsMessage<nurbs::InputError>(HasSubstr("without a message")));
-  EXPECT_THAT(first, ThrowsMessage<nurbs::InputError>(HasSubstr("without a message")));
+  EXPECT_THAT(every, ThrowsMessage<geometry_io::InputError>(HasSubstr("without a message")));
+  EXPECT_THAT(first, ThrowsMessage<geometry_io::InputError>(HasSubstr("without a message")));
 }
 
 }  // namespace

@@ -118,15 +118,15 @@ TEST(LateSurface, IsSeenAsItWasTwoStepsAgo) {
 TEST(OpenRigidSurface, MissingFileIsAnErrorOnEveryRank) {
   try {
     coupling::open_rigid_surface(MPI_COMM_WORLD, "no_such_file.yaml", "floor");
-    FAIL() << "expected nurbs::InputError";
-  } catch (const nurbs::InputError& problem) {
+    FAIL() << "expected geometry_io::InputError";
+  } catch (const geometry_io::InputError& problem) {
     EXPECT_THAT(problem.what(),
                 testing::AllOf(testing::HasSubstr("no_such_file.yaml"), testing::HasSubstr("No such file")));
   }
 }
 
 TEST(OpenRigidSurface, FolderInPlaceOfAFileIsAnError) {
-  EXPECT_THROW(coupling::open_rigid_surface(MPI_COMM_WORLD, ".", "floor"), nurbs::InputError);
+  EXPECT_THROW(coupling::open_rigid_surface(MPI_COMM_WORLD, ".", "floor"), geometry_io::InputError);
 }
 
 }  // namespace

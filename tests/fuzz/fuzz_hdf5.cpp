@@ -46,8 +46,9 @@ std::string binary(const std::string& text) {
 
 void fuzz_one(const std::string& input) {
   const std::string bytes = geometry_io::encoded({}) + binary(input);
-  const nurbs::GeometryFile geometry =
+  const geometry_io::GeometryFile geometry =
       geometry_io::read_geometry("wall.h5", [&](const std::string&) { return bytes; });
-  for (const auto& surface : geometry.surfaces) nurbs::named_surface(geometry, surface.first, "wall.h5");
+  for (const auto& surface : geometry.surfaces)
+    geometry_io::named_surface(geometry, surface.first, "wall.h5");
   check_that(geometry_io::encoded(geometry_io::decoded(bytes)).size() <= bytes.size());
 }

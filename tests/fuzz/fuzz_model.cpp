@@ -6,10 +6,10 @@
 void fuzz_one(const std::string& input) {
   const io::ModelFile model =
       io::parse_model_file(input, "plate.yaml", [](const std::string& path) -> std::string {
-        throw nurbs::InputError(path + ": there is one file only");
+        throw geometry_io::InputError(path + ": there is one file only");
       });
   for (const auto& surface : model.geometry.surfaces)
-    nurbs::named_surface(model.geometry, surface.first, "plate.yaml");
+    geometry_io::named_surface(model.geometry, surface.first, "plate.yaml");
   constexpr int kSmall = 200;  // control points
   if (model.volume().space.control_point_count() <= kSmall) io::build_solver(model);
 }

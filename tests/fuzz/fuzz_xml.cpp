@@ -5,15 +5,16 @@
 
 namespace {
 
-nurbs::GeometryFile read(const std::string& path, const std::string& text) {
+geometry_io::GeometryFile read(const std::string& path, const std::string& text) {
   return geometry_io::read_geometry(path, [&](const std::string&) { return text; });
 }
 
 }  // namespace
 
 void fuzz_one(const std::string& input) {
-  const nurbs::GeometryFile geometry = read("wall.xml", input);
-  for (const auto& surface : geometry.surfaces) nurbs::named_surface(geometry, surface.first, "wall.xml");
+  const geometry_io::GeometryFile geometry = read("wall.xml", input);
+  for (const auto& surface : geometry.surfaces)
+    geometry_io::named_surface(geometry, surface.first, "wall.xml");
   const std::string text = geometry_io::write_geometry(geometry, geometry_io::Format::yaml);
   check_that(geometry_io::write_geometry(read("wall.yaml", text), geometry_io::Format::yaml) == text);
 }

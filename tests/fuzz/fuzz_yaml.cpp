@@ -5,9 +5,9 @@
 
 namespace {
 
-nurbs::GeometryFile read(const std::string& text) {
+geometry_io::GeometryFile read(const std::string& text) {
   return geometry_io::read_geometry("wall.yaml", [&](const std::string& path) {
-    if (path != "wall.yaml") throw nurbs::InputError(path + ": there is one file only");
+    if (path != "wall.yaml") throw geometry_io::InputError(path + ": there is one file only");
     return text;
   });
 }
@@ -15,8 +15,9 @@ nurbs::GeometryFile read(const std::string& text) {
 }  // namespace
 
 void fuzz_one(const std::string& input) {
-  const nurbs::GeometryFile geometry = read(input);
-  for (const auto& surface : geometry.surfaces) nurbs::named_surface(geometry, surface.first, "wall.yaml");
+  const geometry_io::GeometryFile geometry = read(input);
+  for (const auto& surface : geometry.surfaces)
+    geometry_io::named_surface(geometry, surface.first, "wall.yaml");
   const std::string text = geometry_io::write_geometry(geometry, geometry_io::Format::yaml);
   check_that(geometry_io::write_geometry(read(text), geometry_io::Format::yaml) == text);
 }

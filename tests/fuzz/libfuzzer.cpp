@@ -9,7 +9,7 @@
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
     fuzz_one(std::string(reinterpret_cast<const char*>(data), size));
-  } catch (const nurbs::InputError& error) {
+  } catch (const geometry_io::InputError& error) {
     check_that(std::string(error.what()).find('\n') == std::string::npos);
   } catch (const std::invalid_argument&) {
   }

@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
     for (const auto& file : std::filesystem::directory_iterator(argv[i])) {
       std::printf("%s\n", file.path().c_str());
       std::fflush(stdout);  // the last line names the file that ended the program
-      const std::string bytes = nurbs::read_regular_file(file.path()).bytes;
+      const std::string bytes = geometry_io::read_regular_file(file.path()).bytes;
       LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size());
       ++count;
     }

@@ -89,8 +89,8 @@ class Scene {
   }
 
   nurbs::PatchedSurface surface_;
-  nurbs::MultiPatchProjector projector_;
-  nurbs::Regularity regularity_;
+  search::MultiPatchProjector projector_;
+  search::Regularity regularity_;
   CandidateList candidates_;
   LocalSearch search_;
   ContactTracker tracker_;

@@ -230,7 +230,7 @@ TEST(RigidFrame, BodyAndSpaceAreInverse) {
 TEST(RigidFrame, LargestDisplacementIsAtACorner) {
   const RigidFrame first = after(10, {coupling::linear({1, 2, 3})});
   const RigidFrame second = after(100, {coupling::rotate(kCentre, kAxis, 0.3), coupling::linear({1, 2, 3})});
-  const nurbs::Box box{{-0.1, -0.3, 0.2}, {0.5, 0.4, 0.9}};
+  const search::Box box{{-0.1, -0.3, 0.2}, {0.5, 0.4, 0.9}};
   const double bound = second.max_displacement(first, box);
   std::srand(3);
   double largest = 0.0;

@@ -15,7 +15,7 @@
 #include "geometry_io/regular_file.h"
 #include "geometry_io/yaml_map.h"
 
-namespace nurbs {
+namespace geometry_io {
 namespace {
 
 using testing::AllOf;
@@ -178,4 +178,4 @@ TEST_F(RegularFile, OfMoreThanTwoGibibytesIsRefusedBeforeItIsRead) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace geometry_io

@@ -6,8 +6,10 @@
 
 #include <cmath>
 
-namespace nurbs {
+namespace geometry_io {
 namespace {
+
+using namespace nurbs;
 
 using testing::EndsWith;
 using testing::HasSubstr;
@@ -374,4 +376,4 @@ TEST(GeometryFile, UnknownSurfaceListsThoseThereAre) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace geometry_io

@@ -15,7 +15,7 @@ using nurbs::Volume;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-GeometryFile parsed(const std::string& text, nurbs::Units units = nurbs::Units::si) {
+GeometryFile parsed(const std::string& text, Units units = Units::si) {
   return read_geometry(
       "wall.xml", [&](const std::string&) { return text; }, units);
 }
@@ -67,8 +67,8 @@ const std::string kCube = R"(<xml units="cgs">
 )";
 
 TEST(Gismo, PatchesInTheOrderOfTheMultiPatch) {
-  const GeometryFile file = parsed(kTwo, nurbs::Units::cgs);
-  EXPECT_EQ(file.units, nurbs::Units::cgs);  // G+Smo has none
+  const GeometryFile file = parsed(kTwo, Units::cgs);
+  EXPECT_EQ(file.units, Units::cgs);  // G+Smo has none
   ASSERT_EQ(file.patches.size(), 2u);
   const Surface& plate = std::get<Surface>(file.patches[0]);
   EXPECT_FALSE(plate.space.rational());
@@ -93,7 +93,7 @@ TEST(Gismo, WithoutMultiPatchAllGeometriesInTheOrderOfTheFile) {
 
 TEST(Gismo, NamedBoundariesOfVolumesAreSurfaces) {
   const GeometryFile file = parsed(kCube);
-  EXPECT_EQ(file.units, nurbs::Units::cgs);
+  EXPECT_EQ(file.units, Units::cgs);
   ASSERT_EQ(file.surfaces.size(), 2u);
   const auto lid = named_surface(file, "lid", "wall.xml");
   EXPECT_EQ(lid.front().surface.control_points.row(2).minCoeff(), 4.0);
@@ -119,7 +119,7 @@ geometry:
     - {degrees: [1, 1], knots: [[0, 0, 1, 1], [0, 0, 1, 1]], control_points: [[0,0,0],[1,0,0],[0,1,0],[1,1,0]]}
     - {degrees: [1, 1], knots: [[0, 0, 1, 1], [0, 0, 1, 1]], control_points: [[1,1,0],[1,0,0],[2,1,0],[2,0,0]]}
 )";
-  const GeometryFile squares = nurbs::parse_geometry_file(text, "squares.yaml");
+  const GeometryFile squares = parse_geometry_file(text, "squares.yaml");
   const std::string xml = write_geometry(squares, Format::xml);
   // patch 0 side xi+ (2), patch 1 side eta- (3); xi of 0 is eta of 1, same way; eta of 0 is xi of 1,
   // reversed.
@@ -205,7 +205,7 @@ TEST(Gismo, SaysWhatWasGivenAndWhatWasExpected) {
     try {
       parsed(text);
       ADD_FAILURE() << "accepted";
-    } catch (const nurbs::InputError& error) {
+    } catch (const InputError& error) {
       EXPECT_THAT(error.what(), StartsWith("wall.xml:" + std::to_string(bad.line) + ": "));
       EXPECT_THAT(error.what(), HasSubstr(bad.message));
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);

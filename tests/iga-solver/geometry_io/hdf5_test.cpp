@@ -58,11 +58,11 @@ struct File {
 
 TEST(Hdf5, ReadsWhatTheSchemaSays) {
   const GeometryFile file = parsed(File().bytes());
-  EXPECT_EQ(file.units, nurbs::Units::cgs);
+  EXPECT_EQ(file.units, Units::cgs);
   const auto& surface = std::get<nurbs::Surface>(file.patches.at(0));
   EXPECT_EQ(surface.space.weight(1), 0.5);
   EXPECT_EQ(surface.control_points.col(4), nurbs::Vector3(1, 1, 2));
-  EXPECT_EQ(file.surfaces.at("wall"), (std::vector<nurbs::SurfacePiece>{{0, std::nullopt}}));
+  EXPECT_EQ(file.surfaces.at("wall"), (std::vector<SurfacePiece>{{0, std::nullopt}}));
 }
 
 TEST(Hdf5, WeightsAndSurfacesMayBeLeftOut) {
@@ -141,7 +141,7 @@ TEST(Hdf5, SaysWhatWasGivenAndWhatWasExpected) {
     try {
       parsed(file.bytes());
       ADD_FAILURE() << "accepted";
-    } catch (const nurbs::InputError& error) {
+    } catch (const InputError& error) {
       EXPECT_THAT(error.what(), StartsWith("wall.h5: "));
       EXPECT_THAT(error.what(), HasSubstr(bad.message));
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
@@ -161,8 +161,7 @@ TEST(Hdf5, FilesThatAreNoneOrBroken) {
            Broken{good.substr(0, good.size() / 2), "wall.h5: changed since it was written"},
            Broken{good.substr(0, good.size() - 1), "wall.h5: changed since it was written"},
        })
-    EXPECT_THAT([&] { parsed(broken.bytes); },
-                testing::ThrowsMessage<nurbs::InputError>(HasSubstr(broken.message)))
+    EXPECT_THAT([&] { parsed(broken.bytes); }, testing::ThrowsMessage<InputError>(HasSubstr(broken.message)))
         << broken.bytes.size();
 }
 

@@ -13,8 +13,10 @@
 #include "nurbs/primitives.h"
 #include "nurbs/shapes.h"
 
-namespace nurbs {
+namespace geometry_io {
 namespace {
+
+using namespace nurbs;
 
 // Thin on the left, a ramp up, thick, another ramp down to a third thickness.
 const std::vector<Strip> kStrips = {
@@ -131,4 +133,4 @@ TEST(RolledPlate, SaysWhatIsWrongInItsFile) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace geometry_io

@@ -16,7 +16,6 @@ namespace geometry_io {
 namespace {
 
 using nurbs::Face;
-using nurbs::Shape;
 using nurbs::Surface;
 using nurbs::Volume;
 
@@ -62,7 +61,7 @@ void expect_same(const GeometryFile& a, const GeometryFile& b) {
 
 GeometryFile random_geometry(int seed, bool surfaces, bool volumes) {
   nurbs::shapes::Random random(seed);
-  GeometryFile geometry{nurbs::Units::cgs, {}, {}};
+  GeometryFile geometry{Units::cgs, {}, {}};
   for (const bool rational : {true, false, true}) {
     if (surfaces) geometry.patches.push_back(nurbs::shapes::random_patch<2>(random, 5, 4, rational));
     if (volumes) geometry.patches.push_back(nurbs::shapes::random_patch<3>(random, 3, 3, rational));
@@ -125,15 +124,14 @@ TEST(RoundTrip, NumbersBeyondTheLimitsAreRefused) {
   const nurbs::Space<2>& space = std::get<Surface>(good.patches[0]).space;
   for (const Format format : kFormats) {
     const auto refused = [&](const std::string& bytes, const char* words) {
-      EXPECT_THAT(
-          [&] { geometry_io::read_geometry(file_of(format), [&](const std::string&) { return bytes; }); },
-          testing::ThrowsMessage<nurbs::InputError>(
-              testing::AllOf(testing::HasSubstr(file_of(format)), testing::HasSubstr(words))));
+      EXPECT_THAT([&] { read_geometry(file_of(format), [&](const std::string&) { return bytes; }); },
+                  testing::ThrowsMessage<InputError>(
+                      testing::AllOf(testing::HasSubstr(file_of(format)), testing::HasSubstr(words))));
     };
     GeometryFile geometry = good;
     for (const double beyond : {1.1e100, -1e300}) {
       std::get<Surface>(geometry.patches[0]).control_points(1, 2) = beyond;
-      refused(geometry_io::write_geometry(geometry, format), "at most 1e+100");
+      refused(write_geometry(geometry, format), "at most 1e+100");
     }
   }
   std::vector<double> weights(space.control_point_count(), 1.0);
@@ -144,9 +142,8 @@ TEST(RoundTrip, NumbersBeyondTheLimitsAreRefused) {
 
 TEST(RoundTrip, ExactRoundShapesStayClosedToTheLastBit) {
   const nurbs::Frame place = nurbs::frame({0.1, -0.2, 0.3}, {1, 2, 3});
-  GeometryFile geometry{nurbs::Units::si,
-                        {nurbs::sphere(place, 0.7, nurbs::arc(0, 360), nurbs::arc(-90, 90))},
-                        {{"all", {{0, {}}}}}};
+  GeometryFile geometry{
+      Units::si, {nurbs::sphere(place, 0.7, nurbs::arc(0, 360), nurbs::arc(-90, 90))}, {{"all", {{0, {}}}}}};
   for (const Format format : kFormats) expect_same(geometry, again(geometry, format));
 }
 

@@ -6,8 +6,10 @@
 
 #include <functional>
 
-namespace nurbs {
+namespace geometry_io {
 namespace {
+
+using namespace nurbs;
 
 using testing::ElementsAre;
 
@@ -156,4 +158,4 @@ TEST(YamlMap, NearestWord) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace geometry_io

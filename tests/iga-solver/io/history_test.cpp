@@ -131,14 +131,14 @@ TEST_F(HistoryFile, BeginsAtAnyTime) {
 // An erg is 1 g cm^2/s^2; 1 g mm^2/ms^2 = 1e-3 kg (1e-3 m)^2 / (1e-3 s)^2 = 1 mJ.
 TEST_F(HistoryFile, CarriesUnits) {
   struct Names {
-    nurbs::Units units;
+    geometry_io::Units units;
     const char *system, *time, *length, *energy, *momentum, *angular_momentum;
   };
   const io::ModelFile model = io::parse_model_file(kFalling, "falling.yaml");
   for (const Names& expected :
-       {Names{nurbs::Units::si, "si", "s", "m", "J", "kg m/s", "kg m^2/s"},
-        Names{nurbs::Units::cgs, "cgs", "s", "cm", "erg", "g cm/s", "g cm^2/s"},
-        Names{nurbs::Units::mm_g_ms, "mm-g-ms", "ms", "mm", "mJ", "g mm/ms", "g mm^2/ms"}}) {
+       {Names{geometry_io::Units::si, "si", "s", "m", "J", "kg m/s", "kg m^2/s"},
+        Names{geometry_io::Units::cgs, "cgs", "s", "cm", "erg", "g cm/s", "g cm^2/s"},
+        Names{geometry_io::Units::mm_g_ms, "mm-g-ms", "ms", "mm", "mJ", "g mm/ms", "g mm^2/ms"}}) {
     io::History history({1.0, base()}, expected.units, model.probes);
     history.record(falling_block(model));
     const auto unit = [&](const char* series) { return read_attribute(history.path(), series, "unit"); };
@@ -229,14 +229,14 @@ TEST_F(HistoryFile, OfSomethingElseIsLeftAsItIs) {
     io::History history(output, model.geometry.units, {});
     run(solver, history, 5);
   }
-  const auto resume = [&](nurbs::Units units, std::vector<structure::Probe> probes) {
+  const auto resume = [&](geometry_io::Units units, std::vector<structure::Probe> probes) {
     io::History::resume(output, units, std::move(probes), 0.0);
   };
   EXPECT_THAT([&] { resume(model.geometry.units, model.probes); },
               testing::ThrowsMessage<std::runtime_error>(
                   testing::AllOf(testing::HasSubstr("falling.h5"), testing::HasSubstr("probes/top"),
                                  testing::HasSubstr("move the file away"))));
-  EXPECT_THAT([&] { resume(nurbs::Units::cgs, {}); },
+  EXPECT_THAT([&] { resume(geometry_io::Units::cgs, {}); },
               testing::ThrowsMessage<std::runtime_error>(testing::HasSubstr("'mm-g-ms', expected 'cgs'")));
   EXPECT_EQ(read_series(base() + ".h5", "time").size(), 6u);
 }
@@ -292,8 +292,8 @@ TEST_F(HistoryFile, NeverReplacesWhatTheModelIsReadFrom) {
                                     (folder_ / "link").string(), (folder_ / "twin").string()}) {
     SCOPED_TRACE(output);
     io::HistoryOutput asked{1.0, output, "plate.yaml:7", {"plate.yaml", name + ".h5"}};
-    EXPECT_THAT([&] { io::History(asked, nurbs::Units::si, {}); },
-                testing::ThrowsMessage<nurbs::InputError>(
+    EXPECT_THAT([&] { io::History(asked, geometry_io::Units::si, {}); },
+                testing::ThrowsMessage<geometry_io::InputError>(
                     testing::AllOf(testing::StartsWith("plate.yaml:7: output.file is"),
                                    testing::HasSubstr("would be overwritten"))));
   }
@@ -303,9 +303,9 @@ TEST_F(HistoryFile, NeverReplacesWhatTheModelIsReadFrom) {
   // nor is it what the history is until it has a row
   io::HistoryOutput unfinished{1.0, base(), "plate.yaml:7", {base() + ".h5.part"}};
   std::ofstream(unfinished.inputs[0]) << text_of_others;
-  EXPECT_THAT([&] { io::History(unfinished, nurbs::Units::si, {}); },
-              testing::ThrowsMessage<nurbs::InputError>(testing::HasSubstr("would be overwritten")));
-  io::History({1.0, base(), "plate.yaml:7", {name + ".h5"}}, nurbs::Units::si,
+  EXPECT_THAT([&] { io::History(unfinished, geometry_io::Units::si, {}); },
+              testing::ThrowsMessage<geometry_io::InputError>(testing::HasSubstr("would be overwritten")));
+  io::History({1.0, base(), "plate.yaml:7", {name + ".h5"}}, geometry_io::Units::si,
               {});  // another file may be written
 }
 
@@ -313,22 +313,22 @@ TEST_F(HistoryFile, NeverReplacesWhatTheModelIsReadFrom) {
 TEST_F(HistoryFile, IsThatOfOneSolid) {
   const io::HistoryOutput one{1.0, base()},
       two{1.0, (folder_ / "." / "falling").string(), "plate.yaml:7", {}};
-  const auto refused = testing::ThrowsMessage<nurbs::InputError>(testing::AllOf(
+  const auto refused = testing::ThrowsMessage<geometry_io::InputError>(testing::AllOf(
       testing::StartsWith("plate.yaml:7: output.file is"),
       testing::EndsWith("falling.h5 is being written by another solid, expected another name")));
   {
-    io::History history(one, nurbs::Units::si, {});
-    EXPECT_THAT([&] { io::History(two, nurbs::Units::si, {}); }, refused);
+    io::History history(one, geometry_io::Units::si, {});
+    EXPECT_THAT([&] { io::History(two, geometry_io::Units::si, {}); }, refused);
     history.record(falling_block(io::parse_model_file(kFalling, "falling.yaml")));  // has its name now
-    EXPECT_THAT([&] { io::History(two, nurbs::Units::si, {}); }, refused);
-    EXPECT_THAT([&] { io::History::resume(two, nurbs::Units::si, {}, 0.0); }, refused);
+    EXPECT_THAT([&] { io::History(two, geometry_io::Units::si, {}); }, refused);
+    EXPECT_THAT([&] { io::History::resume(two, geometry_io::Units::si, {}, 0.0); }, refused);
   }
-  io::History(two, nurbs::Units::si, {});  // the other is closed
+  io::History(two, geometry_io::Units::si, {});  // the other is closed
 }
 
 TEST_F(HistoryFile, NamesTheFileItCannotCreate) {
   EXPECT_THAT(([&] {
-                io::History({1.0, base() + "_missing/history"}, nurbs::Units::si, {});
+                io::History({1.0, base() + "_missing/history"}, geometry_io::Units::si, {});
               }),
               testing::ThrowsMessage<std::runtime_error>(
                   testing::HasSubstr("_missing/history.h5: HDF5 cannot create this file")));

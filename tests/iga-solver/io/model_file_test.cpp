@@ -38,7 +38,7 @@ time: {end: 1.0e-3, step: 1.0e-6}
 
 TEST(ModelFile, ReadsEveryKey) {
   const ModelFile model = io::parse_model_file(kPlate, "plate.yaml");
-  EXPECT_EQ(model.geometry.units, nurbs::Units::si);
+  EXPECT_EQ(model.geometry.units, geometry_io::Units::si);
   EXPECT_EQ(model.volume().space.element_count(), 24);
   EXPECT_EQ(model.material->youngs_modulus(), 210.6e9);
   EXPECT_EQ(model.material->poissons_ratio(), 0.286);
@@ -103,7 +103,7 @@ material: {law: linear_elastic, youngs_modulus: 1, poissons_ratio: 0, density: 1
   try {
     io::build_solver(io::parse_model_file(text, "mirrored.yaml"));
     FAIL() << "accepted";
-  } catch (const nurbs::InputError& error) {
+  } catch (const geometry_io::InputError& error) {
     EXPECT_THAT(error.what(), testing::AllOf(HasSubstr("mirrored.yaml:"), HasSubstr("left-handed")));
   }
 }
@@ -174,7 +174,7 @@ TEST(ModelFile, RefusesBadInputInOneLineThatNamesFileLineGivenAndExpected) {
     try {
       io::parse_model_file(text, "plate.yaml");
       ADD_FAILURE() << "accepted";
-    } catch (const nurbs::InputError& error) {
+    } catch (const geometry_io::InputError& error) {
       const std::string message = error.what();
       EXPECT_THAT(message, testing::StartsWith("plate.yaml:" + std::to_string(bad.line) + ":"));
       for (const char* words : bad.said) EXPECT_THAT(message, HasSubstr(words));
@@ -189,14 +189,14 @@ TEST(ModelFile, RefusesASurfaceWhereASolidIsNeeded) {
   text.replace(box, text.find("material:") - box,
                "  plane: {origin: [0,0,0], edges: [[1,0,0],[0,1,0]], elements: [1, 1], degree: 1}\n");
   EXPECT_THAT([&] { io::parse_model_file(text, "plane.yaml"); },
-              testing::ThrowsMessage<nurbs::InputError>(
+              testing::ThrowsMessage<geometry_io::InputError>(
                   testing::AllOf(HasSubstr("plane.yaml:"), HasSubstr("volume"))));
 }
 
 TEST(ModelFile, NamesAFileThatCannotBeRead) {
   for (const char* path : {"no/such/plate.yaml", "/"})
-    EXPECT_THAT([&] { io::read_model_file(path); },
-                testing::ThrowsMessage<nurbs::InputError>(HasSubstr(path + std::string(": cannot read"))));
+    EXPECT_THAT([&] { io::read_model_file(path); }, testing::ThrowsMessage<geometry_io::InputError>(
+                                                        HasSubstr(path + std::string(": cannot read"))));
 }
 
 }  // namespace

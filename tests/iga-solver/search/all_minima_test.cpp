@@ -12,8 +12,10 @@
 #include "nurbs/shapes.h"
 #include "search/surface_projector.h"
 
-namespace nurbs {
+namespace search {
 namespace {
+
+using namespace nurbs;
 
 using shapes::Random;
 using shapes::uniform;
@@ -215,4 +217,4 @@ TEST(AllMinima, InsideOfATorus) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

@@ -9,8 +9,10 @@
 
 #include "nurbs/shapes.h"
 
-namespace nurbs {
+namespace search {
 namespace {
+
+using namespace nurbs;
 
 Vector3 random_point(shapes::Random& random) {
   return {shapes::uniform(random, 0, 1), shapes::uniform(random, 0, 1), shapes::uniform(random, 0, 1)};
@@ -123,4 +125,4 @@ TEST(Box, OverlapAndInflation) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

@@ -11,7 +11,7 @@
 
 #include "search/simplex.h"
 
-namespace nurbs {
+namespace search {
 namespace {
 
 using Vector2 = Eigen::Vector2d;
@@ -116,4 +116,4 @@ TEST(Simplex, StaysWhereTheFunctionIsFinite) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

@@ -10,8 +10,10 @@
 #include "nurbs/shapes.h"
 #include "search/multi_patch_projector.h"
 
-namespace nurbs {
+namespace search {
 namespace {
+
+using namespace nurbs;
 
 std::vector<int> all_elements(int count) {
   std::vector<int> elements(count);
@@ -171,4 +173,4 @@ TEST(ChangingShape, PatchesFollowTogether) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

@@ -10,8 +10,10 @@
 #include "nurbs/shapes.h"
 #include "search/box_tree.h"
 
-namespace nurbs {
+namespace search {
 namespace {
+
+using namespace nurbs;
 
 double distance_at(const Surface& surface, const Vector3& d, const Parameter<2>& xi) {
   return (interpolate(surface.space, surface.control_points, xi) - d).norm();
@@ -175,4 +177,4 @@ TEST(ClosestPointSearch, WarmStartsFollow) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

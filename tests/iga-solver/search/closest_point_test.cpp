@@ -9,8 +9,10 @@
 #include "nurbs/refinement.h"
 #include "nurbs/shapes.h"
 
-namespace nurbs {
+namespace search {
 namespace {
+
+using namespace nurbs;
 
 constexpr double kQuarter = M_PI / 2;
 
@@ -275,4 +277,4 @@ TEST(ClosestPoint, NotANumberIsNotConverged) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

@@ -4,18 +4,18 @@
 
 #include "search/surface_projector.h"
 
-namespace nurbs {
+namespace search {
 
-inline Projection closest(const Surface& surface, const Vector3& d) {
+inline Projection closest(const nurbs::Surface& surface, const Vector3& d) {
   SurfaceProjector projector(surface.space);
   projector.set_control_points(surface.control_points);
   return projector.cold(d);
 }
 
-inline Projection closest_from(const Surface& surface, const Vector3& d, const Parameter<2>& guess) {
+inline Projection closest_from(const nurbs::Surface& surface, const Vector3& d, const Parameter<2>& guess) {
   SurfaceProjector projector(surface.space);
   projector.set_control_points(surface.control_points);
   return projector.warm(d, guess);
 }
 
-}  // namespace nurbs
+}  // namespace search

@@ -12,8 +12,10 @@
 #include "nurbs/primitives.h"
 #include "nurbs/shapes.h"
 
-namespace nurbs {
+namespace search {
 namespace {
+
+using namespace nurbs;
 
 using shapes::uniform;
 
@@ -228,4 +230,4 @@ TEST(LocalReach, IsThatOfTheSurfaceHoweverLargeItsWeights) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

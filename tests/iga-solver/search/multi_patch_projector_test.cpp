@@ -11,8 +11,10 @@
 #include "nurbs/primitives.h"
 #include "nurbs/shapes.h"
 
-namespace nurbs {
+namespace search {
 namespace {
+
+using namespace nurbs;
 
 // On all elements of the surface and its images.
 std::vector<SurfaceFoot> minima(const MultiPatchProjector& projector, const Vector3& d, double reach,
@@ -216,4 +218,4 @@ TEST(MultiPatchProjector, FootOnAPeriodicFloor) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

@@ -11,8 +11,10 @@
 #include "nurbs/primitives.h"
 #include "nurbs/shapes.h"
 
-namespace nurbs {
+namespace search {
 namespace {
+
+using namespace nurbs;
 
 using Status = ProjectionStatus;
 
@@ -176,4 +178,4 @@ TEST(Poles, BesideTheCentreOfASphere) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

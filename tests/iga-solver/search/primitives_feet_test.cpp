@@ -9,8 +9,10 @@
 #include "nurbs/primitives.h"
 #include "nurbs/shapes.h"
 
-namespace nurbs {
+namespace search {
 namespace {
+
+using namespace nurbs;
 
 Curve meshed_arc(double from, double to, int elements, int degree = 2) {
   return refined(arc(from, to), elements, degree);
@@ -98,4 +100,4 @@ TEST(Primitives, DistancesFromWholeShapes) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

@@ -19,8 +19,11 @@
 #include "search/surface_projector.h"
 #include "trial_surfaces.h"
 
-namespace nurbs::trials {
+namespace search {
 namespace {
+
+using namespace nurbs;
+using namespace nurbs::trials;
 
 constexpr double kTolerance = 1e-9;  // of distances, relative
 
@@ -258,7 +261,7 @@ class Trials {
 };
 
 }  // namespace
-}  // namespace nurbs::trials
+}  // namespace search
 
 int main(int argc, char** argv) {
   long count = 100000;
@@ -274,7 +277,7 @@ int main(int argc, char** argv) {
   app.add_option("--family", family, "surfaces of this family alone")->transform(CLI::Transformer(families));
   CLI11_PARSE(app, argc, argv);
   try {
-    nurbs::trials::Trials trials(seed);
+    search::Trials trials(seed);
     if (only >= 0)
       trials.run_surface(only);
     else

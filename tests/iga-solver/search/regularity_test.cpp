@@ -12,8 +12,10 @@
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
 
-namespace nurbs {
+namespace search {
 namespace {
+
+using namespace nurbs;
 
 // A surface with its regularity; `element` of patch 0 by the parameters of a point in it.
 class Subject {
@@ -199,4 +201,4 @@ TEST(Regularity, EndsAtAPole) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

@@ -10,8 +10,11 @@
 #include "search/surface_projector.h"
 #include "trial_surfaces.h"
 
-namespace nurbs::trials {
+namespace search {
 namespace {
+
+using namespace nurbs;
+using namespace nurbs::trials;
 
 std::vector<SimdLevel> levels() {
   std::vector<SimdLevel> found;
@@ -126,4 +129,4 @@ TEST(SimdLevel, OtherNamesAreRefused) {
 }
 
 }  // namespace
-}  // namespace nurbs::trials
+}  // namespace search

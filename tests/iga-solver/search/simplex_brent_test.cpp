@@ -16,8 +16,10 @@
 #include "nurbs/primitives.h"
 #include "nurbs/shapes.h"
 
-namespace nurbs {
+namespace search {
 namespace {
+
+using namespace nurbs;
 
 using Status = ProjectionStatus;
 
@@ -244,4 +246,4 @@ TEST(SimplexBrent, ScalingLengthsChangesNothing) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

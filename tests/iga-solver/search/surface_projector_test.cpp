@@ -12,8 +12,10 @@
 #include "distance_bound.h"
 #include "nurbs/shapes.h"
 
-namespace nurbs {
+namespace search {
 namespace {
+
+using namespace nurbs;
 
 Vector3 random_point(shapes::Random& random) {
   return {shapes::uniform(random, -0.3, 1.3), shapes::uniform(random, -0.3, 1.3),
@@ -167,4 +169,4 @@ TEST(SurfaceProjector, WrongArguments) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search

@@ -11,8 +11,10 @@
 #include "nurbs/shapes.h"
 #include "search/box_tree.h"
 
-namespace nurbs {
+namespace search {
 namespace {
+
+using namespace nurbs;
 
 using shapes::uniform;
 
@@ -110,4 +112,4 @@ TEST(SurfaceTree, LeastAndBelow) {
 }
 
 }  // namespace
-}  // namespace nurbs
+}  // namespace search
