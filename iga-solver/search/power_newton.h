@@ -3,7 +3,7 @@
 // lane (Lanes).  Internal linkage: see power_kernel.cpp, which alone includes this.
 #pragma once
 
-#include "search/power_kernel.h"
+#include "search/descent_limits.h"
 #include "search/simd_words.h"
 
 namespace search {
