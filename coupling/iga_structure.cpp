@@ -27,13 +27,13 @@ std::vector<int> side_nodes(const nurbs::BoundarySurface& face, int side) {
   return nodes;
 }
 
-ContactSurface surface_of(const nurbs::Volume& volume, const std::vector<nurbs::Face>& names) {
+ContactSurface surface_of(const structure::Body& body, const std::vector<structure::SkinPiece>& skin) {
   std::vector<nurbs::BoundarySurface> faces;
   std::vector<nurbs::Surface> patches;
   std::vector<int> nodes, outward_sign;
-  for (const nurbs::Face name : names) {
-    const nurbs::BoundarySurface face = nurbs::boundary_surface(volume.space, name);
-    patches.push_back({face.space, volume.control_points(Eigen::all, face.volume_control_point)});
+  for (const structure::SkinPiece& piece : skin) {
+    const nurbs::BoundarySurface face = body.skin(piece);
+    patches.push_back({face.space, body.reference()(Eigen::all, face.volume_control_point)});
     nodes.insert(nodes.end(), face.volume_control_point.begin(), face.volume_control_point.end());
     outward_sign.push_back(face.outward_sign);
     faces.push_back(face);
@@ -46,17 +46,22 @@ ContactSurface surface_of(const nurbs::Volume& volume, const std::vector<nurbs::
   constexpr double kTolerance = 1e-9;
   nurbs::MultiPatch topology = nurbs::join(patches).topology;
   topology.set_borders(nurbs::find_borders(patches, kTolerance, {}, same_nodes));
-  return {std::move(topology), SurfaceMap::selection(nodes, volume.space.control_point_count()),
-          std::move(outward_sign)};
+  return {std::move(topology), SurfaceMap::selection(nodes, body.node_count()), std::move(outward_sign)};
+}
+
+/// "zeta+" as in model files; of a further patch "1 zeta+".
+std::string name_of(const structure::SkinPiece& piece) {
+  const char* const face = nurbs::face_name(piece.face);
+  return piece.patch == 0 ? face : fmt::format("{} {}", piece.patch, face);
 }
 
 }  // namespace
 
-IgaStructure::IgaStructure(structure::ExplicitSolver solver, const std::vector<nurbs::Face>& faces,
+IgaStructure::IgaStructure(structure::ExplicitSolver solver, std::vector<structure::SkinPiece> skin,
                            std::vector<structure::Probe> probes, const std::optional<Vector3>& gravity)
     : solver_(std::move(solver)),
-      faces_(faces),
-      surface_(surface_of(solver_.solid().patch(), faces)),
+      skin_(std::move(skin)),
+      surface_(surface_of(solver_.body(), skin_)),
       probes_(std::move(probes)),
       gravity_(gravity) {}
 
@@ -85,7 +90,7 @@ void IgaStructure::set_time_step(double dt) {
 }
 
 std::optional<SurfaceMaterial> IgaStructure::material() const {
-  const structure::Material& material = solver_.solid().material();
+  const structure::Material& material = solver_.body().material();
   return SurfaceMaterial{material.youngs_modulus(), material.poissons_ratio()};
 }
 
@@ -97,20 +102,21 @@ Work IgaStructure::work() const {
 std::vector<Probe> IgaStructure::probes() const {
   std::vector<Probe> values;
   for (const structure::Probe& probe : probes_)
-    values.push_back({probe.name, solver_.displacement(probe.xi)});
+    values.push_back({probe.name, probe.value(solver_.displacements())});
   return values;
 }
 
 Fingerprint IgaStructure::fingerprint() const {
-  const nurbs::Volume& patch = solver_.solid().patch();
-  const structure::Material& material = solver_.solid().material();
+  const structure::Body& body = solver_.body();
+  const structure::Material& material = body.material();
   const double E = material.youngs_modulus(), nu = material.poissons_ratio(), density = material.density();
   std::vector<double> constants{E, nu, density};
   if (material.state_size() > 0) constants.push_back(material.state_size());
   const std::vector<int>& fixed = solver_.supports().fixed_dofs();
   std::vector<std::string> faces;
-  for (const nurbs::Face face : faces_) faces.emplace_back(nurbs::face_name(face));
-  return {geometry_part<3>({patch.space}, patch.control_points),
+  for (const structure::SkinPiece& piece : skin_) faces.emplace_back(name_of(piece));
+  const auto geometry = [&](const auto& patches) { return geometry_part(patches, body.reference()); };
+  return {std::visit(geometry, body.patches()),
           word_part("surface", fmt::format("{}", fmt::join(faces, ", "))),
           word_part("law of the material", material.law()),
           {"material", fmt::format("E = {:.10g}, nu = {:.10g}, density = {:.10g}", E, nu, density),

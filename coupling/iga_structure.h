@@ -17,8 +17,8 @@ namespace coupling {
 
 class IgaStructure final : public StructureSolver {
  public:
-  /// Particles see the given faces of the solver's volume patch; faces that share an edge are welded there.
-  IgaStructure(structure::ExplicitSolver solver, const std::vector<nurbs::Face>& faces,
+  /// Particles see the given pieces of the body's skin; pieces that share an edge are welded there.
+  IgaStructure(structure::ExplicitSolver solver, std::vector<structure::SkinPiece> skin,
                std::vector<structure::Probe> probes = {}, const std::optional<Vector3>& gravity = {});
   /// From now on writes histories; before the first run.
   void write_history(SharedHistory history) { history_.emplace(std::move(history)); }
@@ -50,7 +50,7 @@ class IgaStructure final : public StructureSolver {
 
  private:
   structure::ExplicitSolver solver_;
-  std::vector<nurbs::Face> faces_;
+  std::vector<structure::SkinPiece> skin_;
   ContactSurface surface_;
   std::vector<structure::Probe> probes_;
   std::optional<Vector3> gravity_;

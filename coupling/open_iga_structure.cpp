@@ -14,10 +14,11 @@ namespace {
 OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface) {
   const io::ModelFile model = io::read_model_file(path, reader_on_all_ranks(comm));
   geometry_io::named_surface(model.geometry, surface, path);  // complains about a name that is not there
-  std::vector<nurbs::Face> faces;
+  std::vector<structure::SkinPiece> skin;
   for (const geometry_io::SurfacePiece& piece : model.geometry.surfaces.at(surface))
-    faces.push_back(*piece.face);
-  auto solver = std::make_unique<IgaStructure>(io::build_solver(model), faces, model.probes, model.gravity);
+    skin.push_back({piece.patch, *piece.face});
+  auto solver =
+      std::make_unique<IgaStructure>(io::build_solver(model), std::move(skin), model.probes, model.gravity);
   if (model.output)
     solver->write_history(SharedHistory(comm, *model.output, model.geometry.units, model.probes));
   return {std::move(solver), model.geometry.units};

@@ -66,7 +66,7 @@ long step_count(double end, double largest_step) {
 }
 
 void print_model(const io::ModelFile& model, const ExplicitSolver& solver) {
-  const nurbs::Space<3>& space = solver.solid().patch().space;
+  const nurbs::Space<3>& space = model.volume().space;
   fmt::print("{} (units {})\n", model.file, geometry_io::units_name(model.geometry.units));
   fmt::print("  elements     {} ({} x {} x {}), degrees {} {} {}\n", space.element_count(),
              space.knots(0).element_count(), space.knots(1).element_count(), space.knots(2).element_count(),
@@ -114,7 +114,7 @@ void run(const Options& options) {
   solver.set_time_step(end / steps);  // never longer than asked for, and the last step ends at `end`
   if (!options.quiet) fmt::print("  time step    {:.6g}, {} steps\n", solver.time_step(), steps);
 
-  const structure::NodalVectors no_forces = structure::NodalVectors::Zero(3, solver.solid().node_count());
+  const structure::NodalVectors no_forces = structure::NodalVectors::Zero(3, solver.body().node_count());
   with_name(model, [&] { solver.initialise_forces(no_forces); });
   std::optional<io::History> history;
   if (model.output) history.emplace(*model.output, model.geometry.units, model.probes);

@@ -170,7 +170,7 @@ void History::record(const structure::ExplicitSolver& solver) {
   w.append(w.angular_momentum, solver.angular_momentum(Vector3::Zero()));
   w.append(w.largest_displacement, solver.displacements().colwise().norm().maxCoeff());
   for (std::size_t i = 0; i < w.probes.size(); ++i)
-    w.append(w.probe_displacement[i], solver.displacement(w.probes[i].xi));
+    w.append(w.probe_displacement[i], w.probes[i].value(solver.displacements()));
   w.file.end_row(solver.time());
   last_time_ = solver.time();
 }

@@ -7,6 +7,7 @@
 #include "structure/conditions/loads.h"
 #include "structure/material/linear_elastic.h"
 #include "structure/material/saint_venant_kirchhoff.h"
+#include "structure/solid/solid.h"
 
 namespace io {
 
@@ -69,7 +70,7 @@ structure::Probe read_probe(const YamlMap& probes, const std::string& name, cons
   const std::vector<double> at = map.numbers("at");
   if (at.size() != 2) map.fail("at", fmt::format("at has {} numbers, expected 2 from 0 to 1", at.size()));
   try {
-    return {name, structure::face_point(space, face, {at[0], at[1]})};
+    return structure::probe_at(name, space, structure::face_point(space, face, {at[0], at[1]}));
   } catch (const std::invalid_argument&) {
     map.fail("at", fmt::format("at is [{}, {}], expected 2 numbers from 0 to 1", at[0], at[1]));
   }
@@ -163,15 +164,17 @@ structure::ExplicitSolver build_solver(const ModelFile& model) {
   const nurbs::Volume& volume = model.volume();
   structure::Supports supports;
   for (const FixedFaces& fixed : model.boundary)
-    for (nurbs::Face face : fixed.faces) supports.fix(volume.space, face, fixed.directions);
+    for (nurbs::Face face : fixed.faces)
+      supports.fix(structure::nodes_on(volume.space, {face}), fixed.directions);
   try {
-    structure::ExplicitSolver solver(structure::Solid(volume, model.material), std::move(supports));
+    structure::ExplicitSolver solver(std::make_unique<structure::Solid>(volume, model.material),
+                                     std::move(supports));
     structure::NodalVectors f_ext =
-        structure::gravity_load(solver.solid(), model.gravity.value_or(Vector3::Zero()));
+        structure::gravity_load(solver.body(), model.gravity.value_or(Vector3::Zero()));
     for (const FaceTraction& traction : model.tractions)
-      f_ext += structure::traction_load(volume, traction.face, traction.value);
+      f_ext += structure::traction_load(solver.body(), {0, traction.face}, traction.value);
     solver.set_load(f_ext);
-    solver.set_velocities(model.initial_velocity.replicate(1, solver.solid().node_count()));
+    solver.set_velocities(model.initial_velocity.replicate(1, solver.body().node_count()));
     return solver;
   } catch (const std::invalid_argument& error) {
     throw geometry_io::InputError(

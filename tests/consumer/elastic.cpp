@@ -11,7 +11,7 @@ material: {law: linear_elastic, youngs_modulus: 1, poissons_ratio: 0.3, density:
 surfaces: {top: zeta+}
 )",
                                                    "block.yaml");
-  coupling::IgaStructure block(io::build_solver(model), {nurbs::Face::zeta_plus});
+  coupling::IgaStructure block(io::build_solver(model), {{0, nurbs::Face::zeta_plus}});
   block.set_time_step(0.1);
   coupling::NodalVectors forces = coupling::NodalVectors::Constant(3, block.positions().cols(), 1.0);
   block.initialise_forces(forces);

@@ -12,6 +12,7 @@
 #include "structure/conditions/loads.h"
 #include "structure/material/linear_elastic.h"
 #include "structure/material/saint_venant_kirchhoff.h"
+#include "structure/solid/solid.h"
 #include "wavy_surface.h"
 
 namespace {
@@ -32,21 +33,22 @@ struct Box {
   bool large_displacements = false;
   std::vector<nurbs::Face> held{nurbs::Face::zeta_minus};
   structure::Directions directions{true, true, true};
-  std::vector<nurbs::Face> seen{nurbs::Face::zeta_plus};
+  std::vector<structure::SkinPiece> seen{{0, nurbs::Face::zeta_plus}};
   Vector3 gravity = Vector3::Zero();
 
   Fingerprint fingerprint() const {
     const auto knots = [&](int d) { return nurbs::KnotVector::uniform(degrees[d], elements[d]); };
     nurbs::Volume patch = nurbs::box({0, 0, 0}, size, {knots(0), knots(1), knots(2)});
     structure::Supports supports;
-    for (const nurbs::Face face : held) supports.fix(patch.space, face, directions);
+    for (const nurbs::Face face : held) supports.fix(structure::nodes_on(patch.space, {face}), directions);
     std::shared_ptr<const structure::Material> material;
     if (large_displacements)
       material = std::make_shared<structure::SaintVenantKirchhoff>(E, nu, density);
     else
       material = std::make_shared<structure::LinearElastic>(E, nu, density);
-    structure::ExplicitSolver solver({std::move(patch), material}, supports);
-    solver.set_load(structure::gravity_load(solver.solid(), gravity));
+    structure::ExplicitSolver solver(std::make_unique<structure::Solid>(std::move(patch), material),
+                                     supports);
+    solver.set_load(structure::gravity_load(solver.body(), gravity));
     return coupling::IgaStructure(std::move(solver), seen).fingerprint();
   }
 };
@@ -99,7 +101,7 @@ TEST(Fingerprint, NamesTheSupports) {
 
 TEST(Fingerprint, NamesTheSurface) {
   Box both;
-  both.seen = {nurbs::Face::zeta_minus, nurbs::Face::zeta_plus};
+  both.seen = {{0, nurbs::Face::zeta_minus}, {0, nurbs::Face::zeta_plus}};
   EXPECT_EQ(change(both), "surface: zeta+ then, zeta-, zeta+ now");
 }
 

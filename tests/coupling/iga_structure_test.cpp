@@ -9,6 +9,7 @@
 #include "coupling/iga_structure.h"
 #include "nurbs/primitives.h"
 #include "structure/material/linear_elastic.h"
+#include "structure/solid/solid.h"
 
 namespace {
 
@@ -22,8 +23,9 @@ coupling::IgaStructure block() {
   const auto knots = [](int n) { return nurbs::KnotVector::uniform(2, n); };
   nurbs::Volume patch = nurbs::box({-3e-3, -3e-3, -3e-3}, {6e-3, 6e-3, 3e-3}, {knots(6), knots(6), knots(3)});
   auto steel = std::make_shared<structure::LinearElastic>(210.6e9, 0.286, 7850.0);
-  coupling::IgaStructure solver(structure::ExplicitSolver({std::move(patch), steel}, {}),
-                                {nurbs::Face::zeta_plus});
+  coupling::IgaStructure solver(
+      structure::ExplicitSolver(std::make_unique<structure::Solid>(std::move(patch), steel), {}),
+      {{0, nurbs::Face::zeta_plus}});
   solver.set_time_step(kStep);
   return solver;
 }
@@ -99,10 +101,19 @@ std::shared_ptr<structure::LinearElastic> soft() {
   return std::make_shared<structure::LinearElastic>(1.0, 0.3, 1.0);
 }
 
+const std::vector<nurbs::Face> kFaces{nurbs::Face::xi_minus, nurbs::Face::xi_plus,    nurbs::Face::eta_minus,
+                                      nurbs::Face::eta_plus, nurbs::Face::zeta_minus, nurbs::Face::zeta_plus};
+
+std::vector<structure::SkinPiece> whole_skin() {
+  std::vector<structure::SkinPiece> pieces;
+  for (const nurbs::Face face : kFaces) pieces.push_back({0, face});
+  return pieces;
+}
+
 coupling::IgaStructure whole_skin(nurbs::Volume volume) {
-  return coupling::IgaStructure(structure::ExplicitSolver({std::move(volume), soft()}, {}),
-                                {nurbs::Face::xi_minus, nurbs::Face::xi_plus, nurbs::Face::eta_minus,
-                                 nurbs::Face::eta_plus, nurbs::Face::zeta_minus, nurbs::Face::zeta_plus});
+  return coupling::IgaStructure(
+      structure::ExplicitSolver(std::make_unique<structure::Solid>(std::move(volume), soft()), {}),
+      whole_skin());
 }
 
 nurbs::KnotVector knots(int degree, int elements) { return nurbs::KnotVector::uniform(degree, elements); }
@@ -123,25 +134,24 @@ TEST(IgaStructure, FacesOfABlockAreWeldedAtAllEdges) {
 // end of the wall at its own side of the slit, not into itself beyond it, and so does every other edge of the
 // solid.
 TEST(IgaStructure, EdgesThatOnlyTouchAreNotWelded) {
-  using nurbs::Face;
   nurbs::Volume tube = nurbs::tube(nurbs::frame({0, 0, 0}, {0, 0, 1}), 0.8, 1.0, 2.0,
                                    nurbs::refined(nurbs::arc(0, 360), 8, 2), {knots(2, 3), knots(2, 2)});
   const nurbs::Space<3> space = tube.space;
   auto steel = std::make_shared<structure::LinearElastic>(210.6e9, 0.286, 7850.0);
-  const std::vector<Face> names{Face::xi_minus, Face::xi_plus,    Face::eta_minus,
-                                Face::eta_plus, Face::zeta_minus, Face::zeta_plus};
-  const coupling::IgaStructure solver(structure::ExplicitSolver({std::move(tube), steel}, {}), names);
+  const coupling::IgaStructure solver(
+      structure::ExplicitSolver(std::make_unique<structure::Solid>(std::move(tube), steel), {}),
+      whole_skin());
   const nurbs::MultiPatch& surface = solver.surface().topology;
   for (int p = 0; p < surface.patch_count(); ++p)
     for (int side = 0; side < nurbs::kSideCount; ++side) {
-      SCOPED_TRACE(testing::Message() << face_name(names[p]) << ", side " << nurbs::side_name(side));
+      SCOPED_TRACE(testing::Message() << face_name(kFaces[p]) << ", side " << nurbs::side_name(side));
       const nurbs::Border& border = surface.border(p, side);
       ASSERT_EQ(border.kind, nurbs::Border::welded);
       EXPECT_NE(border.patch, p);
       EXPECT_NEAR(border.max_angle, M_PI / 2, 1e-6) << "all its edges are at right angles";
       // The nodes at the ends of both edges are the same.
-      const nurbs::BoundarySurface here = nurbs::boundary_surface(space, names[p]),
-                                   there = nurbs::boundary_surface(space, names[border.patch]);
+      const nurbs::BoundarySurface here = nurbs::boundary_surface(space, kFaces[p]),
+                                   there = nurbs::boundary_surface(space, kFaces[border.patch]);
       const auto corner = [](const nurbs::BoundarySurface& face, int of_side, bool end) {
         const int n = face.space.control_point_count(0), m = face.space.control_point_count(1);
         const bool upper = of_side % 2 == 1;

@@ -16,6 +16,7 @@
 #include "late_surface.h"
 #include "nurbs/primitives.h"
 #include "structure/material/linear_elastic.h"
+#include "structure/solid/solid.h"
 #include "wavy_surface.h"
 
 namespace {
@@ -92,7 +93,8 @@ TEST(LateSurface, IsSeenAsItWasTwoStepsAgo) {
   nurbs::Volume cube = nurbs::box({0, 0, 0}, {1, 1, 1}, {knots, knots, knots});
   auto material = std::make_shared<structure::LinearElastic>(1.0, 0.0, 1.0);
   auto in_phase = std::make_unique<coupling::IgaStructure>(
-      structure::ExplicitSolver({std::move(cube), material}, {}), std::vector{nurbs::Face::zeta_plus});
+      structure::ExplicitSolver(std::make_unique<structure::Solid>(std::move(cube), material), {}),
+      std::vector<structure::SkinPiece>{{0, nurbs::Face::zeta_plus}});
   const coupling::IgaStructure& now = *in_phase;
   test::LateSurface solver(std::move(in_phase), 2);
   solver.set_time_step(0.1);

@@ -5,15 +5,13 @@
 
 namespace structure {
 
-NodalVectors gravity_load(const Solid& solid, const Vector3& g) {
-  return g * solid.row_sum_mass().transpose();
-}
+NodalVectors gravity_load(const Body& body, const Vector3& g) { return g * body.row_sum_mass().transpose(); }
 
-NodalVectors traction_load(const nurbs::Volume& patch, nurbs::Face face, const Vector3& traction) {
-  const nurbs::BoundarySurface boundary = nurbs::boundary_surface(patch.space, face);
-  const Eigen::VectorXd area = nurbs::control_point_areas(
-      boundary.space, patch.control_points(Eigen::all, boundary.volume_control_point));
-  NodalVectors f = NodalVectors::Zero(3, patch.control_points.cols());
+NodalVectors traction_load(const Body& body, const SkinPiece& piece, const Vector3& traction) {
+  const nurbs::BoundarySurface boundary = body.skin(piece);
+  const Eigen::VectorXd area =
+      nurbs::control_point_areas(boundary.space, body.reference()(Eigen::all, boundary.volume_control_point));
+  NodalVectors f = NodalVectors::Zero(3, body.node_count());
   f(Eigen::all, boundary.volume_control_point) = traction * area.transpose();
   return f;
 }

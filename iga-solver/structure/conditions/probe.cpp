@@ -4,8 +4,26 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 namespace structure {
+
+nurbs::Vector3 Probe::value(const nurbs::NodalVectors& q) const {
+  nurbs::Vector3 sum = nurbs::Vector3::Zero();
+  for (std::size_t a = 0; a < nodes.size(); ++a) sum += weights[a] * q.col(nodes[a]);
+  return sum;
+}
+
+Probe probe_at(std::string name, const nurbs::Space<3>& volume, const nurbs::Parameter<3>& xi) {
+  nurbs::RationalBasis<3> basis;
+  nurbs::evaluate(volume, xi, 0, basis);
+  Probe probe{std::move(name), {}, {}};
+  for (int a = 0; a < basis.count; ++a) {
+    probe.nodes.push_back(basis.control_point[a]);
+    probe.weights.push_back(basis.R[a]);
+  }
+  return probe;
+}
 
 nurbs::Parameter<3> face_point(const nurbs::Space<3>& volume, nurbs::Face face,
                                const std::array<double, 2>& at) {

@@ -7,8 +7,8 @@
 
 namespace structure {
 
-void Supports::fix(const nurbs::Space<3>& volume, nurbs::Face face, const Directions& directions) {
-  for (int A : nurbs::boundary_surface(volume, face).volume_control_point)
+void Supports::fix(const NodeSet& nodes, const Directions& directions) {
+  for (int A : nodes)
     for (int i = 0; i < 3; ++i)
       if (directions[i]) dofs_.push_back(3 * A + i);
   std::sort(dofs_.begin(), dofs_.end());

@@ -5,7 +5,8 @@
 #include <array>
 #include <vector>
 
-#include "nurbs/boundary.h"
+#include "nurbs/types.h"
+#include "structure/conditions/node_set.h"
 
 namespace structure {
 
@@ -16,8 +17,8 @@ using Directions = std::array<bool, 3>;
 
 class Supports {
  public:
-  /// Fixes all control points of a face of the volume in the given directions.
-  void fix(const nurbs::Space<3>& volume, nurbs::Face face, const Directions& directions);
+  /// Fixes nodes in the given directions.
+  void fix(const NodeSet& nodes, const Directions& directions);
   /// Sets the fixed entries of nodal values (3 x n) to zero: velocities, accelerations, trial vectors.
   void apply(NodalVectors& values) const;
   /// Fixed degrees of freedom 3 A + direction, rising, each once.

@@ -106,6 +106,20 @@ ElementGeometry Solid::geometry(int element) const {
   return {&dR_dX_[first_point * 3 * padded_], &wJ_[first_point], points_, padded_};
 }
 
+nurbs::BoundarySurface Solid::skin(const SkinPiece& piece) const {
+  if (piece.patch != 0)
+    throw std::invalid_argument(fmt::format("Solid: skin of patch {}, expected 0: it has one", piece.patch));
+  return nurbs::boundary_surface(patch_.space, piece.face);
+}
+
+std::string Solid::describe_element(int element) const {
+  const nurbs::Space<3>& space = patch_.space;
+  const std::array<int, 3> spans = space.element_indices(element);
+  return fmt::format("element {} (spans {}, {}, {} of xi, eta, zeta, undeformed about {})", element, spans[0],
+                     spans[1], spans[2],
+                     text(nurbs::interpolate(space, patch_.control_points, space.element_centre(element))));
+}
+
 double Solid::volume() const { return std::accumulate(wJ_.begin(), wJ_.end(), 0.0); }
 
 void Solid::gather(int element, const NodalVectors& nodal, double* values) const {

@@ -14,11 +14,8 @@ namespace structure {
 
 namespace {
 
-std::string text(const Vector3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]); }
-
 std::string node_text(const ExplicitSolver& solver, int node) {
-  return fmt::format("control node {}, undeformed at {}", node,
-                     text(solver.solid().patch().control_points.col(node)));
+  return fmt::format("control node {}, undeformed at {}", node, text(solver.body().reference().col(node)));
 }
 
 /// The first node whose value is not finite; -1: none.
@@ -52,22 +49,16 @@ std::string symptom(const ExplicitSolver& solver, double energy_given) {
 
 /// The element that is squeezed most, if it is folded: nothing is said of displacements that are not finite.
 std::string folded_element(const ExplicitSolver& solver) {
-  const Solid& solid = solver.solid();
-  const nurbs::Space<3>& space = solid.patch().space;
-  std::vector<double> u(3 * solid.padded_functions());
+  const Body& body = solver.body();
+  std::vector<double> u(3 * body.padded_functions());
   int folded = -1;
   double lowest = 0.0;
-  for (int e = 0; e < space.element_count(); ++e) {
-    solid.gather(e, solver.displacements(), u.data());
-    const double ratio = solid.smallest_volume_ratio(e, u.data());
+  for (int e = 0; e < body.element_count(); ++e) {
+    body.gather(e, solver.displacements(), u.data());
+    const double ratio = body.smallest_volume_ratio(e, u.data());
     if (ratio < lowest) lowest = ratio, folded = e;
   }
-  if (folded < 0) return "";
-  const std::array<int, 3> spans = space.element_indices(folded);
-  return fmt::format(
-      "element {} (spans {}, {}, {} of xi, eta, zeta, undeformed about {}) is folded", folded, spans[0],
-      spans[1], spans[2],
-      text(nurbs::interpolate(space, solid.patch().control_points, space.element_centre(folded))));
+  return folded < 0 ? "" : body.describe_element(folded) + " is folded";
 }
 
 std::string likely_cause(const ExplicitSolver& solver, const NodalVectors& F,

@@ -13,16 +13,16 @@
 
 namespace structure {
 
-ExplicitSolver::ExplicitSolver(Solid solid, Supports supports)
-    : solid_(std::move(solid)),
+ExplicitSolver::ExplicitSolver(std::unique_ptr<Body> body, Supports supports)
+    : body_(std::move(body)),
       supports_(std::move(supports)),
-      mass_(std::make_unique<LumpedMass>(solid_.row_sum_mass())),
-      f_ext_(NodalVectors::Zero(3, solid_.node_count())),
+      mass_(std::make_unique<LumpedMass>(body_->row_sum_mass())),
+      f_ext_(NodalVectors::Zero(3, body_->node_count())),
       f_int_(f_ext_),
       F_(f_ext_),
       residual_(f_ext_),
       u_(f_ext_),
-      x_(solid_.patch().control_points),
+      x_(body_->reference()),
       v_(f_ext_),
       a_(f_ext_),
       v_sum_(f_ext_) {}
@@ -54,7 +54,7 @@ void ExplicitSolver::set_time_step(double dt) {
 
 void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   check_size(F, "forces");
-  solid_.internal_force(u_, f_int_);
+  body_->internal_force(u_, f_int_);
   update_accelerations(F);
   power_ = (f_ext_ + F).cwiseProduct(v_).sum();
   start_energy_budget();
@@ -73,15 +73,15 @@ void ExplicitSolver::begin_step() {
   if (dt_ == 0.0) throw std::logic_error("ExplicitSolver: begin_step before set_time_step");
   half_kick();
   u_ += dt_ * v_;
-  x_ = solid_.patch().control_points + u_;
+  x_ = body_->reference() + u_;
 }
 
 void ExplicitSolver::end_step(const NodalVectors& F) {
   check_size(F, "forces");
-  solid_.evolve(u_, dt_, f_int_);
+  body_->evolve(u_, dt_, f_int_);
   update_accelerations(F);
   half_kick();
-  solid_.commit();
+  body_->commit();
   time_ += dt_;
   const double power = (f_ext_ + F).cwiseProduct(v_).sum();
   if (budget_)
@@ -97,7 +97,7 @@ void ExplicitSolver::start_energy_budget() {
   const double kick = 0.125 * dt_ * dt_ * a_.colwise().squaredNorm().dot(mass_->nodal_mass());
   budget_.emplace(
       kinetic_energy() + strain_energy() + kick,
-      solid_.material().youngs_modulus() * solid_.volume() * kNegligibleStrain * kNegligibleStrain);
+      body_->material().youngs_modulus() * body_->volume() * kNegligibleStrain * kNegligibleStrain);
 }
 
 void ExplicitSolver::check_divergence(const NodalVectors& F) const {
@@ -114,12 +114,8 @@ void ExplicitSolver::update_accelerations(const NodalVectors& F) {
   supports_.apply(a_);
 }
 
-Vector3 ExplicitSolver::displacement(const nurbs::Parameter<3>& xi) const {
-  return nurbs::interpolate(solid_.patch().space, u_, xi);
-}
-
 double ExplicitSolver::stable_time_step() const {
-  if (!stable_time_step_) stable_time_step_ = structure::stable_time_step(solid_, *mass_, supports_, u_);
+  if (!stable_time_step_) stable_time_step_ = structure::stable_time_step(*body_, *mass_, supports_, u_);
   return *stable_time_step_;
 }
 
@@ -127,7 +123,7 @@ double ExplicitSolver::kinetic_energy() const {
   return 0.5 * v_.colwise().squaredNorm().dot(mass_->nodal_mass());
 }
 
-double ExplicitSolver::strain_energy() const { return solid_.strain_energy(u_); }
+double ExplicitSolver::strain_energy() const { return body_->strain_energy(u_); }
 
 double ExplicitSolver::load_work() const { return f_ext_.cwiseProduct(u_).sum(); }
 
@@ -142,7 +138,7 @@ Vector3 ExplicitSolver::angular_momentum(const Vector3& about) const {
 
 std::vector<double> ExplicitSolver::save() const {
   std::vector<double> state{time_};
-  const std::vector<double>& memory = solid_.memory();
+  const std::vector<double>& memory = body_->memory();
   state.reserve(1 + 3 * u_.size() + memory.size());
   for (const NodalVectors* values : {&u_, &v_, &a_})
     state.insert(state.end(), values->data(), values->data() + values->size());
@@ -151,7 +147,7 @@ std::vector<double> ExplicitSolver::save() const {
 }
 
 void ExplicitSolver::load(const std::vector<double>& state) {
-  const std::size_t size = u_.size(), expected = 1 + 3 * size + solid_.memory().size();
+  const std::size_t size = u_.size(), expected = 1 + 3 * size + body_->memory().size();
   if (state.size() != expected)
     throw std::invalid_argument(
         fmt::format("ExplicitSolver: state of {} numbers, expected {}", state.size(), expected));
@@ -161,8 +157,8 @@ void ExplicitSolver::load(const std::vector<double>& state) {
     std::copy_n(next, size, values->data());
     next += size;
   }
-  solid_.set_memory({next, state.end()});
-  x_ = solid_.patch().control_points + u_;
+  body_->set_memory({next, state.end()});
+  x_ = body_->reference() + u_;
   budget_.reset();
 }
 

@@ -10,8 +10,8 @@
 #include <optional>
 #include <vector>
 
+#include "structure/body.h"
 #include "structure/conditions/supports.h"
-#include "structure/solid/solid.h"
 #include "structure/time/divergence.h"
 #include "structure/time/mass.h"
 #include "structure/time/work_ledger.h"
@@ -22,7 +22,7 @@ namespace structure {
 class ExplicitSolver {
  public:
   /// At rest, undeformed, row-sum lumped mass.
-  ExplicitSolver(Solid solid, Supports supports);
+  ExplicitSolver(std::unique_ptr<Body> body, Supports supports);
 
   /// Constant external nodal forces f_ext [force]; throws std::invalid_argument if the size does not fit.
   void set_load(const NodalVectors& f_ext);
@@ -41,16 +41,15 @@ class ExplicitSolver {
   /// the EnergyBudget allows; a step later the state would mean nothing.
   void end_step(const NodalVectors& F);
 
-  const Solid& solid() const { return solid_; }
+  const Body& body() const { return *body_; }
   const Supports& supports() const { return supports_; }
   const MassOperator& mass() const { return *mass_; }
   double time() const { return time_; }
   double time_step() const { return dt_; }
-  const NodalVectors& displacements() const { return u_; }    ///< [length]
-  const NodalVectors& positions() const { return x_; }        ///< of the control points [length]
-  const NodalVectors& velocities() const { return v_; }       ///< [length/time]; v(n+1/2) within a step
-  const NodalVectors& accelerations() const { return a_; }    ///< [length/time^2]
-  Vector3 displacement(const nurbs::Parameter<3>& xi) const;  ///< of a material point [length]
+  const NodalVectors& displacements() const { return u_; }  ///< [length]
+  const NodalVectors& positions() const { return x_; }      ///< of the control points [length]
+  const NodalVectors& velocities() const { return v_; }     ///< [length/time]; v(n+1/2) within a step
+  const NodalVectors& accelerations() const { return a_; }  ///< [length/time^2]
 
   /// 2 / omega_max about the state of the first call, which takes seconds for large models; then remembered.
   double stable_time_step() const;
@@ -78,7 +77,7 @@ class ExplicitSolver {
   void check_divergence(const NodalVectors& F) const;
   void half_kick();
 
-  Solid solid_;
+  std::unique_ptr<Body> body_;
   Supports supports_;
   std::unique_ptr<MassOperator> mass_;
   double dt_ = 0.0, time_ = 0.0;

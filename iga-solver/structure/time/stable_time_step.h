@@ -3,8 +3,8 @@
 // of M^-1 K (Hughes, The Finite Element Method, 2000, section 9.1).
 #pragma once
 
+#include "structure/body.h"
 #include "structure/conditions/supports.h"
-#include "structure/solid/solid.h"
 #include "structure/time/mass.h"
 
 namespace structure {
@@ -19,7 +19,7 @@ constexpr double kStableStepSafety = 0.98;
 /// frequencies, this one takes 30 to 60 evaluations of the internal force.  Throws std::runtime_error if the
 /// iteration does not converge or meets numbers that are not finite, and std::logic_error if the result
 /// contradicts the element bounds.
-double stable_time_step(const Solid& solid, const MassOperator& mass, const Supports& supports,
+double stable_time_step(const Body& body, const MassOperator& mass, const Supports& supports,
                         const NodalVectors& u);
 
 /// Bounds of omega_max^2 [1/time^2] from single elements, for row-sum lumped mass.
@@ -29,7 +29,6 @@ struct EigenvalueBounds {
 };
 /// The elements' eigenvalues themselves come from a few power iterations, so `high` may be short by some per
 /// cent.
-EigenvalueBounds element_eigenvalue_bounds(const Solid& solid, const Supports& supports,
-                                           const NodalVectors& u);
+EigenvalueBounds element_eigenvalue_bounds(const Body& body, const Supports& supports, const NodalVectors& u);
 
 }  // namespace structure

@@ -68,12 +68,12 @@ std::string read_attribute(const std::string& path, const std::string& object, c
 structure::ExplicitSolver falling_block(const io::ModelFile& model) {
   structure::ExplicitSolver solver = io::build_solver(model);
   solver.set_time_step(kStep);
-  solver.initialise_forces(structure::NodalVectors::Zero(3, solver.solid().node_count()));
+  solver.initialise_forces(structure::NodalVectors::Zero(3, solver.body().node_count()));
   return solver;
 }
 
 void run(structure::ExplicitSolver& solver, io::History& history, int steps) {
-  const structure::NodalVectors F = structure::NodalVectors::Zero(3, solver.solid().node_count());
+  const structure::NodalVectors F = structure::NodalVectors::Zero(3, solver.body().node_count());
   history.record_if_due(solver);
   for (int n = 0; n < steps; ++n) {
     solver.begin_step();
@@ -117,7 +117,7 @@ TEST_F(HistoryFile, HoldsTheClosedFormOfAFallingBlockAtEveryOutputTime) {
 TEST_F(HistoryFile, BeginsAtAnyTime) {
   const io::ModelFile model = io::parse_model_file(kFalling, "falling.yaml");
   structure::ExplicitSolver solver = falling_block(model);
-  const NodalVectors F = NodalVectors::Zero(3, solver.solid().node_count());
+  const NodalVectors F = NodalVectors::Zero(3, solver.body().node_count());
   for (int n = 0; n < 105; ++n) solver.begin_step(), solver.end_step(F);
   io::History history({10 * kStep, base()}, model.geometry.units, model.probes);
   run(solver, history, 20);

@@ -51,8 +51,7 @@ TEST(ModelFile, ReadsEveryKey) {
   ASSERT_EQ(model.probes.size(), 2u);
   EXPECT_EQ(model.probes[0].name, "corner");
   EXPECT_EQ(model.probes[1].name, "below");
-  const Vector3 below =
-      nurbs::interpolate(model.volume().space, model.volume().control_points, model.probes[1].xi);
+  const Vector3 below = model.probes[1].value(model.volume().control_points);
   EXPECT_LT((below - Vector3(0, -1, -0.5)).norm(), 1e-14);
   EXPECT_EQ(model.output->every, 1e-7);
   EXPECT_EQ(model.output->file, "plate");
@@ -85,7 +84,7 @@ TEST(BuildSolver, HasTheMassSupportsLoadsAndVelocitiesOfTheFile) {
   EXPECT_EQ(solver.velocities().row(1).maxCoeff(), 1.0);
   // The work of the loads in a uniform displacement is total force times displacement.
   std::vector<double> state = solver.save();
-  for (int A = 0; A < solver.solid().node_count(); ++A) state[1 + 3 * A] = 2.0, state[3 + 3 * A] = 1.0;
+  for (int A = 0; A < solver.body().node_count(); ++A) state[1 + 3 * A] = 2.0, state[3 + 3 * A] = 1.0;
   solver.load(state);
   const double expected = 2.0 * (5 * 2 * 0.5) + (-9.81 * mass - 1000 * 8);
   EXPECT_NEAR(solver.load_work(), expected, 1e-9 * std::abs(expected));

@@ -68,27 +68,27 @@ Matrix3 some_gradient() {
   return H;
 }
 
-Eigen::MatrixXd stiffness(const structure::Solid& solid) {
-  const int n = solid.node_count();
+Eigen::MatrixXd stiffness(const structure::Body& body) {
+  const int n = body.node_count();
   Eigen::MatrixXd K(3 * n, 3 * n);
   NodalVectors u = NodalVectors::Zero(3, n), f(u);
   for (int dof = 0; dof < 3 * n; ++dof) {
     u.data()[dof] = 1.0;
-    solid.internal_force(u, f);
+    body.internal_force(u, f);
     K.col(dof) = f.reshaped();
     u.data()[dof] = 0.0;
   }
   return K;
 }
 
-Eigen::MatrixXd mass_scaled_stiffness(const structure::Solid& solid, const structure::Supports& supports) {
+Eigen::MatrixXd mass_scaled_stiffness(const structure::Body& body, const structure::Supports& supports) {
   std::vector<int> free;
-  for (int dof = 0; dof < 3 * solid.node_count(); ++dof)
+  for (int dof = 0; dof < 3 * body.node_count(); ++dof)
     if (!std::binary_search(supports.fixed_dofs().begin(), supports.fixed_dofs().end(), dof))
       free.push_back(dof);
   Eigen::VectorXd scale(free.size());
-  for (std::size_t i = 0; i < free.size(); ++i) scale[i] = 1.0 / std::sqrt(solid.row_sum_mass()[free[i] / 3]);
-  return scale.asDiagonal() * stiffness(solid)(free, free) * scale.asDiagonal();
+  for (std::size_t i = 0; i < free.size(); ++i) scale[i] = 1.0 / std::sqrt(body.row_sum_mass()[free[i] / 3]);
+  return scale.asDiagonal() * stiffness(body)(free, free) * scale.asDiagonal();
 }
 
 std::vector<int> interior_nodes(const nurbs::Space<3>& space) {

@@ -37,9 +37,9 @@ NodalVectors linear_field(const Matrix3& H, const nurbs::Volume& patch);
 Matrix3 some_gradient();
 
 /// Dense stiffness matrix, one internal force per column.
-Eigen::MatrixXd stiffness(const structure::Solid& solid);
+Eigen::MatrixXd stiffness(const structure::Body& body);
 /// M^-1/2 K M^-1/2 without the fixed dofs, M lumped by row sums.
-Eigen::MatrixXd mass_scaled_stiffness(const structure::Solid& solid, const structure::Supports& supports);
+Eigen::MatrixXd mass_scaled_stiffness(const structure::Body& body, const structure::Supports& supports);
 /// Control points on no face.
 std::vector<int> interior_nodes(const nurbs::Space<3>& space);
 

@@ -19,12 +19,13 @@ using structure::Solid;
 using structure::Supports;
 
 ExplicitSolver cubes(int n, Supports supports = {}) {
-  return ExplicitSolver(Solid(models::block({1.0 * n, 1.0 * n, 1.0 * n}, {n, n, n}, 2), models::elastic()),
-                        supports);
+  return ExplicitSolver(
+      std::make_unique<Solid>(models::block({1.0 * n, 1.0 * n, 1.0 * n}, {n, n, n}, 2), models::elastic()),
+      supports);
 }
 
 NodalVectors no_forces(const ExplicitSolver& solver) {
-  return NodalVectors::Zero(3, solver.solid().node_count());
+  return NodalVectors::Zero(3, solver.body().node_count());
 }
 
 void run(ExplicitSolver& solver, int steps) {
@@ -46,7 +47,7 @@ void set_displacements(ExplicitSolver& solver, const NodalVectors& u) {
 TEST(CentralDifference, MovesEveryModeWithItsDiscreteFrequency) {
   ExplicitSolver solver = cubes(2);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      models::mass_scaled_stiffness(solver.solid(), {}));
+      models::mass_scaled_stiffness(solver.body(), {}));
   const Eigen::VectorXd root_mass = solver.mass().nodal_mass().cwiseSqrt();
   const NodalVectors start = no_forces(solver);
   for (int index : {6, 40, int(eigen.eigenvalues().size()) - 1}) {
@@ -74,7 +75,7 @@ struct EnergyHistory {
 // PHYSICS C15: free block of 4 x 4 x 4 cubes, random initial velocity.
 EnergyHistory energy_history(double step_factor) {
   ExplicitSolver solver = cubes(4);
-  solver.set_velocities(models::random_vectors(solver.solid().node_count(), 5));
+  solver.set_velocities(models::random_vectors(solver.body().node_count(), 5));
   solver.set_time_step(step_factor * 0.6454);
   solver.initialise_forces(no_forces(solver));
   const double E0 = solver.kinetic_energy();
@@ -101,7 +102,7 @@ TEST(CentralDifference, KeepsEnergyToSecondOrderWithoutDrift) {
 
 TEST(CentralDifference, KeepsLinearMomentumToRoundOff) {
   ExplicitSolver solver = cubes(2);
-  solver.set_velocities(models::random_vectors(solver.solid().node_count(), 5));
+  solver.set_velocities(models::random_vectors(solver.body().node_count(), 5));
   solver.set_time_step(0.5);
   solver.initialise_forces(no_forces(solver));
   const Vector3 before = solver.linear_momentum();
@@ -112,7 +113,7 @@ TEST(CentralDifference, KeepsLinearMomentumToRoundOff) {
 TEST(CentralDifference, FallsExactlyUnderGravity) {
   ExplicitSolver solver = cubes(2);
   const Vector3 g(0.1, -0.2, 0.3);
-  solver.set_load(structure::gravity_load(solver.solid(), g));
+  solver.set_load(structure::gravity_load(solver.body(), g));
   solver.set_time_step(0.3);
   solver.initialise_forces(no_forces(solver));
   run(solver, 50);
@@ -122,9 +123,7 @@ TEST(CentralDifference, FallsExactlyUnderGravity) {
     EXPECT_LT((solver.displacements().col(A) - 0.5 * t * t * g).norm(), 1e-10);
   EXPECT_NEAR(solver.kinetic_energy(), 0.5 * mass * g.squaredNorm() * t * t, 1e-9);
   EXPECT_NEAR(solver.load_work(), solver.kinetic_energy(), 1e-9);
-  EXPECT_LT((solver.positions() - solver.solid().patch().control_points - solver.displacements()).norm(),
-            1e-12);
-  EXPECT_LT((solver.displacement({0.3, 0.4, 0.5}) - 0.5 * t * t * g).norm(), 1e-10);
+  EXPECT_LT((solver.positions() - solver.body().reference() - solver.displacements()).norm(), 1e-12);
 }
 
 TEST(ExplicitSolver, GivesTheMomentaOfRigidMotion) {
@@ -143,11 +142,12 @@ TEST(ExplicitSolver, GivesTheMomentaOfRigidMotion) {
 
 TEST(ExplicitSolver, HoldsFixedDofsAndNoOthers) {
   Supports supports;
-  supports.fix(models::block({2, 2, 2}, {2, 2, 2}, 2).space, Face::zeta_minus, {true, false, true});
+  supports.fix(structure::nodes_on(models::block({2, 2, 2}, {2, 2, 2}, 2).space, {Face::zeta_minus}),
+               {true, false, true});
   ExplicitSolver solver = cubes(2, supports);
-  solver.set_velocities(models::random_vectors(solver.solid().node_count(), 5));
+  solver.set_velocities(models::random_vectors(solver.body().node_count(), 5));
   solver.set_time_step(0.3);
-  solver.initialise_forces(models::random_vectors(solver.solid().node_count(), 6));
+  solver.initialise_forces(models::random_vectors(solver.body().node_count(), 6));
   run(solver, 10);
   for (int dof = 0; dof < solver.displacements().size(); ++dof) {
     const bool fixed = dof / 3 < 16 && dof % 3 != 1;  // the first 4 x 4 control points lie on zeta-
@@ -158,7 +158,7 @@ TEST(ExplicitSolver, HoldsFixedDofsAndNoOthers) {
 
 TEST(ExplicitSolver, InitialisingForcesAdvancesNothing) {
   ExplicitSolver solver = cubes(2);
-  const NodalVectors F = models::random_vectors(solver.solid().node_count(), 5);
+  const NodalVectors F = models::random_vectors(solver.body().node_count(), 5);
   solver.initialise_forces(F);
   EXPECT_EQ(solver.time(), 0.0);
   EXPECT_EQ(solver.displacements(), no_forces(solver));
@@ -169,7 +169,7 @@ TEST(ExplicitSolver, InitialisingForcesAdvancesNothing) {
 
 TEST(ExplicitSolver, ContinuesFromASavedStateToTheLastBit) {
   ExplicitSolver solver = cubes(2);
-  solver.set_velocities(models::random_vectors(solver.solid().node_count(), 5));
+  solver.set_velocities(models::random_vectors(solver.body().node_count(), 5));
   solver.set_time_step(0.3);
   solver.initialise_forces(no_forces(solver));
   run(solver, 7);
@@ -190,10 +190,10 @@ TEST(ExplicitSolver, ContinuesFromASavedStateToTheLastBit) {
 TEST(ExplicitSolver, ItsLedgerOfWorkIsClosedToRoundOff) {
   Supports supports;
   const nurbs::Volume patch = models::distorted(models::block({3.0, 2.0, 1.0}, {3, 2, 1}, 2), 0.1);
-  supports.fix(patch.space, Face::xi_minus, {true, true, false});
-  ExplicitSolver solver(Solid(patch, models::elastic()), supports);
-  const int nodes = solver.solid().node_count();
-  const NodalVectors load = structure::gravity_load(solver.solid(), {0.3, -0.2, 0.5});
+  supports.fix(structure::nodes_on(patch.space, {Face::xi_minus}), {true, true, false});
+  ExplicitSolver solver(std::make_unique<Solid>(patch, models::elastic()), supports);
+  const int nodes = solver.body().node_count();
+  const NodalVectors load = structure::gravity_load(solver.body(), {0.3, -0.2, 0.5});
   solver.set_load(load);
   solver.set_velocities(models::random_vectors(nodes, 3));
   const double dt = 0.3 * solver.stable_time_step();
@@ -209,7 +209,7 @@ TEST(ExplicitSolver, ItsLedgerOfWorkIsClosedToRoundOff) {
   double internal = 0.0, forces = 0.0, turned_over = 0.0;
   for (int n = 1; n <= 500; ++n) {
     const auto kick = [&](const NodalVectors& v, const NodalVectors& w) {
-      solver.solid().internal_force(solver.displacements(), f_int);
+      solver.body().internal_force(solver.displacements(), f_int);
       internal += 0.25 * dt * f_int.cwiseProduct(v + w).sum();
       forces += 0.25 * dt * F.cwiseProduct(v + w).sum();
     };

@@ -103,8 +103,8 @@ TEST(LargeStrain, ForceIsTheGradientOfTheStrainEnergy) {
 
 // Angular momentum about the origin with positions as they are: what the small-strain law does not keep.
 TEST(LargeStrain, KeepsBothMomentaOfATumblingBlock) {
-  ExplicitSolver solver(Solid(models::block({2, 1, 1}, {2, 1, 1}, 2), stvk()), {});
-  NodalVectors v = 0.05 * models::random_vectors(solver.solid().node_count(), 4);
+  ExplicitSolver solver(std::make_unique<Solid>(models::block({2, 1, 1}, {2, 1, 1}, 2), stvk()), {});
+  NodalVectors v = 0.05 * models::random_vectors(solver.body().node_count(), 4);
   for (int A = 0; A < v.cols(); ++A)
     v.col(A) += Vector3(0.02, 0.03, 0.1).cross(Vector3(solver.positions().col(A)));
   solver.set_velocities(v);
@@ -127,9 +127,9 @@ Vector3 end_displacement_of_a_cantilever(double thickness, int elements, int deg
   const nurbs::Volume patch = models::block({1, 1, thickness}, {elements, 1, 1}, {degree, 1, degree});
   const Solid solid(patch, stvk(1.0, 0.0));
   Supports supports;
-  supports.fix(patch.space, nurbs::Face::xi_minus, {true, true, true});
+  supports.fix(structure::nodes_on(patch.space, {nurbs::Face::xi_minus}), {true, true, true});
   for (nurbs::Face side : {nurbs::Face::eta_minus, nurbs::Face::eta_plus})
-    supports.fix(patch.space, side, {false, true, false});
+    supports.fix(structure::nodes_on(patch.space, {side}), {false, true, false});
   NodalVectors mask = NodalVectors::Ones(3, solid.node_count());
   supports.apply(mask);
   std::vector<int> free;
@@ -138,7 +138,7 @@ Vector3 end_displacement_of_a_cantilever(double thickness, int elements, int deg
   const double EI = std::pow(thickness, 3) / 12.0;
   NodalVectors u = NodalVectors::Zero(3, solid.node_count());
   for (int load_step = 1; load_step <= 4; ++load_step) {
-    const NodalVectors f_ext = structure::traction_load(patch, nurbs::Face::xi_plus,
+    const NodalVectors f_ext = structure::traction_load(solid, {0, nurbs::Face::xi_plus},
                                                         {0, 0, 0.25 * load_step * alpha * EI / thickness});
     for (double change = 1.0, rounds = 0; change > 1e-9 && rounds < 50; ++rounds) {
       Eigen::MatrixXd K(free.size(), free.size());

@@ -26,12 +26,13 @@ using testing::HasSubstr;
 
 ExplicitSolver cubes(int n, std::shared_ptr<const structure::Material> material = models::elastic(),
                      Supports supports = {}) {
-  return ExplicitSolver(Solid(models::block({1.0 * n, 1.0 * n, 1.0 * n}, {n, n, n}, 2), std::move(material)),
-                        std::move(supports));
+  return ExplicitSolver(
+      std::make_unique<Solid>(models::block({1.0 * n, 1.0 * n, 1.0 * n}, {n, n, n}, 2), std::move(material)),
+      std::move(supports));
 }
 
 NodalVectors no_forces(const ExplicitSolver& solver) {
-  return NodalVectors::Zero(3, solver.solid().node_count());
+  return NodalVectors::Zero(3, solver.body().node_count());
 }
 
 void step(ExplicitSolver& solver, const NodalVectors& F) {
@@ -61,8 +62,8 @@ std::string message_of_divergence(ExplicitSolver& solver, const NodalVectors& F,
 TEST(Divergence, OfATooLongStepIsNoticedInTheStepThatTheoryNames) {
   ExplicitSolver solver = cubes(2);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      models::mass_scaled_stiffness(solver.solid(), {}));
-  NodalVectors mode = eigen.eigenvectors().rightCols(1).reshaped(3, solver.solid().node_count());
+      models::mass_scaled_stiffness(solver.body(), {}));
+  NodalVectors mode = eigen.eigenvectors().rightCols(1).reshaped(3, solver.body().node_count());
   mode *= solver.mass().nodal_mass().cwiseSqrt().cwiseInverse().asDiagonal();
   const double stable = solver.stable_time_step(), dt = 1.01 * stable;
   const double q = 0.25 * eigen.eigenvalues().maxCoeff() * dt * dt, phi = std::acosh(2.0 * q - 1.0);
@@ -84,7 +85,8 @@ TEST(Divergence, OfATooLongStepIsNoticedInTheStepThatTheoryNames) {
 // One corner of the block is pushed through it.
 TEST(Divergence, NamesTheElementThatFolds) {
   Supports supports;
-  supports.fix(models::block({2, 2, 2}, {2, 2, 2}, 2).space, Face::zeta_minus, {true, true, true});
+  supports.fix(structure::nodes_on(models::block({2, 2, 2}, {2, 2, 2}, 2).space, {Face::zeta_minus}),
+               {true, true, true});
   ExplicitSolver solver =
       cubes(2, std::make_shared<structure::SaintVenantKirchhoff>(1.0, 0.3, 1.0), supports);
   NodalVectors F = no_forces(solver);
@@ -146,7 +148,7 @@ TEST(Divergence, IsNotSeenInAStableSolid) {
   const double dt = 0.98 * solver.stable_time_step();
   double given = 0.0, power = 0.0;
   for (unsigned n = 0; n < 3000; ++n) {
-    const NodalVectors F = models::random_vectors(solver.solid().node_count(), n);
+    const NodalVectors F = models::random_vectors(solver.body().node_count(), n);
     if (n % 1000 == 0) {  // from rest: kicked off by the first force
       solver = cubes(2);
       solver.set_time_step(dt);

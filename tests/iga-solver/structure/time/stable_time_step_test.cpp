@@ -27,7 +27,7 @@ double stable_step(const Solid& solid, const Supports& supports) {
 
 void fix(Supports& supports, const Solid& solid, std::initializer_list<Face> faces,
          structure::Directions directions) {
-  for (Face face : faces) supports.fix(solid.patch().space, face, directions);
+  for (Face face : faces) supports.fix(structure::nodes_on(solid.patch().space, {face}), directions);
 }
 
 Supports clamped_at_xi_minus(const Solid& solid) {

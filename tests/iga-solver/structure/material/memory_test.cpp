@@ -81,7 +81,7 @@ double vibration_error(int index, int steps) {
   const double w = std::sqrt(eigen.eigenvalues()[index]), end = 3.0 * kTau;
   NodalVectors mode = eigen.eigenvectors().col(index).reshaped(3, solid.node_count());
   mode *= solid.row_sum_mass().cwiseSqrt().cwiseInverse().asDiagonal();
-  ExplicitSolver solver(std::move(solid), {});
+  ExplicitSolver solver(std::make_unique<Solid>(std::move(solid)), {});
   const NodalVectors no_forces = NodalVectors::Zero(3, mode.cols());
   solver.set_velocities(mode);
   solver.set_time_step(end / steps);
@@ -146,7 +146,7 @@ TEST(Memory, StableStepIsThatOfTheLawAtOnce) {
 }
 
 void run(ExplicitSolver& solver, int steps) {
-  const NodalVectors pull = NodalVectors::Constant(3, solver.solid().node_count(), 1e-3);
+  const NodalVectors pull = NodalVectors::Constant(3, solver.body().node_count(), 1e-3);
   for (int n = 0; n < steps; ++n) {
     solver.begin_step();
     solver.end_step(pull);
@@ -154,27 +154,27 @@ void run(ExplicitSolver& solver, int steps) {
 }
 
 TEST(Memory, ContinuesFromASavedStateToTheLastBit) {
-  ExplicitSolver first(viscoelastic(), {});
-  first.set_velocities(models::random_vectors(first.solid().node_count(), 5));
+  ExplicitSolver first(std::make_unique<Solid>(viscoelastic()), {});
+  first.set_velocities(models::random_vectors(first.body().node_count(), 5));
   first.set_time_step(0.2);
-  first.initialise_forces(NodalVectors::Constant(3, first.solid().node_count(), 1e-3));
+  first.initialise_forces(NodalVectors::Constant(3, first.body().node_count(), 1e-3));
   run(first, 20);
   const std::vector<double> state = first.save();
   run(first, 20);
   for (const bool initialises : {false, true}) {
-    ExplicitSolver second(viscoelastic(), {});
+    ExplicitSolver second(std::make_unique<Solid>(viscoelastic()), {});
     second.set_time_step(0.2);
     second.load(state);
-    if (initialises) second.initialise_forces(NodalVectors::Constant(3, second.solid().node_count(), 1e-3));
+    if (initialises) second.initialise_forces(NodalVectors::Constant(3, second.body().node_count(), 1e-3));
     run(second, 20);
     EXPECT_EQ(first.save(), second.save());
   }
 }
 
 TEST(Memory, OfAnotherSizeIsRefused) {
-  ExplicitSolver solver(viscoelastic(), {});
+  ExplicitSolver solver(std::make_unique<Solid>(viscoelastic()), {});
   std::vector<double> state = solver.save();
-  const std::size_t nodes = solver.solid().node_count(), points = 8 * 27;
+  const std::size_t nodes = solver.body().node_count(), points = 8 * 27;
   ASSERT_EQ(state.size(), 1 + 9 * nodes + 18 * points);
   state.resize(1 + 9 * nodes);  // of an elastic solid
   EXPECT_THROW(solver.load(state), std::invalid_argument);

@@ -20,8 +20,9 @@ using structure::Solid;
 TEST(Supports, FixOneFaceInTheGivenDirectionsOnly) {
   const nurbs::Volume patch = models::block({1, 2, 3}, {2, 2, 2}, 2);
   structure::Supports supports;
-  supports.fix(patch.space, Face::eta_plus, {true, false, true});
-  supports.fix(patch.space, Face::eta_plus, {false, false, true});  // again: counted once
+  supports.fix(structure::nodes_on(patch.space, {Face::eta_plus}), {true, false, true});
+  supports.fix(structure::nodes_on(patch.space, {Face::eta_plus}),
+               {false, false, true});  // again: counted once
   EXPECT_EQ(supports.fixed_dofs().size(), 2u * 4 * 4);
   NodalVectors values = NodalVectors::Ones(3, patch.space.control_point_count());
   supports.apply(values);
@@ -39,16 +40,16 @@ TEST(TractionLoad, BalancesTheInternalForceOfConstantStress) {
   NodalVectors f_int(3, solid.node_count()), f_ext = NodalVectors::Zero(3, solid.node_count());
   solid.internal_force(models::linear_field(H, solid.patch()), f_int);
   for (int d = 0; d < 3; ++d) {
-    f_ext += structure::traction_load(solid.patch(), static_cast<Face>(2 * d), -P.col(d));
-    f_ext += structure::traction_load(solid.patch(), static_cast<Face>(2 * d + 1), P.col(d));
+    f_ext += structure::traction_load(solid, {0, static_cast<Face>(2 * d)}, -P.col(d));
+    f_ext += structure::traction_load(solid, {0, static_cast<Face>(2 * d + 1)}, P.col(d));
   }
   EXPECT_LT((f_int - f_ext).cwiseAbs().maxCoeff(), 1e-13 * P.norm());
 }
 
 TEST(TractionLoad, OnACurvedFaceSumsToTractionTimesArea) {
-  const nurbs::Volume ring = models::quarter_ring(2, 4);
   const Vector3 traction(1, -2, 3);
-  const Vector3 total = structure::traction_load(ring, Face::xi_plus, traction).rowwise().sum();
+  const Solid solid(models::quarter_ring(2, 4), models::elastic());
+  const Vector3 total = structure::traction_load(solid, {0, Face::xi_plus}, traction).rowwise().sum();
   EXPECT_LT((total - std::acos(-1.0) * traction).norm(), 1e-7);  // radius 2, quarter, height 1
 }
 

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What time integration, conditions and coupling need to know of a deformable body.  A body knows its forces
+// and its masses, not its motion: displacements come in as arguments.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "nurbs/boundary.h"
+#include "structure/material/material.h"
+
+namespace structure {
+
+using nurbs::NodalVectors;
+using nurbs::Vector3;
+
+/// A piece of a body's skin: a face of one of its patches.
+struct SkinPiece {
+  int patch;
+  nurbs::Face face;
+};
+
+/// The patches that a body is made of: volumes, or surfaces with a thickness.
+using PatchSpaces = std::variant<std::vector<nurbs::Space<3>>, std::vector<nurbs::Space<2>>>;
+
+/// Nodal arrays are 3 x node_count, sized by the caller.  Displacements u [length] are those from
+/// `reference`.
+class Body {
+ public:
+  virtual ~Body() = default;
+
+  virtual int node_count() const = 0;
+  virtual const NodalVectors& reference() const = 0;  ///< undeformed positions of the nodes [length]
+  virtual PatchSpaces patches() const = 0;
+  virtual nurbs::BoundarySurface skin(const SkinPiece& piece) const = 0;
+  virtual double volume() const = 0;  ///< [length^3]
+  virtual const Material& material() const = 0;
+  /// Row sums of the consistent mass matrix, integral of density R_A [mass], one per node, all > 0.
+  virtual const Eigen::VectorXd& row_sum_mass() const = 0;
+
+  /// f = internal forces [force] of the displacements u: equilibrium is f = external forces.  What points
+  /// remember is held.  No allocation.
+  virtual void internal_force(const NodalVectors& u, NodalVectors& f) const = 0;
+  /// The same at the end of a time step dt [time], over which the memory evolves from what it was at the last
+  /// commit(): the step may be worked out again, and nothing else sees it before commit().  Velocities are
+  /// not asked for: the mean one of the step is what u has moved since, over dt.
+  virtual void evolve(const NodalVectors& u, double dt, NodalVectors& f) = 0;
+  /// The end of a step: what points remember is now what evolve() found.
+  virtual void commit() = 0;
+  /// What points remember, in the order of elements and points; empty for a law without memory.
+  virtual const std::vector<double>& memory() const = 0;
+  /// Throws std::invalid_argument if the size does not fit.
+  virtual void set_memory(std::vector<double> memory) = 0;
+  /// Stored energy of the displacements [energy].
+  virtual double strain_energy(const NodalVectors& u) const = 0;
+
+  // Single elements, for estimates that look at one element at a time.  Element values are
+  // [3][padded_functions()], 0 beyond the functions: kernels go over whole vectors.
+  virtual int element_count() const = 0;
+  virtual int padded_functions() const = 0;
+  virtual void gather(int element, const NodalVectors& nodal, double* values) const = 0;
+  virtual void element_force(int element, const double* u, double* f) const = 0;
+  /// Row-sum mass of one element's own volume [mass], [padded_functions()].
+  virtual const double* element_mass(int element) const = 0;
+  /// Smallest current over reference volume det(I + H) [-] at the element's quadrature points: <= 0 if it is
+  /// folded.
+  virtual double smallest_volume_ratio(int element, const double* u) const = 0;
+  /// For messages: "element 7 (spans 1, 0, 2 of xi, eta, zeta, undeformed about (1, 2, 3))".
+  virtual std::string describe_element(int element) const = 0;
+};
+
+/// "(1, 2.5, 3)", for messages.
+std::string text(const Vector3& x);
+
+}  // namespace structure
