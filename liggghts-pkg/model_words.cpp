@@ -9,7 +9,7 @@
 
 #include "contact_laws.h"
 #include "contact_model_constants.h"
-#include "geometry_io/yaml_map.h"
+#include "keyword_table.h"
 
 namespace liggghts_pkg {
 
@@ -70,17 +70,18 @@ std::vector<ModelWord> surface_models() {
 #undef LIST_ENTRY
 
 /// A keyword, the models it chooses from and where the choice goes; in the order that LIGGGHTS demands.
-struct Keyword {
+struct ModelKeyword {
   const char* word;
+  const char* syntax;
   ModelKind kind;
   std::string ModelChoice::*choice;
 };
-const Keyword kKeywords[] = {
-    {"model", ModelKind::normal, &ModelChoice::normal},
-    {"tangential", ModelKind::tangential, &ModelChoice::tangential},
-    {"cohesion", ModelKind::cohesion, &ModelChoice::cohesion},
-    {"rolling_friction", ModelKind::rolling, &ModelChoice::rolling},
-    {"surface", ModelKind::surface, &ModelChoice::surface},
+const ModelKeyword kKeywords[] = {
+    {"model", "model M", ModelKind::normal, &ModelChoice::normal},
+    {"tangential", "tangential T", ModelKind::tangential, &ModelChoice::tangential},
+    {"cohesion", "cohesion C", ModelKind::cohesion, &ModelChoice::cohesion},
+    {"rolling_friction", "rolling_friction R", ModelKind::rolling, &ModelChoice::rolling},
+    {"surface", "surface default", ModelKind::surface, &ModelChoice::surface},
 };
 
 std::vector<std::string> words_of(const std::vector<ModelWord>& models) {
@@ -89,14 +90,11 @@ std::vector<std::string> words_of(const std::vector<ModelWord>& models) {
   return words;
 }
 
-void check_known(const Keyword& keyword, const std::string& given) {
+void check_known(const ModelKeyword& keyword, const std::string& given) {
   const std::vector<std::string> known = words_of(known_models(keyword.kind));
   if (std::find(known.begin(), known.end(), given) != known.end()) return;
-  const std::string near = geometry_io::nearest_word(given, known);
-  throw std::invalid_argument(fmt::format("unknown {} model '{}'{}, expected one of {}",
-                                          keyword.kind == ModelKind::normal ? "contact" : keyword.word, given,
-                                          near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near),
-                                          fmt::join(known, ", ")));
+  throw std::invalid_argument(unknown_word(
+      fmt::format("{} model", keyword.kind == ModelKind::normal ? "contact" : keyword.word), given, known));
 }
 
 bool is_contact_law(const std::string& word) {
@@ -129,7 +127,7 @@ const std::vector<ModelWord>& known_models(ModelKind kind) {
 ModelChoice model_choice(std::int64_t hash) {
   ModelChoice models;
   int shift = 0;
-  for (const Keyword& keyword : kKeywords) {
+  for (const ModelKeyword& keyword : kKeywords) {
     const int id = (hash >> shift) & 63;
     shift += 6;
     const std::vector<ModelWord>& known = known_models(keyword.kind);
@@ -167,6 +165,8 @@ std::string why_refused(const ModelChoice& models, bool is_wall) {
   return "";
 }
 
+std::vector<std::string> model_syntax() { return syntax_of(kKeywords); }
+
 std::size_t check_contact_models(const std::vector<std::string>& words) {
   if (words.empty() || words[0] != kKeywords[0].word)
     throw std::invalid_argument(
@@ -174,7 +174,7 @@ std::size_t check_contact_models(const std::vector<std::string>& words) {
                     words.empty() ? "nothing" : words[0]));
   ModelChoice models;
   std::size_t next = 0;
-  for (const Keyword& keyword : kKeywords) {
+  for (const ModelKeyword& keyword : kKeywords) {
     if (next == words.size() || words[next] != keyword.word) continue;
     if (next + 1 == words.size())
       throw std::invalid_argument(fmt::format("'{}' is the last word, expected one of {} after it",

@@ -40,4 +40,7 @@ std::size_t check_contact_models(const std::vector<std::string>& words);
 /// mesh.
 void check_model_settings(const std::vector<std::string>& words);
 
+/// The keywords with their values, as the manual shows them: "tangential T".
+std::vector<std::string> model_syntax();
+
 }  // namespace liggghts_pkg

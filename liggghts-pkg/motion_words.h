@@ -31,4 +31,8 @@ void change_drive(WordReader& words, const VariableLookup& variable, coupling::R
 /// "motion", "servo" or "surface_vel": what drives the wall, or "" if nothing does.
 std::string drive_name(const coupling::RigidDrive& drive);
 
+/// All these words with their values, as the manual shows them: "rotate origin Px Py Pz axis ax ay az period
+/// P".
+std::vector<std::string> motion_syntax();
+
 }  // namespace liggghts_pkg

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "output_words.h"
 
-#include <algorithm>
+#include "keyword_table.h"
 
 namespace liggghts_pkg {
 
@@ -9,20 +9,29 @@ namespace {
 
 using Selection = coupling::SurfaceFields::Selection;
 
-const std::vector<std::string> kFieldWords = {"pressure", "shear", "contact_count", "wear"};
-constexpr bool Selection::*kFields[] = {&Selection::pressure, &Selection::shear, &Selection::contact_count,
-                                        &Selection::wear};
+struct Field {
+  const char* word;
+  bool Selection::*selected;
+};
+constexpr Field kFields[] = {
+    {"pressure", &Selection::pressure},
+    {"shear", &Selection::shear},
+    {"contact_count", &Selection::contact_count},
+    {"wear", &Selection::wear},
+};
 
 Selection read_fields(WordReader& words) {
+  const std::vector<std::string> known = words_of(kFields);
   Selection selection{false, false, false, false};
   do {
-    const std::string word = words.value_of("output fields", kFieldWords);
-    selection.*kFields[std::find(kFieldWords.begin(), kFieldWords.end(), word) - kFieldWords.begin()] = true;
-  } while (words.next_is_one_of(kFieldWords));
+    selection.*find_row(kFields, words.value_of("output fields", known))->selected = true;
+  } while (words.next_is_one_of(known));
   return selection;
 }
 
 }  // namespace
+
+std::vector<std::string> output_fields() { return words_of(kFields); }
 
 OutputOptions read_output(WordReader& words) {
   OutputOptions options;

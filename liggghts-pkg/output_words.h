@@ -19,4 +19,7 @@ struct OutputOptions {
 /// Reads what stands after `output`.  Throws std::invalid_argument: what was given, what was expected.
 OutputOptions read_output(WordReader& words);
 
+/// The words after `fields`.
+std::vector<std::string> output_fields();
+
 }  // namespace liggghts_pkg

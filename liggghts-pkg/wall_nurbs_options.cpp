@@ -2,12 +2,11 @@
 #include "wall_nurbs_options.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "geometry_io/yaml_map.h"
+#include "keyword_table.h"
 #include "model_words.h"
 #include "motion_words.h"
 
@@ -15,9 +14,6 @@ namespace liggghts_pkg {
 
 namespace {
 
-const std::vector<std::string> kKeywords = {
-    "type",  "structure",   "geometry", "surface", "material",    "store_force",     "search", "contacts",
-    "rstar", "temperature", "motion",   "servo",   "surface_vel", "surface_ang_vel", "output", "twin"};
 const std::vector<std::string> kModelKeywords = {"model", "tangential", "cohesion", "rolling_friction"};
 
 constexpr int kMostContacts = 256, kMostTwinCells = 100;
@@ -28,16 +24,86 @@ bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+/// What a row of the table reads: the words after its own, into the options.
+struct Reading {
+  const std::string& keyword;
+  WordReader& words;
+  const VariableLookup& variable;
+  WallNurbsOptions& options;
+};
+
+void read_body(const Reading& in, WallNurbsOptions::Body body) {
+  if (!in.options.file.empty()) fail("both 'structure' and 'geometry' are given, expected one of them");
+  in.options.body = body;
+  in.options.file = in.words.value("a file");
+}
+
+void read_search(const Reading& in) {
+  in.options.search = in.words.value_of(in.keyword, {"newton", "simplex_brent"}) == "newton"
+                          ? contact::SearchMethod::newton
+                          : contact::SearchMethod::simplex_brent;
+}
+
+void read_contacts(const Reading& in) {
+  in.options.slots = in.words.count(in.keyword,
+                                    "how many contacts one particle may have with the wall (each has its "
+                                    "place in every particle's memory)",
+                                    kMostContacts);
+}
+
+void read_twin(const Reading& in) {
+  in.options.twin = in.words.count(
+      in.keyword, "how many cells of two triangles an element has in each direction", kMostTwinCells);
+}
+
+void read_drive_of_wall(const Reading& in) {
+  read_drive(in.keyword, in.words, in.variable, in.options.drive);
+}
+
+constexpr Keyword<void(const Reading&)> kKeywords[] = {
+    {"type", "type T",
+     [](const Reading& in) {
+       in.options.atom_type = in.words.count(in.keyword, "the number of an atom type");
+     }},
+    {"structure", "structure FILE", [](const Reading& in) { read_body(in, WallNurbsOptions::Body::iga); }},
+    {"geometry", "geometry FILE", [](const Reading& in) { read_body(in, WallNurbsOptions::Body::rigid); }},
+    {"surface", "surface NAME",
+     [](const Reading& in) { in.options.surface = in.words.value("the name of a surface in the file"); }},
+    {"material", "material independent",
+     [](const Reading& in) {
+       in.words.value_of(in.keyword, {"independent"});
+       in.options.material_independent = true;
+     }},
+    {"store_force", "store_force yes|no",
+     [](const Reading& in) {
+       in.options.store_force = in.words.value_of(in.keyword, {"yes", "no"}) == "yes";
+     }},
+    {"search", "search newton|simplex_brent", read_search},
+    {"contacts", "contacts N", read_contacts},
+    {"rstar", "rstar particle|curvature",
+     [](const Reading& in) {
+       in.options.curvature_radius = in.words.value_of(in.keyword, {"particle", "curvature"}) == "curvature";
+     }},
+    {"temperature", "temperature T",
+     [](const Reading& in) {
+       in.options.temperature = fmt::format("{}", in.words.number_at_least_zero(in.keyword));
+     }},
+    {"motion", "motion VERB ...", read_drive_of_wall},
+    {"servo", "servo ...", read_drive_of_wall},
+    {"surface_vel", "surface_vel Vx Vy Vz", read_drive_of_wall},
+    {"surface_ang_vel", "surface_ang_vel ...", read_drive_of_wall},
+    {"output", "output FILE every N [fields F ...] [average yes|no]",
+     [](const Reading& in) { in.options.output = read_output(in.words); }},
+    {"twin", "twin N", read_twin},
+};
+
 [[noreturn]] void fail_unknown(const std::string& word) {
   if (contains(kModelKeywords, word))
     fail(fmt::format(
         "'{}' stands too late: model, tangential, cohesion, rolling_friction and the surface model come "
         "first, in this order",
         word));
-  const std::string near = geometry_io::nearest_word(word, kKeywords);
-  fail(fmt::format("unknown keyword '{}'{}, expected one of {}, or a contact model's setting with on or off",
-                   word, near.empty() ? "" : fmt::format(" (did you mean '{}'?)", near),
-                   fmt::join(kKeywords, ", ")));
+  fail(unknown_word("keyword", word, words_of(kKeywords)) + ", or a contact model's setting with on or off");
 }
 
 void check_complete(const WallNurbsOptions& options) {
@@ -59,6 +125,8 @@ void check_complete(const WallNurbsOptions& options) {
 
 }  // namespace
 
+std::vector<std::string> wall_nurbs_syntax() { return syntax_of(kKeywords); }
+
 WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const VariableLookup& variable) {
   WallNurbsOptions options;
   const std::size_t model_count = check_contact_models(words);
@@ -72,39 +140,8 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const V
       fail(fmt::format("keyword '{}' is given twice, expected once", keyword));
     seen.push_back(keyword);
 
-    if (keyword == "type") {
-      options.atom_type = reader.count(keyword, "the number of an atom type");
-    } else if (keyword == "structure" || keyword == "geometry") {
-      if (!options.file.empty()) fail("both 'structure' and 'geometry' are given, expected one of them");
-      options.body = keyword == "structure" ? WallNurbsOptions::Body::iga : WallNurbsOptions::Body::rigid;
-      options.file = reader.value("a file");
-    } else if (keyword == "surface") {
-      options.surface = reader.value("the name of a surface in the file");
-    } else if (keyword == "material") {
-      reader.value_of(keyword, {"independent"});
-      options.material_independent = true;
-    } else if (keyword == "store_force") {
-      options.store_force = reader.value_of(keyword, {"yes", "no"}) == "yes";
-    } else if (keyword == "search") {
-      options.search = reader.value_of(keyword, {"newton", "simplex_brent"}) == "newton"
-                           ? contact::SearchMethod::newton
-                           : contact::SearchMethod::simplex_brent;
-    } else if (keyword == "contacts") {
-      options.slots = reader.count(keyword,
-                                   "how many contacts one particle may have with the wall (each has its "
-                                   "place in every particle's memory)",
-                                   kMostContacts);
-    } else if (keyword == "rstar") {
-      options.curvature_radius = reader.value_of(keyword, {"particle", "curvature"}) == "curvature";
-    } else if (keyword == "temperature") {
-      options.temperature = fmt::format("{}", reader.number_at_least_zero(keyword));
-    } else if (contains(drive_keywords(), keyword)) {
-      read_drive(keyword, reader, variable, options.drive);
-    } else if (keyword == "output") {
-      options.output = read_output(reader);
-    } else if (keyword == "twin") {
-      options.twin = reader.count(keyword, "how many cells of two triangles an element has in each direction",
-                                  kMostTwinCells);
+    if (const auto* row = find_row(kKeywords, keyword)) {
+      row->read({keyword, reader, variable, options});
     } else if (reader.next_is_one_of({"on", "off"})) {
       options.setting_words.push_back(keyword);
       options.setting_words.push_back(reader.keyword());

@@ -35,4 +35,7 @@ struct WallNurbsOptions {
 /// Parses the words after `wall/nurbs`.  Throws std::invalid_argument: what was given, what was expected.
 WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const VariableLookup& variable);
 
+/// The keywords with their values, as the manual shows them: "contacts N".
+std::vector<std::string> wall_nurbs_syntax();
+
 }  // namespace liggghts_pkg

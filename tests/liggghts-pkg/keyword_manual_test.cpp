@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The manual shows every word that a deck may hold, with its values, and none that it may not.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <sstream>
+
+#include "contact_laws.h"
+#include "model_words.h"
+#include "motion_words.h"
+#include "output_words.h"
+#include "wall_nurbs_options.h"
+
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+
+std::string page(const std::string& name) {
+  std::ifstream file(std::string(MANUAL_FOLDER) + "/" + name);
+  EXPECT_TRUE(file) << name;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// All that is set as code: between backticks, or in blocks.
+std::string code(const std::string& page) {
+  static const std::regex kCode("```[^`]*```|`[^`]+`");
+  std::string all;
+  for (std::sregex_iterator at(page.begin(), page.end(), kCode), end; at != end; ++at)
+    all += at->str() + "\n";
+  return all;
+}
+
+/// Whether `syntax` stands there as whole words.
+bool shows(const std::string& code, const std::string& syntax) {
+  const auto in_word = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '/';
+  };
+  for (auto at = code.find(syntax); at != std::string::npos; at = code.find(syntax, at + 1))
+    if ((at == 0 || !in_word(code[at - 1])) && !in_word(code[at + syntax.size()])) return true;
+  return false;
+}
+
+std::string first_word(const std::string& line) { return line.substr(0, line.find(' ')); }
+
+std::vector<std::string> first_words(std::vector<std::string> lines) {
+  std::transform(lines.begin(), lines.end(), lines.begin(), first_word);
+  return lines;
+}
+
+/// What the first group of the expression holds, each time it is met.
+std::vector<std::string> found(const std::string& text, const std::string& expression) {
+  const std::regex pattern(expression);
+  std::vector<std::string> all;
+  for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at)
+    all.push_back(at->str(1));
+  return all;
+}
+
+TEST(Manual, ShowsEveryWord) {
+  const std::string shown = code(page("fix_wall_nurbs.md") + page("moving_wall.md"));
+  for (const auto& lines : {liggghts_pkg::model_syntax(), liggghts_pkg::wall_nurbs_syntax(),
+                            liggghts_pkg::output_fields(), liggghts_pkg::motion_syntax()})
+    for (const std::string& syntax : lines) EXPECT_TRUE(shows(shown, syntax)) << syntax;
+}
+
+TEST(Manual, ShowsEveryContactLaw) {
+  const std::string shown = code(page("fix_wall_nurbs.md"));
+  liggghts_pkg::for_each_law([&](auto law) {
+    EXPECT_TRUE(shows(shown, law.word)) << law.word;
+    for (const liggghts_pkg::LawProperty& property : law.properties)
+      EXPECT_TRUE(shows(shown, std::string("property/global ") + property.name)) << property.name;
+  });
+}
+
+TEST(Manual, ShowsNoOtherWords) {
+  const std::string text = page("fix_wall_nurbs.md");
+  const std::vector<std::string> keywords = first_words(liggghts_pkg::wall_nurbs_syntax());
+  const std::vector<std::string> listed = found(text, "\n  \\* `([a-z_]+) ");
+  EXPECT_GE(listed.size(), 10u);
+  for (const std::string& word : listed) EXPECT_THAT(keywords, Contains(word));
+
+  const std::string moving = page("moving_wall.md");
+  const std::vector<std::string> words = first_words(liggghts_pkg::motion_syntax());
+  const std::vector<std::string> verbs = found(moving, "\nmotion ([a-z/]+)"),
+                                 changes = found(moving, "\nfix_modify ID (\\S+)");
+  EXPECT_EQ(verbs.size(), 8u);
+  EXPECT_EQ(changes.size(), 7u);
+  for (const auto& shown : {verbs, changes})
+    for (const std::string& word : shown) EXPECT_THAT(words, Contains(word));
+}
+
+}  // namespace
