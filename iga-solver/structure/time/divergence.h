@@ -8,12 +8,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "nurbs/types.h"
 #include "nurbs/usable_number.h"
+#include "structure/body.h"
+#include "structure/time/mass.h"
 
 namespace structure {
 
-class ExplicitSolver;
 using nurbs::NodalVectors;
 
 /// Displacements beyond it mean nothing, and their squares overflow [length].
@@ -50,9 +50,19 @@ class EnergyBudget {
   double given_, most_;
 };
 
-/// What is wrong with a solver that has blown up: time, control node, and the likely cause among the forces F
-/// of the last step, a time step above the stable one (if that is known), and folded elements.
-std::string describe_divergence(const ExplicitSolver& solver, const NodalVectors& F,
-                                const std::optional<double>& stable_time_step, double energy_given);
+/// The end of a body's last step; arrays are 3 x node_count, as in ExplicitSolver.
+struct LastStep {
+  const Body& body;
+  const MassOperator& mass;
+  const NodalVectors &displacements, &velocities, &accelerations;
+  const NodalVectors& F;  ///< forces of others [force]
+  double time, time_step;
+  std::optional<double> stable_time_step;  ///< if it is known
+  double kinetic_energy, energy_given;
+};
+
+/// What is wrong with a body that has blown up: time, control node, and the likely cause among the forces F,
+/// a time step above the stable one, and folded elements.
+std::string describe_divergence(const LastStep& step);
 
 }  // namespace structure

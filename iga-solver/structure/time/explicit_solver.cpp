@@ -103,7 +103,9 @@ void ExplicitSolver::start_energy_budget() {
 void ExplicitSolver::check_divergence(const NodalVectors& F) const {
   const bool good =
       budget_->allows(kinetic_energy()) && a_.allFinite() && u_.cwiseAbs().maxCoeff() <= kLargestDisplacement;
-  if (!good) throw Diverged(describe_divergence(*this, F, stable_time_step_, budget_->most()));
+  if (!good)
+    throw Diverged(describe_divergence(
+        {*body_, *mass_, u_, v_, a_, F, time_, dt_, stable_time_step_, kinetic_energy(), budget_->most()}));
 }
 
 void ExplicitSolver::update_accelerations(const NodalVectors& F) {
