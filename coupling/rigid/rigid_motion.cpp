@@ -10,12 +10,10 @@ namespace coupling {
 
 namespace {
 
-constexpr double kTwoPi = 2.0 * EIGEN_PI;
-const char* const kVerbs[] = {"linear",          "linear/variable", "wiggle", "rotate",
-                              "rotate/variable", "riggle",          "viblin", "vibrot"};
-
+/// Of a verb, in restart files.
 double number_of(const std::string& verb) {
-  return static_cast<double>(std::find(std::begin(kVerbs), std::end(kVerbs), verb) - std::begin(kVerbs));
+  return static_cast<double>(std::find(std::begin(kMotionVerbs), std::end(kMotionVerbs), verb) -
+                             std::begin(kMotionVerbs));
 }
 
 /// x turned about the axis through the centre, by Rodrigues' formula for the small difference: what is
@@ -27,55 +25,6 @@ Vector3 turned(const Vector3& x, const Vector3& centre, const Vector3& axis, dou
 }
 
 }  // namespace
-
-double Harmonics::rate(double time) const {
-  double sum = 0.0;
-  for (std::size_t j = 0; j < amplitude.size(); ++j) {
-    const double omega = kTwoPi / period[j];
-    sum -= amplitude[j] * omega * std::sin(omega * time + phase[j]);
-  }
-  return sum;
-}
-
-Motion linear(const Vector3& velocity) {
-  return {"linear", Translation{[=](double) { return velocity; }}};
-}
-
-Motion linear_variable(const Value& vx, const Value& vy, const Value& vz) {
-  return {"linear/variable", Translation{[=](double) { return Vector3(vx(), vy(), vz()); }}};
-}
-
-Motion wiggle(const Vector3& amplitude, double period) {
-  const double omega = kTwoPi / period;
-  return {"wiggle",
-          Translation{[=](double time) -> Vector3 { return omega * std::cos(omega * time) * amplitude; }}};
-}
-
-Motion rotate(const Vector3& centre, const Vector3& axis, double period) {
-  const double omega = kTwoPi / period;
-  return {"rotate", Rotation{centre, axis.normalized(), [=](double) { return omega; }, true}};
-}
-
-Motion rotate_variable(const Vector3& centre, const Vector3& axis, const Value& rate) {
-  return {"rotate/variable", Rotation{centre, axis.normalized(), [=](double) { return rate(); }, true}};
-}
-
-// The centres of riggle and vibrot stay where they are in space, as in LIGGGHTS 3.8.
-Motion riggle(const Vector3& centre, const Vector3& axis, double period, double amplitude_in_degrees) {
-  const double omega = kTwoPi / period, amplitude = amplitude_in_degrees * EIGEN_PI / 180.0;
-  return {"riggle", Rotation{centre, axis.normalized(),
-                             [=](double time) { return amplitude * omega * std::cos(omega * time); }, false}};
-}
-
-Motion viblin(const Vector3& axis, const Harmonics& displacement) {
-  const Vector3 direction = axis.normalized();
-  return {"viblin", Translation{[=](double time) -> Vector3 { return displacement.rate(time) * direction; }}};
-}
-
-Motion vibrot(const Vector3& centre, const Vector3& axis, const Harmonics& angle) {
-  return {"vibrot",
-          Rotation{centre, axis.normalized(), [=](double time) { return angle.rate(time); }, false}};
-}
 
 void MovingFrame::stop() {
   frame_.velocity.setZero();

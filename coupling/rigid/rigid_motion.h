@@ -1,59 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Prescribed motion of a rigid body: the verbs of LIGGGHTS' fix move/mesh, integrated as LIGGGHTS does it.
-// A motion is a rate, a velocity or an angular velocity as a function of time.  In the step from t to t + dt
-// each motion is taken at its rate at t + dt, one after the other, so the path is that of the backward Euler
-// rule; the rate at t + dt is also the wall's velocity in contacts.
+// Prescribed motion of a rigid body, integrated as LIGGGHTS' fix move/mesh does it.  In the step from t to t
+// + dt each motion is taken at its rate at t + dt, one after the other, so the path is that of the backward
+// Euler rule; the rate at t + dt is also the wall's velocity in contacts.
 #pragma once
 
 #include <functional>
-#include <string>
-#include <variant>
 #include <vector>
 
+#include "coupling/rigid/motion_verbs.h"
 #include "coupling/rigid_frame.h"
-#include "coupling/value.h"
 
 namespace coupling {
-
-using nurbs::Vector3;
-
-/// Time [time] since the motion began -> velocity [length/time].
-struct Translation {
-  std::function<Vector3(double time)> velocity;
-};
-
-/// Time [time] since the motion began -> angular velocity [1/time] about `axis` (unit vector) through
-/// `centre` [length]; positive by the right hand.
-struct Rotation {
-  Vector3 centre, axis;
-  std::function<double(double time)> rate;
-  bool centre_follows;  ///< the motions before this one carry the centre along
-};
-
-struct Motion {
-  std::string verb;
-  std::variant<Translation, Rotation> rate;
-};
-
-/// c(t) = sum_j amplitude_j cos(2 pi t / period_j + phase_j).
-struct Harmonics {
-  std::vector<double> amplitude;   ///< [length] or [rad]
-  std::vector<double> phase;       ///< [rad]
-  std::vector<double> period;      ///< [time], not 0
-  double rate(double time) const;  ///< dc/dt
-};
-
-/// The verbs.  Axes need not be unit vectors, but must not be zero; periods must not be zero.
-Motion linear(const Vector3& velocity);
-Motion linear_variable(const Value& vx, const Value& vy, const Value& vz);
-/// x(t) = amplitude sin(2 pi t / period)
-Motion wiggle(const Vector3& amplitude, double period);
-Motion rotate(const Vector3& centre, const Vector3& axis, double period);
-Motion rotate_variable(const Vector3& centre, const Vector3& axis, const Value& rate);
-/// angle(t) = amplitude sin(2 pi t / period), amplitude in degrees
-Motion riggle(const Vector3& centre, const Vector3& axis, double period, double amplitude_in_degrees);
-Motion viblin(const Vector3& axis, const Harmonics& displacement);
-Motion vibrot(const Vector3& centre, const Vector3& axis, const Harmonics& angle);
 
 /// A body frame that is moved by finite increments; the rotation stays orthogonal for any number of them.
 class MovingFrame {
