@@ -12,7 +12,7 @@
 #include "modify.h"
 #include "update.h"
 #include "variable.h"
-#include "wall_nurbs_message.h"
+#include "wall_messages.h"
 
 namespace liggghts_pkg {
 
@@ -46,7 +46,7 @@ coupling::Value deck_variable(LAMMPS_NS::LAMMPS* lmp, const std::string& fix_id,
     try {
       return evaluate(lmp, index_of(lmp, name));
     } catch (const std::invalid_argument& problem) {
-      lmp->error->all(FLERR, LAMMPS_NS::wall_nurbs_message(fix_id.c_str(), problem.what()).c_str());
+      lmp->error->all(FLERR, wall_message(fix_id, problem.what()).c_str());
       throw;  // not reached
     }
   });

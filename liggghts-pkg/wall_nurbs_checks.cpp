@@ -6,13 +6,16 @@
 
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <stdexcept>
 #include <vector>
 
+#include "coupling/model_text.h"
 #include "fix_gravity.h"
 #include "fix_property_global.h"
 #include "modify.h"
 #include "update.h"
+#include "wall_nurbs_setup.h"
 
 namespace liggghts_pkg {
 
@@ -37,6 +40,42 @@ struct DeckGravity : LAMMPS_NS::FixGravity {
 };
 
 }  // namespace
+
+namespace {
+
+// Each fix integrates a solid of its own.
+void refuse_second_solid(MPI_Comm world, const WallNurbsOptions& options, const WallNurbsOptions& other,
+                         const char* other_id) {
+  if (options.body != WallNurbsOptions::Body::iga || other.body != WallNurbsOptions::Body::iga) return;
+  if (coupling::is_same_file(world, options.file, other.file))
+    throw std::invalid_argument(fmt::format(
+        "'{}' is the structure of fix {} already, and two fixes would make two solids of it; for several "
+        "faces of one solid name one surface, as in 'surfaces: {{skin: [0 zeta-, 0 zeta+]}}', for two "
+        "solids copy the file",
+        options.file, other_id));
+}
+
+// Each fix would replace the other's files.
+void refuse_shared_output(const WallNurbsOptions& options, const WallNurbsOptions& other,
+                          const char* other_id) {
+  const auto normal = [](const std::string& file) { return std::filesystem::path(file).lexically_normal(); };
+  if (options.output.file.empty() || other.output.file.empty()) return;
+  if (normal(options.output.file) == normal(other.output.file))
+    throw std::invalid_argument(
+        fmt::format("output '{}': {}.pvd is being written by fix {}, expected another name",
+                    options.output.file, options.output.file, other_id));
+}
+
+}  // namespace
+
+void check_other_walls(const LAMMPS_NS::Modify& modify, MPI_Comm world, const WallNurbsOptions& options) {
+  for (int i = 0; i < modify.nfix; ++i) {
+    const auto* const other = dynamic_cast<const LAMMPS_NS::WallNurbsSetup*>(modify.fix[i]);
+    if (!other) continue;
+    refuse_second_solid(world, options, other->options(), modify.fix[i]->id);
+    refuse_shared_output(options, other->options(), modify.fix[i]->id);
+  }
+}
 
 void check_run_style(const LAMMPS_NS::Update& update) {
   constexpr int kMinimize = 2;
@@ -78,6 +117,25 @@ std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::Str
       "{}; for the solid add the line 'loads: {{gravity: [{:.10g}, {:.10g}, {:.10g}]}}' to '{}', or this "
       "gravity to the loads that it has; [0, 0, 0] if the solid shall have none",
       whose, sum[0] + 0.0, sum[1] + 0.0, sum[2] + 0.0, file);
+}
+
+std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, MPI_Comm world) {
+  const contact::RunAlarm inside = loop.inside().of_all_ranks(world),
+                          crossing = loop.crossing().of_all_ranks(world);
+  std::vector<std::string> alarms;
+  if (inside.count > 0)
+    alarms.push_back(fmt::format(
+        "the centre of particle {} got inside the solid ({} contacts of this kind in this run): use a "
+        "smaller timestep or a stiffer contact",
+        inside.tag, inside.count));
+  if (crossing.count > 0) {
+    constexpr double kFraction = 0.1;  // of the radius, per step
+    alarms.push_back(fmt::format(
+        "the centre of particle {} would cross the wall within one step, at a speed of {:.6g} towards it ({} "
+        "cases of this kind in this run): use a timestep of at most {:.3g}",
+        crossing.tag, crossing.speed, crossing.count, kFraction * crossing.radius / crossing.speed));
+  }
+  return alarms;
 }
 
 }  // namespace liggghts_pkg

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What fix wall/nurbs asks of the deck before each run.  The checks throw std::invalid_argument: what was
-// given, what was expected.
+// What fix wall/nurbs asks of the deck before each run, and of the run afterwards.  The checks throw
+// std::invalid_argument: what was given, what was expected.
 #pragma once
+
+#include <mpi.h>
 
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "coupling/contact/contact_loop.h"
 #include "coupling/structure_solver.h"
+#include "wall_nurbs_options.h"
 
 namespace LAMMPS_NS {
 class Modify;
@@ -14,6 +19,9 @@ class Update;
 }  // namespace LAMMPS_NS
 
 namespace liggghts_pkg {
+
+/// That no other wall of the deck integrates this solid, or writes this output.  Collective.
+void check_other_walls(const LAMMPS_NS::Modify& modify, MPI_Comm world, const WallNurbsOptions& options);
 
 /// Velocity Verlet only: minimisation and respa do not call the fix as its time step needs.
 void check_run_style(const LAMMPS_NS::Update& update);
@@ -27,5 +35,8 @@ void check_wall_material(LAMMPS_NS::Modify& modify, int wall_type,
 /// line that its file lacks.  Empty if all is well.  In setup: the deck's gravity is known only then.
 std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::StructureSolver& structure,
                             const std::string& file);
+
+/// What to tell the user of particles that came where they should not in this run.  Collective.
+std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, MPI_Comm world);
 
 }  // namespace liggghts_pkg

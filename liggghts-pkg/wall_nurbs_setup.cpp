@@ -14,7 +14,7 @@
 #include "lammps.h"
 #include "motion_words.h"
 #include "update.h"
-#include "wall_nurbs_message.h"
+#include "wall_messages.h"
 
 using namespace LAMMPS_NS;
 using liggghts_pkg::WallNurbsOptions;
@@ -89,7 +89,7 @@ int WallNurbsSetup::modify_drive(LAMMPS* lmp, const char* id, int narg, char** a
     if (!wall) throw std::invalid_argument("fix_modify: a deforming wall has nothing to modify");
     liggghts_pkg::change_drive(reader, variables_of(lmp, id), *wall);
   } catch (const std::exception& problem) {
-    lmp->error->all(FLERR, wall_nurbs_message(id, problem.what()).c_str());
+    lmp->error->all(FLERR, liggghts_pkg::wall_message(id, problem.what()).c_str());
   }
   return static_cast<int>(reader.position());
 }
@@ -106,7 +106,7 @@ WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
                   : coupling::open_rigid_surface(lmp->world, options_.file, options_.surface, options_.drive);
     check_units(options_, opened_.units, lmp->update->unit_style);
   } catch (const std::exception& problem) {
-    lmp->error->all(FLERR, wall_nurbs_message(arg[0], problem.what()).c_str());
+    lmp->error->all(FLERR, liggghts_pkg::wall_message(arg[0], problem.what()).c_str());
   }
   stock_words_ = stock_command_line(arg, options_);
   for (std::string& word : stock_words_) stock_arg_.push_back(word.data());

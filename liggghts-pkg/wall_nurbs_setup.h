@@ -16,6 +16,9 @@ namespace LAMMPS_NS {
 /// The checked words, the opened structure, and a stock command line from which FixWallGran builds LIGGGHTS'
 /// contact models.  Anything wrong ends the program here, with one line.
 class WallNurbsSetup {
+ public:
+  const liggghts_pkg::WallNurbsOptions& options() const { return options_; }
+
  protected:
   WallNurbsSetup(class LAMMPS* lmp, int narg, char** arg);
   /// fix_modify: changes what drives a rigid wall; returns how many words that took.

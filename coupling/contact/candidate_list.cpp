@@ -19,17 +19,18 @@ void CandidateList::set_surface(const nurbs::MultiPatch& surface, const nurbs::N
 }
 
 void CandidateList::build(const coupling::RigidFrame& frame, const std::vector<Vector3>& images,
-                          const ParticleView& particles) {
+                          const Surroundings& particles) {
   frame_at_build_ = frame;
   images_ = images;
   candidates_.clear();
   image_elements_.clear();
   elements_.clear();
-  for (int i = 0; i < particles.n; ++i) {
+  for (int i = 0; i < particles.count; ++i) {
     const int first_image = static_cast<int>(image_elements_.size());
     for (size_t image = 0; image < images.size(); ++image) {
       const int first = static_cast<int>(elements_.size());
-      tree_.query(frame.to_body(Vector3::Map(particles.x[i]) - images[image]), particles.reach[i], elements_);
+      tree_.query(frame.to_body(Vector3::Map(particles.centre + 3 * i) - images[image]), particles.reach[i],
+                  elements_);
       const int count = static_cast<int>(elements_.size()) - first;
       if (count > 0) image_elements_.push_back({static_cast<int>(image), first, count});
     }

@@ -22,10 +22,10 @@ struct Candidate {
   int first_image, image_count;  ///< range in CandidateList::image_elements()
 };
 
-/// The particles of one rank: n of them, their centres, and how far around these to look [length].
-struct ParticleView {
-  int n;
-  const double* const* x;
+/// Centres of particles, rows of three, and how far around each to look [length].
+struct Surroundings {
+  int count;
+  const double* centre;
   const double* reach;
 };
 
@@ -40,7 +40,7 @@ class CandidateList {
   /// Each particle becomes a candidate of the elements whose boxes, moved by one of the images, are within
   /// its reach.
   void build(const coupling::RigidFrame& frame, const std::vector<nurbs::Vector3>& images,
-             const ParticleView& particles);
+             const Surroundings& particles);
 
   const std::vector<Candidate>& candidates() const { return candidates_; }
   const std::vector<nurbs::Vector3>& images() const { return images_; }  ///< in space [length]

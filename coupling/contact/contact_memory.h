@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Memory of a particle's contacts with the wall: one slot per contact, each a row of its own `fix
-// property/atom`, which carries it through sorting, migration between ranks and restart:
-//   [patch + side, xi, eta, history of LIGGGHTS' contact models ...]
+// Memory of a particle's contacts with the wall: one slot per contact, each a row of numbers that the
+// particles' code carries through sorting, migration between ranks and restart:
+//   [patch + side, xi, eta, history of the contact model ...]
 // A slot belongs to a branch, that is to one local minimum of the distance for as long as it moves without a
 // jump; the foot is where the branch was last.  Patch < 0 marks an empty slot, so a fresh row must hold -1
 // there.  The side of the surface that the particle's centre is on is the fraction behind the patch's number:
@@ -10,7 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
+#include <cstddef>
 
 #include "nurbs/assert.h"
 #include "nurbs/multi_patch.h"
@@ -53,30 +53,44 @@ class ContactSlot {
 };
 
 /// All slots of one particle.
-class ContactMemory {
+class ParticleSlots {
  public:
-  /// slots[s][particle] is a slot's row.
-  ContactMemory(const std::vector<double**>& slots, int particle, int history_count)
-      : slots_(slots), particle_(particle), history_count_(history_count) {}
+  /// slots[s] + offset is a slot's row.
+  ParticleSlots(double* const* slots, int slot_count, std::ptrdiff_t offset, int history_count)
+      : slots_(slots), slot_count_(slot_count), history_count_(history_count), offset_(offset) {}
 
-  int slot_count() const { return static_cast<int>(slots_.size()); }
+  int slot_count() const { return slot_count_; }
   ContactSlot slot(int s) const {
-    NURBS_ASSERT(0 <= s && s < slot_count(), s, slot_count());
-    return {slots_[s][particle_], history_count_};
+    NURBS_ASSERT(0 <= s && s < slot_count_, s, slot_count_);
+    return {slots_[s] + offset_, history_count_};
   }
   /// Index of an empty slot, -1 if there is none.
   int empty_slot() const {
-    for (int s = 0; s < slot_count(); ++s)
+    for (int s = 0; s < slot_count_; ++s)
       if (slot(s).empty()) return s;
     return -1;
   }
   void clear() {
-    for (int s = 0; s < slot_count(); ++s) slot(s).clear();
+    for (int s = 0; s < slot_count_; ++s) slot(s).clear();
   }
 
  private:
-  const std::vector<double**>& slots_;
-  int particle_, history_count_;
+  double* const* slots_;
+  int slot_count_, history_count_;
+  std::ptrdiff_t offset_;
+};
+
+/// The slots of all particles of a rank: slots[s] has a row of row_size(history_count) numbers for each.
+struct ContactMemory {
+  double* const* slots;
+  int slot_count;
+  int history_count;  ///< values that the contact model keeps for each contact
+
+  static int row_size(int history_count) { return ContactSlot::kFootValues + history_count; }
+  ParticleSlots of(int particle) const {
+    return {slots, slot_count, static_cast<std::ptrdiff_t>(particle) * row_size(history_count),
+            history_count};
+  }
 };
 
 }  // namespace contact

@@ -46,11 +46,11 @@ void ContactTracker::follow(const Query* queries, int count) {
 }
 
 // Of a candidate whose branches are not followed, or not yet.
-FeetRange ContactTracker::find_feet(const Query& query, const ContactMemory& memory) {
+FeetRange ContactTracker::find_feet(const Query& query, const ParticleSlots& slots) {
   NURBS_ASSERT(states_.size() == candidates_.candidates().size(), states_.size());
   const Candidate& candidate = candidates_.candidates()[query.candidate];
   State& state = states_[query.candidate];
-  find_all(candidate, query, state.touched ? query.touch_reach : query.list_reach, memory, all_feet_);
+  find_all(candidate, query, state.touched ? query.touch_reach : query.list_reach, slots, all_feet_);
   FeetRange feet{all_feet_.data(), static_cast<int>(all_feet_.size())};
   if (state.is_new) {
     state.is_new = false;
@@ -81,7 +81,7 @@ bool ContactTracker::is_regular(const Candidate& candidate, const Query& query) 
 }
 
 void ContactTracker::find_all(const Candidate& candidate, const Query& query, double reach,
-                              const ContactMemory& memory, std::vector<TrackedFoot>& out) {
+                              const ParticleSlots& slots, std::vector<TrackedFoot>& out) {
   found_.clear();
   const ImageElements* images = candidates_.image_elements(candidate);
   for (int k = 0; k < candidate.image_count; ++k)
@@ -91,7 +91,7 @@ void ContactTracker::find_all(const Candidate& candidate, const Query& query, do
   keep_one_of_each_valley(query);
   out.clear();
   for (const SurfaceFoot& foot : found_) out.push_back({foot, -1});
-  match_slots(candidate, query, memory, out.data(), static_cast<int>(out.size()));
+  match_slots(candidate, query, slots, out.data(), static_cast<int>(out.size()));
 }
 
 // On a centre of curvature (the axis of a tube) feet are not isolated and the search finds some of a row of
@@ -114,10 +114,10 @@ void ContactTracker::keep_one_of_each_valley(const Query& query) {
 }
 
 // A slot goes with its branch: to the foot that is reached from where the branch was last.
-void ContactTracker::match_slots(const Candidate& candidate, const Query& query, const ContactMemory& memory,
+void ContactTracker::match_slots(const Candidate& candidate, const Query& query, const ParticleSlots& slots,
                                  TrackedFoot* feet, int count) {
-  for (int s = 0; s < memory.slot_count(); ++s) {
-    ContactSlot slot = memory.slot(s);
+  for (int s = 0; s < slots.slot_count(); ++s) {
+    ContactSlot slot = slots.slot(s);
     if (slot.empty()) continue;
     const SurfacePoint last = slot.foot();
     const SurfaceFoot now =

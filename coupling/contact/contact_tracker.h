@@ -56,11 +56,11 @@ class ContactTracker {
   }
   /// Takes the branches of these candidates to where they are now, as far as they are followed.
   void follow(const Query* queries, int count);
-  /// The feet of a candidate, after follow(); those nearer than touch_reach are complete.  Slots of `memory`
+  /// The feet of a candidate, after follow(); those nearer than touch_reach are complete.  `slots`
   /// whose branches are gone are cleared.  Valid until the next call.
-  FeetRange feet(const Query& query, const ContactMemory& memory) {
+  FeetRange feet(const Query& query, const ParticleSlots& slots) {
     State& state = states_[query.candidate];
-    if (!state.regular) return find_feet(query, memory);
+    if (!state.regular) return find_feet(query, slots);
     const FeetRange feet{feet_.data() + state.first, state.count};
     keep_clearance(query, nearest_distance(feet, query), state);
     return feet;
@@ -86,12 +86,12 @@ class ContactTracker {
     state.centre = query.centre;
     state.surface_motion = surface_motion_;
   }
-  FeetRange find_feet(const Query& query, const ContactMemory& memory);
+  FeetRange find_feet(const Query& query, const ParticleSlots& slots);
   bool is_regular(const Candidate& candidate, const Query& query) const;
-  void find_all(const Candidate& candidate, const Query& query, double reach, const ContactMemory& memory,
+  void find_all(const Candidate& candidate, const Query& query, double reach, const ParticleSlots& slots,
                 std::vector<TrackedFoot>& out);
   void keep_one_of_each_valley(const Query& query);
-  void match_slots(const Candidate& candidate, const Query& query, const ContactMemory& memory,
+  void match_slots(const Candidate& candidate, const Query& query, const ParticleSlots& slots,
                    TrackedFoot* feet, int count);
   nurbs::Vector3 nearest_image(const Candidate& candidate, const nurbs::SurfacePoint& at,
                                const nurbs::Vector3& centre) const;

@@ -95,7 +95,7 @@ class SourceTree(unittest.TestCase):
         words = self.package_words()
         self.assertEqual(words["PKG_INC"][:2], ["-fno-finite-math-only", f"-I{self.prefix}/include/liggghts-nurbs"])
         self.assertEqual(words["PKG_PATH"][0], f"-L{self.prefix}/lib")
-        self.assertEqual(words["PKG_LIB"][0], "-lcoupling_iga")
+        self.assertEqual(words["PKG_LIB"][0], "-lcoupling_contact")
         self.assertEqual([words[kind][-1] for kind in words], ["-I../../lib/poems", "-L../../lib/poems", "-lm"])
 
         self.install_sh(1)
@@ -146,7 +146,7 @@ whole: $(OBJECTS)
     def test_compiles_beside_superquadrics(self):
         """`make auto` switches them on; LIGGGHTS' contact data then have more members."""
         words = ["-fno-finite-math-only", "-DSUPERQUADRIC_ACTIVE_FLAG", "-DNONSPHERICAL_ACTIVE_FLAG"]
-        done = self.check_syntax("fix_wall_nurbs_contact.cpp", *words)
+        done = self.check_syntax("liggghts_contact_model.cpp", *words)
         self.assertEqual(done.returncode, 0, done.stderr[-3000:])
 
     def test_fast_math_alone_is_refused(self):

@@ -35,22 +35,21 @@ class Scene {
     projector_.set_control_points(surface_.control_points);
     regularity_.set_control_points(surface_.control_points);
     candidates_.set_surface(surface_.topology, surface_.control_points);
-    values_.assign(slot_count,
-                   std::vector<std::array<double, 3>>(centres_.size(), {ContactSlot::kEmpty, 0, 0}));
-    rows_.resize(slot_count);
-    for (int s = 0; s < slot_count; ++s) {
-      for (auto& value : values_[s]) rows_[s].push_back(value.data());
-      slots_.push_back(rows_[s].data());
+    std::vector<double> empty = {ContactSlot::kEmpty, 0.0, 0.0};
+    values_.resize(slot_count);
+    for (std::vector<double>& rows : values_) {
+      for (size_t k = 0; k < centres_.size(); ++k) rows.insert(rows.end(), empty.begin(), empty.end());
+      slots_.push_back(rows.data());
     }
-    std::vector<double*> x;
-    for (Vector3& centre : centres_) x.push_back(centre.data());
     const std::vector<double> reach(centres_.size(), list_);
-    candidates_.build({}, images, {static_cast<int>(x.size()), x.data(), reach.data()});
+    candidates_.build({}, images, {static_cast<int>(centres_.size()), centres_[0].data(), reach.data()});
     tracker_.list_is_new();
   }
 
   std::vector<Vector3>& centres() { return centres_; }
-  ContactMemory memory(int particle) { return {slots_, particle, 0}; }
+  ParticleSlots memory(int particle) const {
+    return ContactMemory{slots_.data(), static_cast<int>(slots_.size()), 0}.of(particle);
+  }
   const LocalSearch& search() const { return search_; }
 
   /// One step as the fix makes it, `block` candidates at a time: take(particle, its feet).  Feet that touch
@@ -74,7 +73,7 @@ class Scene {
   template <class Take>
   void resolve(const ContactTracker::Query& query, const Take& take) {
     const int particle = candidates_.candidates()[query.candidate].particle;
-    const ContactMemory slots = memory(particle);
+    const ParticleSlots slots = memory(particle);
     const FeetRange feet = tracker_.feet(query, slots);
     for (TrackedFoot& tracked : feet) {
       if (tracked.foot.distance > touch_) {
@@ -96,9 +95,8 @@ class Scene {
   ContactTracker tracker_;
   std::vector<Vector3> centres_;
   double touch_, list_;
-  std::vector<std::vector<std::array<double, 3>>> values_;
-  std::vector<std::vector<double*>> rows_;
-  std::vector<double**> slots_;
+  std::vector<std::vector<double>> values_;  // of each slot, a row for each particle
+  std::vector<double*> slots_;
 };
 
 // Between two plates each particle has two feet, and each keeps its slot, whatever the size of the block: 300

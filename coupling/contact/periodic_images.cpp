@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "periodic_images.h"
+#include "coupling/contact/periodic_images.h"
 
-#include <mpi.h>
+#include <algorithm>
 
-#include "domain.h"
-
-namespace liggghts_pkg {
+namespace contact {
 
 using nurbs::Vector3;
 using search::Box;
@@ -21,30 +19,29 @@ Box box_in_space(const Box& box, const coupling::RigidFrame& frame) {
 
 }  // namespace
 
-std::vector<Vector3> periods(const LAMMPS_NS::Domain& domain) {
-  const int periodic[3] = {domain.xperiodic, domain.yperiodic, domain.zperiodic};
+std::vector<Vector3> periods(const PeriodicBox& box) {
   std::vector<Vector3> result;
   for (int d = 0; d < 3; ++d)
-    if (periodic[d]) result.push_back((domain.boxhi[d] - domain.boxlo[d]) * Vector3::Unit(d));
+    if (box.periodic[d]) result.push_back((box.high[d] - box.low[d]) * Vector3::Unit(d));
   return result;
 }
 
-std::vector<Vector3> wall_images(const LAMMPS_NS::Domain& domain, const Box& wall,
-                                 const coupling::RigidFrame& frame, double reach) {
-  Box near_domain{Vector3::Map(domain.boxlo), Vector3::Map(domain.boxhi)};
-  near_domain.inflate(reach);
+std::vector<Vector3> wall_images(const PeriodicBox& box, const Box& wall, const coupling::RigidFrame& frame,
+                                 double reach) {
+  Box near_box{box.low, box.high};
+  near_box.inflate(reach);
   const Box in_space = box_in_space(wall, frame);
   std::vector<Vector3> images = {Vector3::Zero()};
-  for (const Vector3& period : periods(domain)) {
+  for (const Vector3& period : periods(box)) {
     const size_t count = images.size();
     for (size_t k = 0; k < count; ++k)
       for (const double sign : {1.0, -1.0}) images.push_back(images[k] + sign * period);
   }
   const auto out_of_reach = [&](const Vector3& image) {
-    return !image.isZero(0.0) && !near_domain.overlaps({in_space.low + image, in_space.high + image});
+    return !image.isZero(0.0) && !near_box.overlaps({in_space.low + image, in_space.high + image});
   };
   images.erase(std::remove_if(images.begin(), images.end(), out_of_reach), images.end());
   return images;
 }
 
-}  // namespace liggghts_pkg
+}  // namespace contact

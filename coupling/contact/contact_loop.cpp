@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/contact/contact_loop.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "nurbs/assert.h"
+
+namespace contact {
+
+ContactLoop::ContactLoop(const coupling::StructureSolver& structure, coupling::SurfaceExchange& exchange,
+                         const Options& options)
+    : options_(options),
+      wall_(structure, exchange),
+      search_(options.search, wall_.projector()),
+      tracker_(search_, wall_.regularity(), candidates_) {}
+
+void ContactLoop::forget_reports() {
+  search_.reset();
+  inside_ = crossing_ = RunAlarm();
+}
+
+/* ---------------------------------------------------------------------- the list of candidates */
+
+void ContactLoop::build_list(const ParticleView& particles, const ListReach& reach) {
+  if (wall_.deforms() || !candidates_.has_surface()) {
+    candidates_.set_surface(wall_.surface(), wall_.control_points());
+    wall_.remeasure();
+  }
+  const search::Box& bounds = candidates_.wall_bounds();
+  wall_.set_bounds(bounds);
+  wall_travel_ = wall_.max_speed(bounds) * reach.dt;
+  list_reach_.resize(particles.count);
+  radius_limit_.resize(particles.count);
+  double largest = 0.0;
+  for (int i = 0; i < particles.count; ++i) {
+    const double travel = particles.velocity(i).norm() * reach.dt + wall_travel_;
+    list_reach_[i] = particles.radius[i] * reach.touch_factor + 1.5 * reach.skin + travel;
+    radius_limit_[i] = particles.radius[i] + 0.5 * reach.skin / reach.touch_factor;
+    largest = std::max(largest, list_reach_[i]);
+  }
+  const std::vector<Vector3> images = wall_images(reach.box, bounds, wall_.frame(), largest);
+  expect_images_to_stay(images);
+  candidates_.build(wall_.frame(), images, {particles.count, particles.x, list_reach_.data()});
+  tracker_.list_is_new();
+  surface_motion_ = 0.0;
+  forget_lost_contacts(particles);
+}
+
+// Feet keep their image while the wall turns.
+void ContactLoop::expect_images_to_stay(const std::vector<Vector3>& images) const {
+  constexpr double kSame = 1e-9;
+  for (const Vector3& image : images)
+    if ((wall_.frame().rotation * image - image).norm() > kSame * image.norm())
+      throw std::runtime_error(
+          "the wall turns about an axis that is not along the periodic direction across which it reaches; "
+          "use a "
+          "boundary that is not periodic there, or a box that holds the whole wall");
+}
+
+void ContactLoop::forget_lost_contacts(const ParticleView& particles) {
+  is_candidate_.assign(particles.count, false);
+  for (const Candidate& candidate : candidates_.candidates()) is_candidate_[candidate.particle] = true;
+  for (int i = 0; i < particles.count; ++i)
+    if (!is_candidate_[i]) particles.memory.of(i).clear();
+}
+
+double ContactLoop::wall_motion() {
+  const double motion =
+      candidates_.motion_since_build(wall_.control_points(), wall_.deforms(), wall_.frame());
+  surface_motion_ = wall_.deforms() ? motion : 0.0;
+  return motion;
+}
+
+bool ContactLoop::has_outgrown_list(const ParticleView& particles) const {
+  bool outgrown = false;  // no way out of the loop, so that it is vectorised
+  for (int i = 0; i < particles.count; ++i) outgrown |= particles.radius[i] > radius_limit_[i];
+  return outgrown;
+}
+
+/* ---------------------------------------------------------------------- one step */
+
+namespace {
+constexpr int kBlock = 64;  // candidates: their feet are found together, and are still at hand afterwards
+}
+
+void ContactLoop::step(const ParticleView& particles, const StepInfo& step, ContactModel& model,
+                       ContactObserver* observer) {
+  contacts_.clear();
+  forces_on_body_.clear();
+  tracker_.begin_step(surface_motion_);
+  ContactTracker::Query queries[kBlock];
+  const int candidates = static_cast<int>(candidates_.candidates().size());
+  for (int candidate = 0; candidate < candidates;) {
+    const int count = next_block(particles, step, candidate, queries);
+    tracker_.follow(queries, count);
+    batch_.clear();
+    for (int k = 0; k < count; ++k) find_contacts(particles, step, queries[k]);
+    if (batch_.empty()) continue;
+    model.evaluate(batch_.data(), static_cast<int>(batch_.size()));
+    for (const Contact& contact : batch_) apply(particles, step, contact);
+    if (observer)
+      for (const Contact& contact : batch_)
+        if (contact.touches || !contact.force.isZero(0.0)) observer->see(contact);
+  }
+}
+
+// The next candidates that may touch, from number `candidate` on.
+int ContactLoop::next_block(const ParticleView& particles, const StepInfo& step, int& candidate,
+                            ContactTracker::Query* queries) {
+  const std::vector<Candidate>& candidates = candidates_.candidates();
+  int count = 0;
+  for (; candidate < static_cast<int>(candidates.size()) && count < kBlock; ++candidate) {
+    const int i = candidates[candidate].particle;
+    if (!particles.meets_wall(i)) continue;
+    // In place: to copy a struct just written in parts waits for all stores.
+    ContactTracker::Query& query = queries[count];
+    query.centre = wall_.to_frame(particles.centre(i));
+    query.touch_reach = particles.radius[i] * step.touch_factor;
+    if (tracker_.is_quiet(candidate, query.centre, query.touch_reach)) continue;
+    query.candidate = candidate;
+    query.list_reach = list_reach_[i];
+    ++count;
+  }
+  return count;
+}
+
+void ContactLoop::find_contacts(const ParticleView& particles, const StepInfo& step,
+                                const ContactTracker::Query& query) {
+  const int i = candidates_.candidates()[query.candidate].particle;
+  const ParticleSlots slots = particles.memory.of(i);
+  const double radius = particles.radius[i];
+  for (TrackedFoot& tracked : tracker_.feet(query, slots)) {
+    SurfaceFoot& foot = tracked.foot;
+    const bool touches = foot.distance <= radius || foot.distance < query.touch_reach;
+    Vector3 delta = wall_.to_space_direction(query.centre - foot.foot);
+    if (foot.distance <= wall_.resolution()) {
+      const bool is_known = tracked.slot >= 0 && slots.slot(tracked.slot).foot().patch == foot.patch;
+      delta = wall_.leave(foot, delta, is_known ? slots.slot(tracked.slot).side() : 0, radius,
+                          particles.centre(i), particles.velocity(i));
+    }
+    Vector3 v_wall;
+    if (touches || may_cross(particles, step, i, foot.distance)) {
+      v_wall = wall_.velocity(foot, particles.centre(i) - delta, delta);
+      check_crossing(particles, step, i, foot.distance, delta, v_wall);
+    }
+    if (touches) {
+      tracked.slot = take_slot(particles, step, i, tracked, delta);
+      add_contact(particles, i, tracked, delta, v_wall);
+    } else if (tracked.slot >= 0) {
+      slots.slot(tracked.slot).clear();
+      tracked.slot = -1;
+    }
+  }
+}
+
+// Whether the centre may come to the surface within one step; a wall that deforms is asked for its velocity
+// only where it matters.
+bool ContactLoop::may_cross(const ParticleView& particles, const StepInfo& step, int i,
+                            double distance) const {
+  constexpr double kNear = 0.1;  // of the distance
+  return !wall_.deforms() || particles.velocity(i).norm() * step.dt + wall_travel_ >= kNear * distance;
+}
+
+// A centre that comes to the surface within one step would leave it on the other side; one that was on the
+// other side a step ago has done so.
+void ContactLoop::check_crossing(const ParticleView& particles, const StepInfo& step, int i, double distance,
+                                 const Vector3& delta, const Vector3& v_wall) {
+  const double approach = (v_wall - particles.velocity(i)).dot(delta);  // times the distance
+  // In this order: the sign of the approach is anyone's guess, for the processor too.
+  if (std::abs(approach) * step.dt >= distance * distance &&
+      (approach > 0.0 || (approach < 0.0 && !step.is_setup)))
+    crossing_.raise(particles.tag[i], particles.radius[i], std::abs(approach) / distance);
+}
+
+int ContactLoop::take_slot(const ParticleView& particles, const StepInfo& step, int i,
+                           const TrackedFoot& tracked, const Vector3& delta) const {
+  const ParticleSlots slots = particles.memory.of(i);
+  const int place = tracked.slot >= 0 ? tracked.slot : slots.empty_slot();
+  if (place < 0)
+    throw TooManyContacts(fmt::format("particle {} touches the wall in more than {} places at step {}",
+                                      particles.tag[i], slots.slot_count(), step.number));
+  // The side changes where the branch goes on to another patch, and where the centre passes the surface.
+  constexpr double kDeep = 0.5;  // of the radius
+  ContactSlot slot = slots.slot(place);
+  int side = slot.empty() || slot.foot().patch != tracked.foot.patch ? 0 : slot.side();
+  if (side == 0 || tracked.foot.distance < kDeep * particles.radius[i])
+    side = wall_.side_of(tracked.foot, delta);
+  slot.set_foot(tracked.foot.at(), side);
+  return place;
+}
+
+void ContactLoop::add_contact(const ParticleView& particles, int i, const TrackedFoot& tracked,
+                              const Vector3& delta, const Vector3& v_wall) {
+  NURBS_ASSERT(0 <= i && i < particles.count, i, particles.count);
+  const SurfaceFoot& foot = tracked.foot;
+  const double radius = particles.radius[i];
+  Contact& contact = batch_.emplace_back();
+  contact.particle = i;
+  contact.slot = tracked.slot;
+  contact.foot = foot.at();
+  contact.touches = foot.distance <= radius;
+  contact.inside = wall_.has_inside(foot.patch) && wall_.is_inside(foot, delta);
+  contact.distance = foot.distance;
+  contact.overlap = radius - foot.distance;
+  contact.effective_radius = options_.curvature_radius ? wall_.effective_radius(foot, delta, radius) : radius;
+  contact.delta = delta;
+  contact.wall_velocity = v_wall;
+  contact.history = particles.memory.of(i).slot(tracked.slot).history();
+}
+
+void ContactLoop::apply(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
+  const int i = contact.particle;
+  const Vector3 &F = contact.force, &T = contact.torque;
+  const Vector3 x = particles.centre(i), point = x - contact.delta;
+  if (!std::isfinite(F.sum() + T.sum())) fail_as_not_finite(particles, step, contact);
+  Eigen::Map<Vector3>(particles.f + 3 * i) += F;
+  Eigen::Map<Vector3>(particles.torque + 3 * i) += T;
+  if (contact.overlap < 0.0 && F.isZero(0.0)) return;
+
+  if (wall_.needs_forces()) {
+    const Vector3 on_body = -(wall_.frame().rotation.transpose() * F);
+    forces_on_body_.push_back({particles.tag[i],
+                               contact.slot,
+                               contact.foot.patch,
+                               {contact.foot.xi[0], contact.foot.xi[1]},
+                               {on_body[0], on_body[1], on_body[2]}});
+  }
+  const Vector3 wall_torque = -(T + x.cross(F));
+  WallContact& row = contacts_.emplace_back();
+  row.tag = particles.tag[i];
+  row.patch = contact.foot.patch;
+  row.xi[0] = contact.foot.xi[0], row.xi[1] = contact.foot.xi[1];
+  Vector3::Map(row.point) = point;
+  Vector3::Map(row.force) = -F;
+  row.overlap = contact.overlap;
+  Vector3::Map(row.torque) = wall_torque;
+  // The wall feels -F at the foot and what is left of the torque.
+  row.power = wall_.stands() ? 0.0
+                             : F.dot(contact.wall_velocity) -
+                                   (wall_torque + point.cross(F)).dot(wall_.frame().angular_velocity);
+  row.slot = contact.slot;
+  if (contact.inside) inside_.raise(particles.tag[i], particles.radius[i], particles.velocity(i).norm());
+}
+
+void ContactLoop::fail_as_not_finite(const ParticleView& particles, const StepInfo& step,
+                                     const Contact& contact) {
+  const int i = contact.particle;
+  const Vector3 x = particles.centre(i), v = particles.velocity(i);
+  const Vector3& F = contact.force;
+  throw std::runtime_error(fmt::format(
+      "the contact of particle {} is not finite at step {}: centre ({:.6g}, {:.6g}, {:.6g}), {:.6g} from the "
+      "wall, radius {:.6g}, velocity ({:.6g}, {:.6g}, {:.6g}), force ({:.6g}, {:.6g}, {:.6g}); use a smaller "
+      "timestep, or look at the material and at what has changed the particle",
+      particles.tag[i], step.number, x[0], x[1], x[2], contact.distance, particles.radius[i], v[0], v[1],
+      v[2], F[0], F[1], F[2]));
+}
+
+}  // namespace contact

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Particles in; forces on particles, contacts of the wall and alarms out.  One call of step() per time step:
+// the feet of each particle near the wall are followed (contact_tracker.h), those within reach become
+// contacts with a slot of the particle's memory, the contact model answers a batch of them at a time, and its
+// answers are added to the particles.  Method: Gao & Feng (2019), section 4.
+//
+// A time step of a particle code, in this order:
+//   structure.begin_step(), particles drift
+//   wall().import();  if (wall_motion() > skin / 2 or the particles' own list is due) build_list()
+//   step();  nodal forces = exchange.export_add(forces_on_body())
+//   structure.end_step(nodal forces), particles' second half kick
+#pragma once
+
+#include <stdexcept>
+#include <vector>
+
+#include "coupling/contact/candidate_list.h"
+#include "coupling/contact/contact_model.h"
+#include "coupling/contact/contact_tracker.h"
+#include "coupling/contact/local_search.h"
+#include "coupling/contact/particle_view.h"
+#include "coupling/contact/periodic_images.h"
+#include "coupling/contact/run_alarm.h"
+#include "coupling/contact/wall.h"
+
+namespace contact {
+
+/// One contact as the wall feels it: doubles throughout, so that a particle code may hand it on as a row.
+struct WallContact {
+  WallContact() {}  // not set to zero first
+  double tag, patch, xi[2];
+  double point[3];   ///< foot [length]
+  double force[3];   ///< on the wall [force]
+  double overlap;    ///< [length]
+  double torque[3];  ///< on the wall, about the origin [force length]
+  double power;      ///< that the wall gives to the particle [energy/time]
+  double slot;
+};
+
+/// How far the list of candidates reaches: from where the particles' code built its own lists a particle
+/// moves by half a skin to either side (what it grows counts as motion) before they are built anew, and the
+/// wall may move half a skin more; what is faster than that must not slip through unseen.
+struct ListReach {
+  double skin;          ///< [length]
+  double touch_factor;  ///< on the radius: within how much of it models with cohesion act; 1 without
+  double dt;            ///< [time]
+  PeriodicBox box;
+};
+
+/// What step() needs to know of the time step.
+struct StepInfo {
+  long number;
+  double dt;            ///< [time]
+  double touch_factor;  ///< as in ListReach
+  bool is_setup;        ///< forces are evaluated before a run, nothing has moved
+};
+
+/// A particle touches the wall in more places than its memory has slots.
+struct TooManyContacts : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+class ContactLoop {
+ public:
+  struct Options {
+    SearchMethod search = SearchMethod::newton;
+    bool curvature_radius = false;  ///< the effective radius takes the wall's curvature into account
+  };
+
+  /// Keeps references to both.
+  ContactLoop(const coupling::StructureSolver& structure, coupling::SurfaceExchange& exchange,
+              const Options& options);
+
+  Wall& wall() { return wall_; }
+
+  /// Global search, for all particles of this rank; forgets the contacts of those that are out of reach.
+  /// Throws std::runtime_error if the wall has turned so that its periodic images do not fit.
+  void build_list(const ParticleView& particles, const ListReach& reach);
+  /// Largest distance that a point of the wall has moved since then, at most; not finite if its place is not
+  /// [length].
+  double wall_motion();
+  /// Whether a particle has grown more than the list allows for.
+  bool has_outgrown_list(const ParticleView& particles) const;
+  long candidate_count() const { return static_cast<long>(candidates_.candidates().size()); }
+
+  /// Adds the wall's forces to the particles, whose number and order are those of build_list.  Throws
+  /// TooManyContacts, and std::runtime_error if an answer of the model is not finite: particle, place, step.
+  void step(const ParticleView& particles, const StepInfo& step, ContactModel& model,
+            ContactObserver* observer = nullptr);
+
+  /// Of the last step, those with a force; this rank's.
+  const std::vector<WallContact>& contacts() const { return contacts_; }
+  /// The same for SurfaceExchange::export_add, in the wall's frame; empty if the structure needs no forces.
+  const std::vector<coupling::ContactForce>& forces_on_body() const { return forces_on_body_; }
+
+  /// What has happened since these were forgotten last, on this rank.
+  void forget_reports();
+  const LocalSearch::Counts& searches() const { return search_.counts(); }
+  const RunAlarm& inside() const { return inside_; }      ///< centres inside the body
+  const RunAlarm& crossing() const { return crossing_; }  ///< centres that may cross the surface in a step
+
+ private:
+  void expect_images_to_stay(const std::vector<Vector3>& images) const;
+  void forget_lost_contacts(const ParticleView& particles);
+  int next_block(const ParticleView& particles, const StepInfo& step, int& candidate,
+                 ContactTracker::Query* queries);
+  void find_contacts(const ParticleView& particles, const StepInfo& step, const ContactTracker::Query& query);
+  bool may_cross(const ParticleView& particles, const StepInfo& step, int particle, double distance) const;
+  void check_crossing(const ParticleView& particles, const StepInfo& step, int particle, double distance,
+                      const Vector3& delta, const Vector3& v_wall);
+  int take_slot(const ParticleView& particles, const StepInfo& step, int particle, const TrackedFoot& tracked,
+                const Vector3& delta) const;
+  void add_contact(const ParticleView& particles, int particle, const TrackedFoot& tracked,
+                   const Vector3& delta, const Vector3& v_wall);
+  void apply(const ParticleView& particles, const StepInfo& step, const Contact& contact);
+  [[noreturn]] static void fail_as_not_finite(const ParticleView& particles, const StepInfo& step,
+                                              const Contact& contact);
+
+  Options options_;
+  Wall wall_;
+  CandidateList candidates_;
+  LocalSearch search_;
+  ContactTracker tracker_;
+  double surface_motion_ = 0.0;       // of a deforming wall since the list was built
+  double wall_travel_ = 0.0;          // in a step, when the list was built [length]
+  std::vector<double> list_reach_;    // per particle, when the list was built
+  std::vector<double> radius_limit_;  // likewise: what the list is good for
+  std::vector<bool> is_candidate_;
+
+  std::vector<Contact> batch_;
+  std::vector<WallContact> contacts_;
+  std::vector<coupling::ContactForce> forces_on_body_;
+  RunAlarm inside_, crossing_;
+};
+
+}  // namespace contact

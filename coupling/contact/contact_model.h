@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a contact model is asked, and who else hears of contacts.
+#pragma once
+
+#include "nurbs/multi_patch.h"
+
+namespace contact {
+
+using nurbs::Vector3;
+
+/// One contact in one step, in space.
+struct Contact {
+  Contact() {}  // not set to zero first
+  int particle;
+  int slot;                  ///< of the particle's memory
+  nurbs::SurfacePoint foot;  ///< on the wall
+  bool touches;              ///< overlap >= 0; else a gap, within the reach of models with cohesion
+  bool inside;               ///< the centre is inside the body
+  double distance;           ///< from the foot to the centre [length]
+  double overlap;            ///< the particle's radius less the distance [length]
+  double effective_radius;   ///< of the pair; the particle's own unless the wall's curvature counts [length]
+  Vector3 delta;             ///< from the foot to the centre [length]
+  Vector3 wall_velocity;     ///< at the foot [length/time]
+  double* history;           ///< what the model keeps of this contact; null if it keeps nothing
+
+  // The model's answer:
+  Vector3 force;   ///< on the particle [force]
+  Vector3 torque;  ///< likewise, about its centre [force length]
+};
+
+/// A law of contact, normal and tangential: a DEM code's own, or a spring.
+class ContactModel {
+ public:
+  virtual ~ContactModel() = default;
+  /// Answers all of a batch, in this order; a particle may be there more than once.
+  virtual void evaluate(Contact* contacts, int count) = 0;
+};
+
+/// Hears of contacts that have a force, after they have it.
+class ContactObserver {
+ public:
+  virtual ~ContactObserver() = default;
+  virtual void see(const Contact& contact) = 0;
+};
+
+}  // namespace contact

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/contact/wall.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/force_distribution.h"
+#include "nurbs/borders.h"
+#include "nurbs/curvature.h"
+#include "nurbs/surface_normal.h"
+
+namespace contact {
+
+Wall::Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange& exchange)
+    : structure_(structure),
+      exchange_(exchange),
+      surface_(structure.surface().topology),
+      projector_(surface_),
+      regularity_(surface_),
+      outward_sign_(structure.surface().outward_sign) {}
+
+void Wall::weld_across(const std::vector<Vector3>& periods) {
+  std::vector<Vector3> in_frame;
+  for (const Vector3& period : periods) in_frame.push_back(structure_.frame().rotation.transpose() * period);
+  constexpr double kTolerance = 1e-9;
+  surface_.set_borders(nurbs::find_borders(nurbs::split(surface_, control_points()), kTolerance, in_frame));
+  remeasure();  // it depends on the borders
+}
+
+void Wall::import() {
+  frame_ = structure_.frame();
+  deforms_ = structure_.deforms();
+  slides_ = structure_.slides();
+  is_turned_ = !frame_.rotation.isIdentity(0.0);
+  stands_ = !deforms_ && !slides_ && frame_.velocity.isZero(0.0) && frame_.angular_velocity.isZero(0.0);
+  if (imported_ && !deforms_) return;
+  exchange_.import_surface();
+  projector_.set_control_points(control_points());
+  imported_ = true;
+}
+
+void Wall::set_bounds(const search::Box& bounds) {
+  constexpr double kResolution = 1e-10;  // of the wall's coordinates, which feet know to about 1e-16
+  resolution_ = kResolution * bounds.low.cwiseAbs().cwiseMax(bounds.high.cwiseAbs()).maxCoeff();
+}
+
+double Wall::max_speed(const search::Box& bounds) const {
+  if (structure_.deforms()) return std::sqrt(exchange_.velocities().colwise().squaredNorm().maxCoeff());
+  return frame_.max_speed(bounds);
+}
+
+Vector3 Wall::velocity_of_moving(const SurfaceFoot& foot, const Vector3& point, const Vector3& delta) const {
+  if (deforms_) return coupling::FootBasis(surface_, foot.at()).interpolate(exchange_.velocities());
+  Vector3 v = frame_.velocity_at(point);
+  if (slides_) v += structure_.surface_velocity(point, delta.normalized());
+  return v;
+}
+
+int Wall::side_of(const SurfaceFoot& foot, const Vector3& delta) const {
+  const Vector3 normal = foot.status == search::ProjectionStatus::interior
+                             ? nurbs::shape_at(surface_, control_points(), foot.at()).normal
+                             : nurbs::normal_at(surface_, control_points(), foot.at());
+  return normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1 : 1;
+}
+
+bool Wall::is_inside(const SurfaceFoot& foot, const Vector3& delta) const {
+  const int sign = outward_sign_[foot.patch];
+  if (sign == 0 || foot.status != search::ProjectionStatus::interior) return false;
+  return sign * side_of(foot, delta) < 0;
+}
+
+Vector3 Wall::leave(SurfaceFoot& foot, const Vector3& delta, int known_side, double radius, const Vector3& x,
+                    const Vector3& v) const {
+  constexpr double kRoundOff = 1e-5;  // of the resolution
+  constexpr double kOff = 1e-9;       // of the radius
+  const Vector3 normal = frame_.rotation * nurbs::normal_at(surface_, control_points(), foot.at());
+  double side = normal.dot(delta);
+  if (std::abs(side) <= kRoundOff * resolution_) side = 0.0;
+  if (side == 0.0) side = known_side;
+  if (side == 0.0) side = outward_sign_[foot.patch];
+  if (side == 0.0) side = normal.dot(velocity(foot, x, normal) - v);
+  // What the models make of the overlap must be this distance to the last bit.
+  foot.distance = radius - (radius - std::max(foot.distance, kOff * radius));
+  return side < 0.0 ? Vector3(-foot.distance * normal) : Vector3(foot.distance * normal);
+}
+
+double Wall::effective_radius(const SurfaceFoot& foot, const Vector3& delta, double radius) const {
+  constexpr double kLeast = 0.1;  // of 1/r: in a hollow of nearly the particle's radius Hertz' theory ends
+  const nurbs::SurfaceShape shape = nurbs::shape_near(surface_, control_points(), foot.at());
+  const double side = shape.normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1.0 : 1.0;
+  double product = 1.0;
+  for (const double curvature : shape.curvature) product *= std::max(1.0 - side * curvature * radius, kLeast);
+  return std::max(radius / std::sqrt(product), radius - 0.5 * foot.distance);  // never less than the overlap
+}
+
+}  // namespace contact

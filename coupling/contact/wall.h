@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The wall as it stands in this step: its surface, where that is and how it moves, and which side is which.
+// Feet and control points are in the wall's frame; what is called delta, from a foot to a particle's centre,
+// and all velocities are in space.
+#pragma once
+
+#include "coupling/surface_exchange.h"
+#include "nurbs/multi_patch.h"
+#include "search/multi_patch_projector.h"
+#include "search/regularity.h"
+
+namespace contact {
+
+using nurbs::Vector3;
+using search::SurfaceFoot;
+
+class Wall {
+ public:
+  /// Keeps references to both.
+  Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange& exchange);
+  Wall(const Wall&) = delete;
+  Wall& operator=(const Wall&) = delete;
+
+  /// A rigid wall that spans a periodic box has no edge there: welds what meets after a shift by one of these
+  /// periods, in space [length].
+  void weld_across(const std::vector<Vector3>& periods);
+  /// Takes place and shape from the structure.
+  void import();
+  /// The elements are to be measured anew, where they now are.
+  void remeasure() { regularity_.set_control_points(control_points()); }
+  /// The box of all elements, in the wall's frame, when the list of candidates was built.
+  void set_bounds(const search::Box& bounds);
+
+  const nurbs::MultiPatch& surface() const { return surface_; }
+  const nurbs::NodalVectors& control_points() const { return exchange_.positions(); }
+  const coupling::RigidFrame& frame() const { return frame_; }
+  search::MultiPatchProjector& projector() { return projector_; }
+  search::Regularity& regularity() { return regularity_; }
+
+  bool deforms() const { return deforms_; }
+  bool stands() const { return stands_; }  ///< nothing of it moves in this step
+  bool needs_forces() const { return structure_.needs_forces(); }
+
+  Vector3 to_frame(const Vector3& x) const {
+    const Vector3 from_origin = x - frame_.origin;
+    return is_turned_ ? Vector3(frame_.rotation.transpose() * from_origin) : from_origin;
+  }
+  Vector3 to_space_direction(const Vector3& X) const { return is_turned_ ? Vector3(frame_.rotation * X) : X; }
+  /// At most, of any of its points [length/time].
+  double max_speed(const search::Box& bounds) const;
+  /// At a foot, which is at `point` in space.
+  Vector3 velocity(const SurfaceFoot& foot, const Vector3& point, const Vector3& delta) const {
+    return stands_ ? Vector3::Zero() : velocity_of_moving(foot, point, delta);
+  }
+
+  /// +1 where dS/dxi x dS/deta points, -1 on the other side.
+  int side_of(const SurfaceFoot& foot, const Vector3& delta) const;
+  bool has_inside(int patch) const { return outward_sign_[patch] != 0; }
+  /// Whether a centre is inside the body.
+  bool is_inside(const SurfaceFoot& foot, const Vector3& delta) const;
+  /// A centre nearer than this is on the surface [length].
+  double resolution() const { return resolution_; }
+  /// A centre on the surface has no direction of its own: takes it off along the normal, by so little that
+  /// the overlap does not feel it.  It goes to the side where it is as far as round-off tells, else to
+  /// `known_side` (of the patch; 0: not known), else out of a body, else against its velocity `v` at `x`.
+  /// Changes foot.distance; the result is the new delta.
+  Vector3 leave(SurfaceFoot& foot, const Vector3& delta, int known_side, double radius, const Vector3& x,
+                const Vector3& v) const;
+
+  /// r* = (R' R'')^(1/2) with 1/R = 1/r - curvature of the wall towards the particle, in each principal
+  /// direction: the equivalent radius of Johnson (1985), section 4.2; exact where both are equal, as on a
+  /// sphere [length].
+  double effective_radius(const SurfaceFoot& foot, const Vector3& delta, double radius) const;
+
+ private:
+  Vector3 velocity_of_moving(const SurfaceFoot& foot, const Vector3& point, const Vector3& delta) const;
+
+  const coupling::StructureSolver& structure_;
+  coupling::SurfaceExchange& exchange_;
+  nurbs::MultiPatch surface_;  // of the structure; welded across periodic faces, too
+  search::MultiPatchProjector projector_;
+  search::Regularity regularity_;
+  const std::vector<int>& outward_sign_;  // of each patch
+  coupling::RigidFrame frame_;
+  double resolution_ = 0.0;
+  bool imported_ = false, deforms_ = false, slides_ = false, stands_ = false, is_turned_ = false;
+};
+
+}  // namespace contact

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "liggghts_contact_model.h"
+
+#include "atom.h"
+
+namespace liggghts_pkg {
+
+using contact::Contact;
+using nurbs::Vector3;
+
+namespace {
+
+// Of numbers just written one by one: a load of several at once would wait for all stores.
+void copy_number_by_number(const volatile double* from, Vector3& to) {
+  to[0] = from[0], to[1] = from[1], to[2] = from[2];
+}
+
+}  // namespace
+
+// The models add to the particle's force; a force of zero before shows what they add.
+void LiggghtsContactModel::evaluate(Contact* contacts, int count) {
+  for (Contact* contact = contacts; contact < contacts + count; ++contact) {
+    Eigen::Map<Vector3> f(atom_.f[contact->particle]), torque(atom_.torque[contact->particle]);
+    const Vector3 f_before = f, torque_before = torque;
+    f.setZero();
+    torque.setZero();
+    compute(*contact);
+    copy_number_by_number(f.data(), contact->force);
+    copy_number_by_number(torque.data(), contact->torque);
+    f = f_before;
+    torque = torque_before;
+  }
+}
+
+void LiggghtsContactModel::compute(Contact& contact) {
+  LCM::SurfacesIntersectData data;
+  data.is_wall = true;
+  data.i = contact.particle;
+  data.deltan = contact.overlap;
+  data.contact_history = contact.history;
+  data.radi = contact.effective_radius;
+  if (curvature_radius_) return compute_with_effective_radius(contact, data);
+  Vector3::Map(data.delta) = contact.delta;
+  models_.compute_force(&wall_, data, contact.touches, contact.wall_velocity.data());
+}
+
+// LIGGGHTS' contact models take one radius for the lever arm and the stiffness.  With another effective
+// radius r*, the arm r - overlap/2 is kept by turning the particle faster or slower in the same proportion.
+void LiggghtsContactModel::compute_with_effective_radius(Contact& contact, LCM::SurfacesIntersectData& data) {
+  const int i = contact.particle;
+  const double arm = (atom_.radius[i] - 0.5 * data.deltan) / (data.radi - 0.5 * data.deltan);
+  Vector3::Map(data.delta) = (data.radi - data.deltan) / contact.distance * contact.delta;
+  Eigen::Map<Vector3> omega(atom_.omega[i]), torque(atom_.torque[i]);
+  const Vector3 omega_before = omega;
+  omega *= arm;
+  models_.compute_force(&wall_, data, contact.touches, contact.wall_velocity.data());
+  omega = omega_before;
+  torque *= arm;
+}
+
+}  // namespace liggghts_pkg

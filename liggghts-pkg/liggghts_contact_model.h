@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// LIGGGHTS' compiled contact models, as the contact loop asks for them.
+#ifndef LMP_LIGGGHTS_CONTACT_MODEL_H
+#define LMP_LIGGGHTS_CONTACT_MODEL_H
+
+#include "coupling/contact/contact_model.h"
+#include "fix_wall_gran.h"
+
+namespace liggghts_pkg {
+
+class LiggghtsContactModel final : public contact::ContactModel {
+ public:
+  /// `models`: those that LIGGGHTS' factory made for `wall`.  `curvature_radius`: contacts have an effective
+  /// radius of their own.
+  LiggghtsContactModel(LAMMPS_NS::FixWallGran& wall, LIGGGHTS::Walls::IGranularWall& models,
+                       LAMMPS_NS::Atom& atom, bool curvature_radius)
+      : wall_(wall), models_(models), atom_(atom), curvature_radius_(curvature_radius) {}
+
+  void evaluate(contact::Contact* contacts, int count) override;
+
+ private:
+  void compute(contact::Contact& contact);
+  void compute_with_effective_radius(contact::Contact& contact, LCM::SurfacesIntersectData& data);
+
+  LAMMPS_NS::FixWallGran& wall_;
+  LIGGGHTS::Walls::IGranularWall& models_;
+  LAMMPS_NS::Atom& atom_;
+  bool curvature_radius_;
+};
+
+}  // namespace liggghts_pkg
+
+#endif

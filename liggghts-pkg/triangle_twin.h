@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// fix mesh/surface ... fix ID: the wall in triangles, as it stands when that fix is created.
+#ifndef LMP_TRIANGLE_TWIN_H
+#define LMP_TRIANGLE_TWIN_H
+
+#include <mpi.h>
+
+#include <string>
+
+#include "coupling/rigid_frame.h"
+#include "nurbs/multi_patch.h"
+#include "nurbs/tessellation.h"
+
+namespace liggghts_pkg {
+
+class TriangleTwin {
+ public:
+  /// Collective; `cells` per element and direction, control points in the wall's frame.  Throws
+  /// std::runtime_error if LIGGGHTS has no memory for so many; `file`: of the wall, for the message.
+  void build(MPI_Comm comm, const std::string& file, const nurbs::MultiPatch& surface,
+             const nurbs::NodalVectors& control_points, const coupling::RigidFrame& frame, int cells);
+
+  int triangle_count() const { return static_cast<int>(mesh_.triangles.size()); }
+  /// Three numbers of corner i, three corners to a triangle.
+  double* corner(int i) { return mesh_.vertices.col(mesh_.triangles[i / 3][i % 3]).data(); }
+
+ private:
+  nurbs::TriangleMesh mesh_;
+};
+
+}  // namespace liggghts_pkg
+
+#endif

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "wall_columns.h"
+
+#include <cstddef>
+
+namespace liggghts_pkg {
+
+using contact::ContactTotals;
+using contact::WallContact;
+
+namespace {
+
+// In this order: the first of ContactTotals, the structure, its probes (three each), power, work.
+constexpr int kTotalColumns = offsetof(ContactTotals, power) / sizeof(double);
+constexpr int kStructureColumns = 9;
+constexpr int kWorkColumns = 3;
+static_assert(offsetof(WallContact, torque) == WallColumns::kLocalColumns * sizeof(double),
+              "WallContact begins with the local columns");
+
+}  // namespace
+
+int WallColumns::count() const {
+  return kTotalColumns + kStructureColumns + 3 * static_cast<int>(structure_.probes().size()) + 1 +
+         kWorkColumns;
+}
+
+double WallColumns::operator[](int column) {
+  const int power = count() - 1 - kWorkColumns;
+  if (column == power) return totals().power;
+  if (column > power) {
+    const coupling::Work work = structure_.work();
+    return column == power + 1 ? work.contacts : column == power + 2 ? work.loads : work.internal;
+  }
+  if (column < kTotalColumns) return reinterpret_cast<const double*>(&totals())[column];
+  return of_structure(column - kTotalColumns);
+}
+
+const ContactTotals& WallColumns::totals() {
+  if (!totals_are_summed_) totals_ = sums_.over_ranks(loop_.contacts(), comm_);
+  totals_are_summed_ = true;
+  return totals_;
+}
+
+double WallColumns::of_structure(int column) const {
+  if (column < 3) return structure_.linear_momentum()[column];
+  if (column < 6) return structure_.angular_momentum(coupling::Vector3::Zero())[column - 3];
+  if (column == 6) return structure_.kinetic_energy();
+  if (column == 7) return structure_.strain_energy();
+  if (column == 8) return structure_.stable_time_step();
+  const int probe = (column - kStructureColumns) / 3, direction = (column - kStructureColumns) % 3;
+  return structure_.probes()[probe].displacement[direction];
+}
+
+// dump local reads the array without asking for it.
+void WallColumns::contacts_are_new() {
+  totals_are_summed_ = false;
+  const std::vector<WallContact>& contacts = loop_.contacts();
+  const auto row = [&](size_t k) { return const_cast<double*>(&contacts[k].tag); };
+  const bool moved = !local_rows_.empty() && !contacts.empty() && local_rows_[0] != row(0);
+  if (!moved && local_rows_.size() >= contacts.size()) return;
+  local_rows_.resize(contacts.size());
+  for (size_t k = 0; k < contacts.size(); ++k) local_rows_[k] = row(k);
+}
+
+}  // namespace liggghts_pkg

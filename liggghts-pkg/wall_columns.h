@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What fix wall/nurbs shows: its vector (`f_ID[n]`) and its local array (`dump local`).  Columns:
+// doc/fix_wall_nurbs.md.
+#ifndef LMP_WALL_COLUMNS_H
+#define LMP_WALL_COLUMNS_H
+
+#include <mpi.h>
+
+#include <vector>
+
+#include "coupling/contact/contact_totals.h"
+#include "coupling/structure_solver.h"
+
+namespace liggghts_pkg {
+
+class WallColumns {
+ public:
+  static constexpr int kLocalColumns = 11;
+
+  WallColumns(const coupling::StructureSolver& structure, const contact::ContactLoop& loop, MPI_Comm comm)
+      : structure_(structure), loop_(loop), comm_(comm) {}
+
+  int count() const;
+  /// From 0; collective.
+  double operator[](int column);
+  /// After each evaluation of the contacts.
+  void contacts_are_new();
+
+  /// A row for each of this rank's contacts.
+  int local_row_count() const { return static_cast<int>(loop_.contacts().size()); }
+  double** local_rows() { return local_rows_.data(); }
+
+ private:
+  const contact::ContactTotals& totals();
+  double of_structure(int column) const;
+
+  const coupling::StructureSolver& structure_;
+  const contact::ContactLoop& loop_;
+  MPI_Comm comm_;
+  contact::ContactSums sums_;
+  contact::ContactTotals totals_{};
+  bool totals_are_summed_ = false;
+  std::vector<double*> local_rows_;
+};
+
+}  // namespace liggghts_pkg
+
+#endif

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "wall_restart.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+
+#include "coupling/all_or_none.h"
+#include "lammps.h"
+#include "modify.h"
+#include "update.h"
+
+namespace liggghts_pkg {
+
+void WallRestart::write(std::FILE* file, const WallState::Origin& origin, const WallOutput* output) const {
+  const std::vector<double> fields =
+      output ? output->save(lmp_->update->get_cur_time()) : std::vector<double>();
+  const std::vector<double> all = pack({structure_.save(), fields, origin});
+  const int bytes = restart_bytes(all.size());
+  coupling::on_first_rank(lmp_->world, [&] {
+    if (std::fwrite(&bytes, sizeof(int), 1, file) != 1 ||
+        std::fwrite(all.data(), sizeof(double), all.size(), file) != all.size() || std::fflush(file) != 0)
+      throw std::runtime_error(fmt::format(
+          "cannot write its {} bytes to the restart file: {}; make room, or write the file elsewhere", bytes,
+          std::strerror(errno)));
+  });
+}
+
+void WallRestart::read(const char* buffer, const WallState::Origin& origin, WallOutput* output) {
+  const WallState state = unpack_wall_state(buffer);
+  if (state.origin)
+    check_origin(*state.origin, origin, file_);
+  else
+    messages_.warn(
+        fmt::format("an older version wrote the restart file, which does not tell whether it belongs to the "
+                    "geometry, mesh, material and supports of '{}', nor to these contact models",
+                    file_));
+  structure_.load(state.structure);
+  if (output && !state.fields.empty()) output->load(state.fields, lmp_->update->ntimestep);
+  if (!output && !state.fields.empty())
+    messages_.warn("wear and fields in the restart file are not taken: the fix has no 'output'");
+  taken_ = true;
+}
+
+void WallRestart::note_walls_in_file(const char* style) {
+  LAMMPS_NS::Modify& modify = *lmp_->modify;
+  for (int k = 0; k < modify.n_restart_data_global_style(const_cast<char*>(style)); ++k)
+    walls_in_file_.emplace_back(modify.id_restart_data_global_style(const_cast<char*>(style), k));
+}
+
+void WallRestart::warn_of_state_not_taken() {
+  for (const std::string& other : walls_in_file_)
+    if (!taken_ && lmp_->modify->find_fix(other.c_str()) < 0)
+      messages_.warn(
+          fmt::format("the restart file holds pose, structure and contact history of a wall with the ID {0}, "
+                      "which no fix has taken, and nothing for {1}: this wall starts anew; name it {0} if it "
+                      "is the same",
+                      other, id_));
+  walls_in_file_.clear();
+}
+
+}  // namespace liggghts_pkg

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a wall leaves in restart files and takes from them: the structure's state with what it belongs to
+// (wall_state.h), the surface fields.  Contact memory restarts with its fix property/atom.
+#ifndef LMP_WALL_RESTART_H
+#define LMP_WALL_RESTART_H
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "coupling/structure_solver.h"
+#include "wall_messages.h"
+#include "wall_output.h"
+#include "wall_state.h"
+
+namespace LAMMPS_NS {
+class LAMMPS;
+}
+
+namespace liggghts_pkg {
+
+class WallRestart {
+ public:
+  /// `file`: of the wall, for messages.
+  WallRestart(LAMMPS_NS::LAMMPS* lmp, const std::string& id, const std::string& file,
+              coupling::StructureSolver& structure)
+      : lmp_(lmp), id_(id), file_(file), structure_(structure), messages_(lmp, id) {}
+
+  /// Collective.  Throws std::exception on every rank if the file cannot be written.
+  void write(std::FILE* file, const WallState::Origin& origin, const WallOutput* output) const;
+  /// Of the bytes that LIGGGHTS read.  Throws std::exception if they belong to something else.
+  void read(const char* buffer, const WallState::Origin& origin, WallOutput* output);
+
+  /// LIGGGHTS hands a state to the fix of the same ID, and to nobody if there is none: notes which walls of
+  /// this style are in the restart file, and warns before the first run if theirs was meant.
+  void note_walls_in_file(const char* style);
+  void warn_of_state_not_taken();
+
+ private:
+  LAMMPS_NS::LAMMPS* lmp_;
+  std::string id_, file_;
+  coupling::StructureSolver& structure_;
+  WallMessages messages_;
+  bool taken_ = false;
+  std::vector<std::string> walls_in_file_;  // until the first run
+};
+
+}  // namespace liggghts_pkg
+
+#endif
