@@ -7,16 +7,19 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "nurbs/assert.h"
 #include "structure/time/stable_time_step.h"
 
 namespace structure {
 
-ExplicitSolver::ExplicitSolver(std::unique_ptr<Body> body, Supports supports)
+ExplicitSolver::ExplicitSolver(std::unique_ptr<Body> body, Supports supports,
+                               std::unique_ptr<const Halo> halo)
     : body_(std::move(body)),
       supports_(std::move(supports)),
-      mass_(std::make_unique<LumpedMass>(body_->row_sum_mass())),
+      halo_(std::move(halo)),
+      mass_(std::make_unique<LumpedMass>(whole(*halo_, body_->row_sum_mass()))),
       f_ext_(NodalVectors::Zero(3, body_->node_count())),
       f_int_(f_ext_),
       F_(f_ext_),
@@ -37,6 +40,7 @@ void ExplicitSolver::set_load(const NodalVectors& f_ext) {
   check_size(f_ext, "load");
   budget_.reset();
   f_ext_ = f_ext;
+  halo_->sum_to_owners(f_ext_);
 }
 
 void ExplicitSolver::set_velocities(const NodalVectors& v) {
@@ -56,7 +60,7 @@ void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   check_size(F, "forces");
   body_->internal_force(u_, f_int_);
   update_accelerations(F);
-  power_ = (f_ext_ + F).cwiseProduct(v_).sum();
+  power_ = power(F);
   start_energy_budget();
   check_divergence(F);
   ledger_ = WorkLedger();
@@ -66,7 +70,7 @@ void ExplicitSolver::half_kick() {
   v_sum_ = v_;
   v_ += 0.5 * dt_ * a_;
   v_sum_ += v_;
-  ledger_.half_kick(0.5 * dt_, v_sum_, f_int_, f_ext_, F_);
+  ledger_.half_kick(0.5 * dt_, halo_->own(v_sum_), halo_->own(f_int_), halo_->own(f_ext_), halo_->own(F_));
 }
 
 void ExplicitSolver::begin_step() {
@@ -83,59 +87,75 @@ void ExplicitSolver::end_step(const NodalVectors& F) {
   half_kick();
   body_->commit();
   time_ += dt_;
-  const double power = (f_ext_ + F).cwiseProduct(v_).sum();
+  const double power_before = std::exchange(power_, power(F));
   if (budget_)
-    budget_->add(0.5 * dt_ * (power_ + power));
+    budget_->add(0.5 * dt_ * (power_before + power_));
   else
     start_energy_budget();
-  power_ = power;
   check_divergence(F);
 }
 
 void ExplicitSolver::start_energy_budget() {
   constexpr double kNegligibleStrain = 1e-9;
-  const double kick = 0.125 * dt_ * dt_ * a_.colwise().squaredNorm().dot(mass_->nodal_mass());
-  budget_.emplace(
-      kinetic_energy() + strain_energy() + kick,
-      body_->material().youngs_modulus() * body_->volume() * kNegligibleStrain * kNegligibleStrain);
+  const double kick = 0.125 * dt_ * dt_ * halo_->sum(nodal_sum(a_));
+  budget_.emplace(kinetic_energy() + strain_energy() + kick, body_->material().youngs_modulus() *
+                                                                 halo_->sum(body_->volume()) *
+                                                                 kNegligibleStrain * kNegligibleStrain);
 }
 
 void ExplicitSolver::check_divergence(const NodalVectors& F) const {
+  const double kinetic = kinetic_energy();
   const bool good =
-      budget_->allows(kinetic_energy()) && a_.allFinite() && u_.cwiseAbs().maxCoeff() <= kLargestDisplacement;
-  if (!good)
+      budget_->allows(kinetic) && a_.allFinite() && u_.cwiseAbs().maxCoeff() <= kLargestDisplacement;
+  if (halo_->any(!good))
     throw Diverged(describe_divergence(
-        {*body_, *mass_, u_, v_, a_, F, time_, dt_, stable_time_step_, kinetic_energy(), budget_->most()}));
+        {*body_, *mass_, u_, v_, a_, F, time_, dt_, stable_time_step_, kinetic, budget_->most()}));
 }
 
 void ExplicitSolver::update_accelerations(const NodalVectors& F) {
+  halo_->sum_to_owners(f_int_);
   F_ = F;
   residual_ = f_ext_ + F_ - f_int_;
   NURBS_ASSERT(residual_.cols() == mass_->nodal_mass().size(), residual_.cols(), mass_->nodal_mass().size());
   mass_->apply_inverse_mass(residual_, a_);
   supports_.apply(a_);
+  halo_->owners_to_ghosts(a_);
 }
 
 double ExplicitSolver::stable_time_step() const {
-  if (!stable_time_step_) stable_time_step_ = structure::stable_time_step(*body_, *mass_, supports_, u_);
+  if (!stable_time_step_)
+    stable_time_step_ = structure::stable_time_step(*body_, *mass_, supports_, u_, *halo_);
   return *stable_time_step_;
 }
 
-double ExplicitSolver::kinetic_energy() const {
-  return 0.5 * v_.colwise().squaredNorm().dot(mass_->nodal_mass());
+double ExplicitSolver::power(const NodalVectors& F) const {
+  return halo_->sum((halo_->own(f_ext_) + halo_->own(F)).cwiseProduct(halo_->own(v_)).sum());
 }
 
-double ExplicitSolver::strain_energy() const { return body_->strain_energy(u_); }
+double ExplicitSolver::nodal_sum(const NodalVectors& q) const {
+  return halo_->own(q).colwise().squaredNorm().dot(mass_->nodal_mass().head(halo_->owned(q.cols())));
+}
 
-double ExplicitSolver::load_work() const { return f_ext_.cwiseProduct(u_).sum(); }
+double ExplicitSolver::kinetic_energy() const { return 0.5 * halo_->sum(nodal_sum(v_)); }
 
-Vector3 ExplicitSolver::linear_momentum() const { return v_ * mass_->nodal_mass(); }
+double ExplicitSolver::strain_energy() const { return halo_->sum(body_->strain_energy(u_)); }
+
+Work ExplicitSolver::work() const {
+  const Work own = ledger_.work();
+  return {halo_->sum(own.internal), halo_->sum(own.loads), halo_->sum(own.forces)};
+}
+
+double ExplicitSolver::load_work() const { return halo_->dot(f_ext_, u_); }
+
+Vector3 ExplicitSolver::linear_momentum() const {
+  return halo_->sum(Vector3(halo_->own(v_) * mass_->nodal_mass().head(halo_->owned(v_.cols()))));
+}
 
 Vector3 ExplicitSolver::angular_momentum(const Vector3& about) const {
   Vector3 L = Vector3::Zero();
-  for (int A = 0; A < x_.cols(); ++A)
+  for (Eigen::Index A = 0; A < halo_->owned(x_.cols()); ++A)
     L += (x_.col(A) - about).cross(mass_->nodal_mass()[A] * Vector3(v_.col(A)));
-  return L;
+  return halo_->sum(L);
 }
 
 std::vector<double> ExplicitSolver::save() const {

@@ -12,6 +12,7 @@
 
 #include "structure/body.h"
 #include "structure/conditions/supports.h"
+#include "structure/halo.h"
 #include "structure/time/divergence.h"
 #include "structure/time/mass.h"
 #include "structure/time/work_ledger.h"
@@ -21,17 +22,21 @@ namespace structure {
 /// All nodal arrays are 3 x node_count.  Fixed dofs have u = v = a = 0 and take any force.
 class ExplicitSolver {
  public:
-  /// At rest, undeformed, row-sum lumped mass.
-  ExplicitSolver(std::unique_ptr<Body> body, Supports supports);
+  /// At rest, undeformed, row-sum lumped mass.  Of a body that is cut, each part has a solver, and what is
+  /// asked of all nodes (energies, momenta, work, stable step) is collective, as the steps are.
+  ExplicitSolver(std::unique_ptr<Body> body, Supports supports,
+                 std::unique_ptr<const Halo> halo = std::make_unique<const Halo>());
 
-  /// Constant external nodal forces f_ext [force]; throws std::invalid_argument if the size does not fit.
+  /// Constant external nodal forces f_ext [force], of a cut body each part's share; throws
+  /// std::invalid_argument if the size does not fit.
   void set_load(const NodalVectors& f_ext);
   /// Current velocities [length/time], set to 0 at fixed dofs; throws as above.
   void set_velocities(const NodalVectors& v);
   /// dt [time]; throws std::invalid_argument unless it is positive and finite.
   void set_time_step(double dt);
 
-  /// Accelerations for the current state under further nodal forces F [force]; advances nothing.  Call before
+  /// Accelerations for the current state under further nodal forces F [force], whole at the nodes that the
+  /// part owns; advances nothing.  Call before
   /// the first step and whenever state or loads were set.  Throws Diverged as end_step does.
   void initialise_forces(const NodalVectors& F);
   /// Half kick and drift; throws std::logic_error before set_time_step.
@@ -57,7 +62,7 @@ class ExplicitSolver {
   double kinetic_energy() const;  ///< sum m_A |v_A|^2 / 2
   double strain_energy() const;
   /// Since initialise_forces: kinetic energy + internal - loads - forces is constant to round-off.
-  Work work() const { return ledger_.work(); }
+  Work work() const;
   double load_work()
       const;  ///< f_ext . u: kinetic + strain energy - load work is conserved without further forces
   Vector3 linear_momentum() const;                       ///< sum m_A v_A
@@ -71,14 +76,18 @@ class ExplicitSolver {
 
  private:
   void check_size(const NodalVectors& values, const char* what) const;
-  /// From f_int_, f_ext_ and F.
+  /// From the part's share of f_int_, f_ext_ and F.
   void update_accelerations(const NodalVectors& F);
+  double power(const NodalVectors& F) const;
+  /// Sum of m_A |q_A|^2 over the nodes that the part owns.
+  double nodal_sum(const NodalVectors& q) const;
   void start_energy_budget();
   void check_divergence(const NodalVectors& F) const;
   void half_kick();
 
   std::unique_ptr<Body> body_;
   Supports supports_;
+  std::unique_ptr<const Halo> halo_;
   std::unique_ptr<MassOperator> mass_;
   double dt_ = 0.0, time_ = 0.0;
   NodalVectors f_ext_, f_int_, F_, residual_, u_, x_, v_, a_;

@@ -5,6 +5,7 @@
 
 #include "structure/body.h"
 #include "structure/conditions/supports.h"
+#include "structure/halo.h"
 #include "structure/time/mass.h"
 
 namespace structure {
@@ -20,7 +21,7 @@ constexpr double kStableStepSafety = 0.98;
 /// iteration does not converge or meets numbers that are not finite, and std::logic_error if the result
 /// contradicts the element bounds.
 double stable_time_step(const Body& body, const MassOperator& mass, const Supports& supports,
-                        const NodalVectors& u);
+                        const NodalVectors& u, const Halo& halo = Halo());
 
 /// Bounds of omega_max^2 [1/time^2] from single elements, for row-sum lumped mass.
 struct EigenvalueBounds {
@@ -29,6 +30,7 @@ struct EigenvalueBounds {
 };
 /// The elements' eigenvalues themselves come from a few power iterations, so `high` may be short by some per
 /// cent.
-EigenvalueBounds element_eigenvalue_bounds(const Body& body, const Supports& supports, const NodalVectors& u);
+EigenvalueBounds element_eigenvalue_bounds(const Body& body, const Supports& supports, const NodalVectors& u,
+                                           const Halo& halo = Halo());
 
 }  // namespace structure

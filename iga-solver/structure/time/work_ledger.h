@@ -34,9 +34,11 @@ class CompensatedSum {
 
 class WorkLedger {
  public:
+  using Values = Eigen::Ref<const nurbs::NodalVectors>;
+
   /// dt/2 and twice the mean velocity v + v' of a half kick; fixed dofs have v = v' = 0.
-  void half_kick(double half_step, const nurbs::NodalVectors& v_sum, const nurbs::NodalVectors& f_int,
-                 const nurbs::NodalVectors& f_ext, const nurbs::NodalVectors& F) {
+  void half_kick(double half_step, const Values& v_sum, const Values& f_int, const Values& f_ext,
+                 const Values& F) {
     const double factor = 0.5 * half_step;
     internal_.add(factor * f_int.cwiseProduct(v_sum).sum());
     loads_.add(factor * f_ext.cwiseProduct(v_sum).sum());

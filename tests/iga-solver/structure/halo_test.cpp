@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A body in two parts, each with a solver and a thread of its own, moves as the whole does: the seam is
+// enough.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <condition_variable>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "models.h"
+#include "nurbs/primitives.h"
+#include "standard_linear_solid.h"
+#include "structure/conditions/loads.h"
+#include "structure/solid/solid.h"
+#include "structure/time/explicit_solver.h"
+
+namespace {
+
+using models::NodalVectors;
+using models::Vector3;
+using structure::ExplicitSolver;
+using structure::Solid;
+
+/// Where the two threads meet: each leaves numbers, and takes those of the other.
+class MeetingPlace {
+ public:
+  std::vector<double> swap(int part, std::vector<double> mine) {
+    std::unique_lock lock(mutex_);
+    left_[part] = std::move(mine);
+    meet(lock);
+    std::vector<double> theirs = left_[1 - part];
+    meet(lock);
+    return theirs;
+  }
+
+ private:
+  void meet(std::unique_lock<std::mutex>& lock) {
+    const int round = round_;
+    if (++arrived_ == 2) {
+      arrived_ = 0;
+      ++round_;
+      both_.notify_all();
+    } else {
+      both_.wait(lock, [&] { return round_ != round; });
+    }
+  }
+
+  std::mutex mutex_;
+  std::condition_variable both_;
+  std::array<std::vector<double>, 2> left_;
+  int arrived_ = 0, round_ = 0;
+};
+
+/// Part 0 is below the cut, and its last nodes are ghosts of the first nodes of part 1.
+class TwoPartHalo final : public structure::Halo {
+ public:
+  using Halo::sum;
+  TwoPartHalo(MeetingPlace& place, int part, int shared) : place_(place), part_(part), shared_(shared) {}
+
+  Eigen::Index owned(Eigen::Index held) const override { return part_ == 0 ? held - shared_ : held; }
+  void sum_to_owners(NodalVectors& values) const override {
+    const NodalVectors theirs = swapped(values);
+    if (part_ == 1) values.leftCols(shared_) += theirs;
+  }
+  void owners_to_ghosts(NodalVectors& values) const override {
+    const NodalVectors theirs = swapped(values);
+    if (part_ == 0) values.rightCols(shared_) = theirs;
+  }
+  void sum(double* values, std::size_t count) const override {
+    const std::vector<double> theirs = place_.swap(part_, {values, values + count});
+    for (std::size_t i = 0; i < count; ++i)
+      values[i] = part_ == 0 ? values[i] + theirs[i] : theirs[i] + values[i];
+  }
+  double largest(double value) const override {
+    const double theirs = place_.swap(part_, {value}).front();
+    return std::isnan(value) || value > theirs ? value : theirs;
+  }
+
+ private:
+  NodalVectors swapped(const NodalVectors& values) const {
+    const NodalVectors mine = part_ == 0 ? values.rightCols(shared_) : values.leftCols(shared_);
+    const std::vector<double> theirs = place_.swap(part_, {mine.data(), mine.data() + mine.size()});
+    return Eigen::Map<const NodalVectors>(theirs.data(), 3, shared_);
+  }
+
+  MeetingPlace& place_;
+  int part_, shared_;
+};
+
+/// A tower of two distorted cubes of 2 x 2 x 2 elements, one on the other: the basis is only continuous at
+/// the cut, so that each cube is a patch of its own.  Nodes go up layer by layer.
+struct Tower {
+  static constexpr int kLayer = 16, kShared = kLayer, kHalf = 4 * kLayer, kWhole = 7 * kLayer;
+  nurbs::KnotVector fine = nurbs::KnotVector::uniform(2, 2), tall{2, {0, 0, 0, .25, .5, .5, .75, 1, 1, 1}};
+  nurbs::Volume whole =
+      models::distorted(nurbs::box(Vector3::Zero(), Vector3(2, 2, 4), {fine, fine, tall}), 0.1);
+
+  std::unique_ptr<Solid> solid(nurbs::Volume patch) const {
+    return std::make_unique<Solid>(std::move(patch),
+                                   std::make_shared<test::StandardLinearSolid>(1.0, 0.3, 1.0, 0.4, 2.0));
+  }
+  std::unique_ptr<Solid> half(int part) const {
+    return solid({nurbs::Space<3>({fine, fine, fine}), own(whole.control_points, part)});
+  }
+  static NodalVectors own(const NodalVectors& values, int part) {
+    return part == 0 ? values.leftCols(kHalf) : values.rightCols(kHalf);
+  }
+};
+
+/// What a run gives.
+struct Results {
+  NodalVectors u, v;
+  double stable, kinetic, strain, load_work;
+  structure::Work work;
+  Vector3 linear, angular;
+  std::optional<double> blown_up_at;
+};
+
+/// From random velocities v, under gravity and forces F, fixed at the foot if it has one.
+Results run(ExplicitSolver solver, const NodalVectors& v, const NodalVectors& F, double dt, int steps) {
+  Results r;
+  solver.set_load(structure::gravity_load(solver.body(), {0.01, 0.0, -0.02}));
+  solver.set_velocities(v);
+  r.stable = solver.stable_time_step();
+  solver.set_time_step(dt);
+  try {
+    solver.initialise_forces(F);
+    for (int n = 0; n < steps; ++n) {
+      solver.begin_step();
+      solver.end_step(F);
+    }
+  } catch (const structure::Diverged&) {
+    r.blown_up_at = solver.time();
+    return r;
+  }
+  r.u = solver.displacements(), r.v = solver.velocities();
+  r.kinetic = solver.kinetic_energy(), r.strain = solver.strain_energy(), r.load_work = solver.load_work();
+  r.work = solver.work();
+  r.linear = solver.linear_momentum(), r.angular = solver.angular_momentum({1, 2, 3});
+  return r;
+}
+
+structure::Supports foot(const nurbs::Space<3>& space) {
+  structure::Supports supports;
+  supports.fix(structure::nodes_on(space, {nurbs::Face::zeta_minus}), {true, true, false});
+  return supports;
+}
+
+struct Runs {
+  Results whole;
+  std::array<Results, 2> parts;
+};
+
+Runs run_both(double dt, int steps) {
+  const Tower tower;
+  const NodalVectors v = 0.1 * models::random_vectors(Tower::kWhole, 5),
+                     F = 0.01 * models::random_vectors(Tower::kWhole, 6);
+  Runs runs;
+  runs.whole = run(ExplicitSolver(tower.solid(tower.whole), foot(tower.whole.space)), v, F, dt, steps);
+  MeetingPlace place;
+  const auto run_part = [&](int part) {
+    std::unique_ptr<Solid> half = tower.half(part);
+    structure::Supports supports = part == 0 ? foot(half->patch().space) : structure::Supports();
+    runs.parts[part] = run(ExplicitSolver(std::move(half), std::move(supports),
+                                          std::make_unique<TwoPartHalo>(place, part, Tower::kShared)),
+                           Tower::own(v, part), Tower::own(F, part), dt, steps);
+  };
+  std::thread lower([&] { run_part(0); });
+  run_part(1);
+  lower.join();
+  return runs;
+}
+
+TEST(Halo, TwoPartsMoveAsTheWholeBodyDoes) {
+  const Runs runs = run_both(0.1, 100);
+  const Results& whole = runs.whole;
+  ASSERT_EQ(whole.u.cols(), Tower::kWhole);
+  for (int part = 0; part < 2; ++part) {
+    SCOPED_TRACE(part);
+    const Results& r = runs.parts[part];
+    EXPECT_LT((r.u - Tower::own(whole.u, part)).norm(), 1e-12 * whole.u.norm());
+    EXPECT_LT((r.v - Tower::own(whole.v, part)).norm(), 1e-12 * whole.v.norm());
+    EXPECT_NEAR(r.stable / whole.stable, 1.0, 1e-3) << "two iterations from two random vectors";
+    EXPECT_NEAR(r.kinetic / whole.kinetic, 1.0, 1e-12);
+    EXPECT_NEAR(r.strain / whole.strain, 1.0, 1e-12);
+    EXPECT_NEAR(r.load_work / whole.load_work, 1.0, 1e-12);
+    EXPECT_NEAR(r.work.internal / whole.work.internal, 1.0, 1e-12);
+    EXPECT_NEAR(r.work.loads / whole.work.loads, 1.0, 1e-12);
+    EXPECT_NEAR(r.work.forces / whole.work.forces, 1.0, 1e-12);
+    EXPECT_LT((r.linear - whole.linear).norm(), 1e-12 * whole.linear.norm());
+    EXPECT_LT((r.angular - whole.angular).norm(), 1e-12 * whole.angular.norm());
+  }
+  EXPECT_EQ(runs.parts[0].u.rightCols(Tower::kShared), runs.parts[1].u.leftCols(Tower::kShared))
+      << "ghosts move as their owners, to the last bit";
+  EXPECT_EQ(runs.parts[0].kinetic, runs.parts[1].kinetic);
+  EXPECT_EQ(runs.parts[0].stable, runs.parts[1].stable);
+}
+
+TEST(Halo, BothPartsNoticeThatTheBodyBlowsUp) {
+  const Runs runs = run_both(1.0, 1000);
+  ASSERT_TRUE(runs.whole.blown_up_at);
+  for (const Results& r : runs.parts) {
+    ASSERT_TRUE(r.blown_up_at);
+    EXPECT_EQ(*r.blown_up_at, *runs.whole.blown_up_at);
+  }
+}
+
+}  // namespace
