@@ -161,6 +161,7 @@ def draw_material(rng: Random, wall: Wall, conservative: bool) -> dict:
         "cohesionEnergyDensity": pairs(1e3, 2e4),
         "characteristicVelocity": "scalar 0.5",
         "penaltyFactor": pairs(0.8, 1.2),
+        "yieldPressure": "peratomtype " + " ".join(repr(rng.uniform(0.01, 0.1) * modulus) for modulus in E),
     }
     return dict(E=E, nu=nu, e=e, mu=mu, further=further)
 
@@ -168,6 +169,8 @@ def draw_material(rng: Random, wall: Wall, conservative: bool) -> dict:
 def draw_models(rng: Random, conservative: bool, stock: bool) -> tuple[str, str]:
     """Contact models, and settings of them."""
     normal = rng.choice(("hertz", "hertz", "hertz", "hooke") if stock else ("hertz", "hertz", "hooke", "penalty/hertz"))
+    if not stock and not conservative and rng.random() < 0.2:
+        normal = "plastic/thornton"
     if conservative:
         return f"model {normal} tangential {rng.choice(('no_history', 'history'))}", ""
     words = [f"model {normal}", f"tangential {rng.choice(('history', 'history', 'no_history'))}"]
