@@ -324,17 +324,22 @@ Shape read_sized(const ShapeKey& shape, const YamlMap& map) {
   }
 }
 
-constexpr std::initializer_list<const char*> kKeys = {"box",    "rolled_plate", "plane", "cylinder", "cone",
-                                                      "sphere", "torus",        "tube",  "patches",  "file"};
+std::vector<std::string> all_keys() {
+  std::vector<std::string> keys;
+  for (const ShapeKey& shape : kShapes) keys.emplace_back(shape.key);
+  keys.insert(keys.end(), {"patches", "file"});
+  return keys;
+}
 
 }  // namespace
 
 std::vector<Shape> read_shapes(const YamlMap& geometry) {
-  geometry.allow_only(kKeys);
+  const std::vector<std::string> known = all_keys();
+  geometry.allow_only(known);
   const size_t given = geometry.keys().size();
   if (given != 1)
     geometry.fail("geometry",
-                  fmt::format("{} geometries given, expected one of: {}", given, fmt::join(kKeys, ", ")));
+                  fmt::format("{} geometries given, expected one of: {}", given, fmt::join(known, ", ")));
   for (const ShapeKey& shape : kShapes)
     if (geometry.has(shape.key)) return {read_sized(shape, geometry.map(shape.key))};
   return read_patches(geometry);

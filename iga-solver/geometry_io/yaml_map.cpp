@@ -94,8 +94,7 @@ const YamlNode* YamlMap::find(const std::string& key) const {
   return nullptr;
 }
 
-void YamlMap::allow_only(std::initializer_list<const char*> keys) const {
-  const std::vector<std::string> allowed(keys.begin(), keys.end());
+void YamlMap::allow_only(const std::vector<std::string>& allowed) const {
   for (const std::string& key : this->keys()) {
     if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
     const std::string nearest = nearest_word(key, allowed);

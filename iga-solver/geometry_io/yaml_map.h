@@ -32,7 +32,7 @@ class YamlMap {
 
   /// InputError at the first key not listed, with the nearest listed key ("did you mean 'density'?"); also if
   /// a key is given twice.
-  void allow_only(std::initializer_list<const char*> keys) const;
+  void allow_only(const std::vector<std::string>& allowed) const;
   bool has(const std::string& key) const;
   /// Whether the key's value is a list.
   bool is_list(const std::string& key) const;

@@ -5,8 +5,7 @@
 
 #include "geometry_io/file_kind.h"
 #include "structure/conditions/loads.h"
-#include "structure/material/linear_elastic.h"
-#include "structure/material/saint_venant_kirchhoff.h"
+#include "structure/material/laws.h"
 #include "structure/solid/solid.h"
 
 namespace io {
@@ -15,30 +14,23 @@ using geometry_io::YamlMap;
 
 namespace {
 
-template <class IsotropicLaw>
-std::shared_ptr<const structure::Material> read_isotropic(const YamlMap& map) {
-  map.allow_only({"law", "youngs_modulus", "poissons_ratio", "density"});
-  return std::make_shared<IsotropicLaw>(map.number("youngs_modulus", geometry_io::positive()),
-                                        map.number("poissons_ratio", {-1.0, 0.5}),
-                                        map.number("density", geometry_io::positive()));
+std::shared_ptr<const structure::Material> read_constants(const YamlMap& map,
+                                                          const structure::MaterialLaw& law) {
+  std::vector<std::string> keys = {"law"};
+  for (const structure::MaterialConstant& constant : law.constants) keys.emplace_back(constant.key);
+  map.allow_only(keys);
+  std::vector<double> values;
+  for (const structure::MaterialConstant& constant : law.constants)
+    values.push_back(map.number(constant.key, {constant.low, constant.high}));
+  return law.make(values);
 }
-
-/// The word in a model file -> the class.
-struct Law {
-  const char* name;
-  std::shared_ptr<const structure::Material> (*read)(const YamlMap&);
-};
-constexpr Law kLaws[] = {
-    {"linear_elastic", read_isotropic<structure::LinearElastic>},
-    {"saint_venant_kirchhoff", read_isotropic<structure::SaintVenantKirchhoff>},
-};
 
 std::shared_ptr<const structure::Material> read_material(const YamlMap& map) {
   const std::string name = map.word("law");
   std::vector<std::string> known;
-  for (const Law& law : kLaws) {
-    if (name == law.name) return law.read(map);
-    known.emplace_back(law.name);
+  for (const structure::MaterialLaw& law : structure::material_laws()) {
+    if (name == law.word) return read_constants(map, law);
+    known.emplace_back(law.word);
   }
   map.fail("law", fmt::format("law is '{}', expected one of: {}", name, fmt::join(known, ", ")));
 }
