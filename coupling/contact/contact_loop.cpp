@@ -134,9 +134,9 @@ void ContactLoop::find_contacts(const ParticleView& particles, const StepInfo& s
   const ParticleSlots slots = particles.memory.of(i);
   const double radius = particles.radius[i];
   for (TrackedFoot& tracked : tracker_.feet(query, slots)) {
-    SurfaceFoot& foot = tracked.foot;
+    Foot& foot = tracked.foot;
     const bool touches = foot.distance <= radius || foot.distance < query.touch_reach;
-    Vector3 delta = wall_.to_space_direction(query.centre - foot.foot);
+    Vector3 delta = wall_.to_space_direction(query.centre - foot.point);
     if (foot.distance <= wall_.resolution()) {
       const bool is_known = tracked.slot >= 0 && slots.slot(tracked.slot).foot().patch == foot.patch;
       delta = wall_.leave(foot, delta, is_known ? slots.slot(tracked.slot).side() : 0, radius,
@@ -196,7 +196,7 @@ int ContactLoop::take_slot(const ParticleView& particles, const StepInfo& step, 
 void ContactLoop::add_contact(const ParticleView& particles, int i, const TrackedFoot& tracked,
                               const Vector3& delta, const Vector3& v_wall) {
   NURBS_ASSERT(0 <= i && i < particles.count, i, particles.count);
-  const SurfaceFoot& foot = tracked.foot;
+  const Foot& foot = tracked.foot;
   const double radius = particles.radius[i];
   Contact& contact = batch_.emplace_back();
   contact.particle = i;

@@ -10,14 +10,14 @@ namespace contact {
 
 using nurbs::SurfacePoint;
 using nurbs::Vector3;
-using search::SurfaceFoot;
+using search::Foot;
 
 namespace {
 
 constexpr double kSameFoot = 1e-6;  // of the reach: feet closer than this are one contact
 
-bool same(const SurfaceFoot& a, const SurfaceFoot& b, double reach) {
-  return (a.foot - b.foot).squaredNorm() <= kSameFoot * kSameFoot * reach * reach;
+bool same(const Foot& a, const Foot& b, double reach) {
+  return (a.point - b.point).squaredNorm() <= kSameFoot * kSameFoot * reach * reach;
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ void ContactTracker::list_is_new() {
 
 void ContactTracker::follow(const Query* queries, int count) {
   constexpr int kMost = 64;
-  SurfaceFoot* feet[kMost];
+  Foot* feet[kMost];
   Vector3 centres[kMost];
   int n = 0;
   for (const Query* query = queries; query < queries + count; ++query) {
@@ -37,12 +37,12 @@ void ContactTracker::follow(const Query* queries, int count) {
     const State& state = states_[query->candidate];
     NURBS_ASSERT(state.first + state.count <= static_cast<int>(feet_.size()), state.first, state.count);
     for (int k = 0; k < state.count; ++k) {
-      if (n == kMost) search_.follow_batch(centres, feet, n), n = 0;
+      if (n == kMost) search_.advance(centres, feet, n), n = 0;
       feet[n] = &feet_[state.first + k].foot;
       centres[n++] = query->centre;
     }
   }
-  search_.follow_batch(centres, feet, n);
+  search_.advance(centres, feet, n);
 }
 
 // Of a candidate whose branches are not followed, or not yet.
@@ -90,7 +90,7 @@ void ContactTracker::find_all(const Candidate& candidate, const Query& query, do
                        found_);
   keep_one_of_each_valley(query);
   out.clear();
-  for (const SurfaceFoot& foot : found_) out.push_back({foot, -1});
+  for (const Foot& foot : found_) out.push_back({foot, -1});
   match_slots(candidate, query, slots, out.data(), static_cast<int>(out.size()));
 }
 
@@ -99,16 +99,16 @@ void ContactTracker::find_all(const Candidate& candidate, const Query& query, do
 void ContactTracker::keep_one_of_each_valley(const Query& query) {
   constexpr double kEqual = 1e-9;
   if (found_.size() < 2) return;
-  const auto in_valley = [&](const SurfaceFoot& foot) {
+  const auto in_valley = [&](const Foot& foot) {
     return regularity_.in_valley(query.centre - foot.image, foot.at(), foot.distance);
   };
-  const auto repeats = [&](const SurfaceFoot& foot, const SurfaceFoot& kept) {
+  const auto repeats = [&](const Foot& foot, const Foot& kept) {
     return std::abs(foot.distance - kept.distance) <= kEqual * foot.distance && in_valley(kept) &&
            in_valley(foot);
   };
   auto end = found_.begin() + 1;
   for (auto foot = end; foot != found_.end(); ++foot)
-    if (std::none_of(found_.begin(), end, [&](const SurfaceFoot& kept) { return repeats(*foot, kept); }))
+    if (std::none_of(found_.begin(), end, [&](const Foot& kept) { return repeats(*foot, kept); }))
       *end++ = *foot;
   found_.erase(end, found_.end());
 }
@@ -120,7 +120,7 @@ void ContactTracker::match_slots(const Candidate& candidate, const Query& query,
     ContactSlot slot = slots.slot(s);
     if (slot.empty()) continue;
     const SurfacePoint last = slot.foot();
-    const SurfaceFoot now =
+    const Foot now =
         search_.projector().follow(query.centre, last, nearest_image(candidate, last, query.centre));
     TrackedFoot* const end = feet + count;
     TrackedFoot* const found =

@@ -19,7 +19,7 @@
 namespace contact {
 
 struct TrackedFoot {
-  search::SurfaceFoot foot;
+  search::Foot foot;
   int slot;  ///< of the particle's memory; -1: none yet
 };
 struct FeetRange {
@@ -102,7 +102,7 @@ class ContactTracker {
   std::vector<State> states_;          // per candidate
   std::vector<TrackedFoot> feet_;      // of regular candidates
   std::vector<TrackedFoot> all_feet_;  // of one that is not, this step
-  std::vector<search::SurfaceFoot> found_;
+  std::vector<search::Foot> found_;
   double surface_motion_ = 0.0;
 };
 

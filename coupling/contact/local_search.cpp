@@ -9,41 +9,34 @@ namespace contact {
 
 using nurbs::SurfacePoint;
 using nurbs::Vector3;
-using search::ProjectionStatus;
-using search::SurfaceFoot;
+using search::Foot;
+using search::FootStatus;
 
-inline void LocalSearch::count(const SurfaceFoot& foot) {
+inline void LocalSearch::count(const Foot& foot) {
   ++counts_.by_status[static_cast<int>(foot.status)];
   counts_.iterations += foot.iterations;
 }
 
-SurfaceFoot LocalSearch::follow(const Vector3& centre, const SurfacePoint& from, const Vector3& image) {
-  SurfaceFoot foot;
-  foot.status = ProjectionStatus::not_converged;
-  if (method_ == SearchMethod::simplex_brent) {
-    const search::SurfaceProjector& patch = projector_.patch(from.patch);
-    const search::Projection p = search::closest_point_simplex_brent(patch.space(), patch.control_points(),
-                                                                     centre - image, from.xi, true);
-    foot = {p, from.patch, image};
-    foot.foot += image;
-    if (foot.status != ProjectionStatus::interior) ++counts_.fallbacks;
+void LocalSearch::advance(const Vector3* centres, Foot* const* feet, int count_of_feet) {
+  if (method_ == SearchMethod::newton) {
+    projector_.follow(centres, feet, count_of_feet);
+  } else {
+    for (int k = 0; k < count_of_feet; ++k) *feet[k] = simplex_brent(centres[k], *feet[k]);
   }
-  if (foot.status != ProjectionStatus::interior) foot = projector_.follow(centre, from, image);
-  count(foot);
-  return foot;
-}
-
-void LocalSearch::follow_batch(const Vector3* centres, SurfaceFoot* const* feet, int count_of_feet) {
-  if (method_ == SearchMethod::simplex_brent) {
-    for (int k = 0; k < count_of_feet; ++k) *feet[k] = follow(centres[k], feet[k]->at(), feet[k]->image);
-    return;
-  }
-  projector_.follow_batch(centres, feet, count_of_feet);
   for (int k = 0; k < count_of_feet; ++k) count(*feet[k]);
 }
 
+Foot LocalSearch::simplex_brent(const Vector3& centre, const Foot& from) {
+  const search::SurfaceProjector& patch = projector_.patch(from.patch);
+  const Foot foot = search::closest_point_simplex_brent(patch.space(), patch.control_points(),
+                                                        centre - from.image, from.xi, true);
+  if (foot.status == FootStatus::interior) return search::placed(foot, from.patch, from.image);
+  ++counts_.fallbacks;
+  return projector_.follow(centre, from.at(), from.image);
+}
+
 void LocalSearch::add_minima(const Vector3& centre, const Vector3& image, double reach, double same_foot,
-                             const int* elements, int count_of_elements, std::vector<SurfaceFoot>& out) {
+                             const int* elements, int count_of_elements, std::vector<Foot>& out) {
   const size_t before = out.size();
   projector_.add_minima(centre, image, reach, same_foot, elements, count_of_elements, out);
   counts_.cold += static_cast<long>(out.size() - before);

@@ -22,33 +22,29 @@ class LocalSearch {
   LocalSearch(SearchMethod method, const search::MultiPatchProjector& projector)
       : method_(method), projector_(projector) {}
 
-  /// The foot that a branch has come to: the local minimum reached from a point of the surface moved by
-  /// `image`.
-  search::SurfaceFoot follow(const nurbs::Vector3& centre, const nurbs::SurfacePoint& from,
-                             const nurbs::Vector3& image);
-  /// The same for many branches, each foot in place.
-  void follow_batch(const nurbs::Vector3* centres, search::SurfaceFoot* const* feet, int count);
+  /// Takes feet[k], on the image of the surface where it is, to the local minimum that it has come to for
+  /// centres[k].
+  void advance(const nurbs::Vector3* centres, search::Foot* const* feet, int count);
   /// All feet nearer than `reach` on candidate elements, as MultiPatchProjector::add_minima.
   void add_minima(const nurbs::Vector3& centre, const nurbs::Vector3& image, double reach, double same_foot,
-                  const int* elements, int count, std::vector<search::SurfaceFoot>& out);
+                  const int* elements, int count, std::vector<search::Foot>& out);
   const search::MultiPatchProjector& projector() const { return projector_; }
 
   /// Feet found since the last reset, on this rank.
   struct Counts {
-    long by_status[4];  ///< in the order of search::ProjectionStatus
+    long by_status[4];  ///< in the order of search::FootStatus
     long cold;          ///< found by a search of all candidates
     long fallbacks;     ///< simplex_brent found no interior foot
     long iterations;    ///< of the methods that found the feet, all together
 
-    long not_converged() const {
-      return by_status[static_cast<int>(search::ProjectionStatus::not_converged)];
-    }
+    long not_converged() const { return by_status[static_cast<int>(search::FootStatus::not_converged)]; }
   };
   const Counts& counts() const { return counts_; }
   void reset() { counts_ = Counts(); }
 
  private:
-  void count(const search::SurfaceFoot& foot);
+  void count(const search::Foot& foot);
+  search::Foot simplex_brent(const nurbs::Vector3& centre, const search::Foot& from);
 
   SearchMethod method_;
   const search::MultiPatchProjector& projector_;

@@ -50,27 +50,27 @@ double Wall::max_speed(const search::Box& bounds) const {
   return frame_.max_speed(bounds);
 }
 
-Vector3 Wall::velocity_of_moving(const SurfaceFoot& foot, const Vector3& point, const Vector3& delta) const {
+Vector3 Wall::velocity_of_moving(const Foot& foot, const Vector3& point, const Vector3& delta) const {
   if (deforms_) return coupling::FootBasis(surface_, foot.at()).interpolate(exchange_.velocities());
   Vector3 v = frame_.velocity_at(point);
   if (slides_) v += structure_.surface_velocity(point, delta.normalized());
   return v;
 }
 
-int Wall::side_of(const SurfaceFoot& foot, const Vector3& delta) const {
-  const Vector3 normal = foot.status == search::ProjectionStatus::interior
+int Wall::side_of(const Foot& foot, const Vector3& delta) const {
+  const Vector3 normal = foot.status == search::FootStatus::interior
                              ? nurbs::shape_at(surface_, control_points(), foot.at()).normal
                              : nurbs::normal_at(surface_, control_points(), foot.at());
   return normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1 : 1;
 }
 
-bool Wall::is_inside(const SurfaceFoot& foot, const Vector3& delta) const {
+bool Wall::is_inside(const Foot& foot, const Vector3& delta) const {
   const int sign = outward_sign_[foot.patch];
-  if (sign == 0 || foot.status != search::ProjectionStatus::interior) return false;
+  if (sign == 0 || foot.status != search::FootStatus::interior) return false;
   return sign * side_of(foot, delta) < 0;
 }
 
-Vector3 Wall::leave(SurfaceFoot& foot, const Vector3& delta, int known_side, double radius, const Vector3& x,
+Vector3 Wall::leave(Foot& foot, const Vector3& delta, int known_side, double radius, const Vector3& x,
                     const Vector3& v) const {
   constexpr double kRoundOff = 1e-5;  // of the resolution
   constexpr double kOff = 1e-9;       // of the radius
@@ -85,7 +85,7 @@ Vector3 Wall::leave(SurfaceFoot& foot, const Vector3& delta, int known_side, dou
   return side < 0.0 ? Vector3(-foot.distance * normal) : Vector3(foot.distance * normal);
 }
 
-double Wall::effective_radius(const SurfaceFoot& foot, const Vector3& delta, double radius) const {
+double Wall::effective_radius(const Foot& foot, const Vector3& delta, double radius) const {
   constexpr double kLeast = 0.1;  // of 1/r: in a hollow of nearly the particle's radius Hertz' theory ends
   const nurbs::SurfaceShape shape = nurbs::shape_near(surface_, control_points(), foot.at());
   const double side = shape.normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1.0 : 1.0;

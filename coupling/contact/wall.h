@@ -12,7 +12,7 @@
 namespace contact {
 
 using nurbs::Vector3;
-using search::SurfaceFoot;
+using search::Foot;
 
 class Wall {
  public:
@@ -49,31 +49,31 @@ class Wall {
   /// At most, of any of its points [length/time].
   double max_speed(const search::Box& bounds) const;
   /// At a foot, which is at `point` in space.
-  Vector3 velocity(const SurfaceFoot& foot, const Vector3& point, const Vector3& delta) const {
+  Vector3 velocity(const Foot& foot, const Vector3& point, const Vector3& delta) const {
     return stands_ ? Vector3::Zero() : velocity_of_moving(foot, point, delta);
   }
 
   /// +1 where dS/dxi x dS/deta points, -1 on the other side.
-  int side_of(const SurfaceFoot& foot, const Vector3& delta) const;
+  int side_of(const Foot& foot, const Vector3& delta) const;
   bool has_inside(int patch) const { return outward_sign_[patch] != 0; }
   /// Whether a centre is inside the body.
-  bool is_inside(const SurfaceFoot& foot, const Vector3& delta) const;
+  bool is_inside(const Foot& foot, const Vector3& delta) const;
   /// A centre nearer than this is on the surface [length].
   double resolution() const { return resolution_; }
   /// A centre on the surface has no direction of its own: takes it off along the normal, by so little that
   /// the overlap does not feel it.  It goes to the side where it is as far as round-off tells, else to
   /// `known_side` (of the patch; 0: not known), else out of a body, else against its velocity `v` at `x`.
   /// Changes foot.distance; the result is the new delta.
-  Vector3 leave(SurfaceFoot& foot, const Vector3& delta, int known_side, double radius, const Vector3& x,
+  Vector3 leave(Foot& foot, const Vector3& delta, int known_side, double radius, const Vector3& x,
                 const Vector3& v) const;
 
   /// r* = (R' R'')^(1/2) with 1/R = 1/r - curvature of the wall towards the particle, in each principal
   /// direction: the equivalent radius of Johnson (1985), section 4.2; exact where both are equal, as on a
   /// sphere [length].
-  double effective_radius(const SurfaceFoot& foot, const Vector3& delta, double radius) const;
+  double effective_radius(const Foot& foot, const Vector3& delta, double radius) const;
 
  private:
-  Vector3 velocity_of_moving(const SurfaceFoot& foot, const Vector3& point, const Vector3& delta) const;
+  Vector3 velocity_of_moving(const Foot& foot, const Vector3& point, const Vector3& delta) const;
 
   const coupling::StructureSolver& structure_;
   coupling::SurfaceExchange& exchange_;

@@ -10,12 +10,6 @@ namespace {
 
 constexpr double kEqual = 1.0 + 1e-14;  // of distances: round-off
 
-SurfaceFoot on_surface(int patch, const Vector3& image, const Projection& p) {
-  SurfaceFoot foot{p, patch, image};
-  foot.foot += image;
-  return foot;
-}
-
 }  // namespace
 
 MultiPatchProjector::MultiPatchProjector(const MultiPatch& surface) : surface_(surface) {
@@ -28,46 +22,37 @@ void MultiPatchProjector::set_control_points(const NodalVectors& control_points)
     patches_[p]->set_control_points(surface_.control_points_of(p, control_points));
 }
 
-SurfaceFoot MultiPatchProjector::follow(const Vector3& d, const SurfacePoint& from,
-                                        const Vector3& image) const {
-  return cross_borders(d, on_surface(from.patch, image, patches_[from.patch]->warm(d - image, from.xi)));
+// The local minimum reached on one patch.
+Foot MultiPatchProjector::warm(const Vector3& d, const SurfacePoint& from, const Vector3& image) const {
+  return placed(patches_[from.patch]->warm(d - image, from.xi), from.patch, image);
+}
+
+Foot MultiPatchProjector::follow(const Vector3& d, const SurfacePoint& from, const Vector3& image) const {
+  return cross_borders(d, warm(d, from, image));
 }
 
 // Runs of feet on the same patch; those that end on an edge go on one by one.
-void MultiPatchProjector::follow_batch(const Vector3* d, SurfaceFoot* const* feet, int count) const {
-  constexpr int kChunk = 64;
-  Vector3 moved[kChunk];
-  Parameter<2> guesses[kChunk];
-  Projection* found[kChunk];
-  while (count > 0) {
-    const int patch = feet[0]->patch, most = std::min(count, kChunk);
-    int n = 0;
-    for (; n < most && feet[n]->patch == patch; ++n) {
-      moved[n] = d[n] - feet[n]->image;
-      guesses[n] = feet[n]->xi;
-      found[n] = feet[n];
-    }
-    patches_[patch]->warm_batch(moved, guesses, n, found);
-    for (int k = 0; k < n; ++k) {
-      SurfaceFoot& foot = *feet[k];
-      foot.foot += foot.image;
-      if (foot.status != ProjectionStatus::interior) foot = cross_borders(d[k], foot);
-    }
-    d += n, feet += n, count -= n;
+void MultiPatchProjector::follow(const Vector3* d, Foot* const* feet, int count) const {
+  for (int first = 0, end; first < count; first = end) {
+    const int patch = feet[first]->patch;
+    for (end = first + 1; end < count && feet[end]->patch == patch;) ++end;
+    patches_[patch]->warm_batch(d + first, feet + first, end - first);
+    for (int k = first; k < end; ++k)
+      if (feet[k]->status != FootStatus::interior) *feet[k] = cross_borders(d[k], *feet[k]);
   }
 }
 
-SurfaceFoot MultiPatchProjector::cross_borders(const Vector3& d, SurfaceFoot foot) const {
+Foot MultiPatchProjector::cross_borders(const Vector3& d, Foot foot) const {
   constexpr int kMaxCrossings = 16;  // in one step; each leads downhill
-  SurfaceFoot beyond;
+  Foot beyond;
   for (int crossing = 0; crossing < kMaxCrossings && leads_on(d, foot, beyond); ++crossing) foot = beyond;
   return foot;
 }
 
 // Whether the distance falls beyond a welded edge on which the foot lies, or on a patch around a pole where
 // it lies; then where it falls to.
-bool MultiPatchProjector::leads_on(const Vector3& d, const SurfaceFoot& foot, SurfaceFoot& beyond) const {
-  if (foot.status == ProjectionStatus::interior) return false;
+bool MultiPatchProjector::leads_on(const Vector3& d, const Foot& foot, Foot& beyond) const {
+  if (foot.status == FootStatus::interior) return false;
   for (int side = 0; side < nurbs::kSideCount; ++side)
     if (surface_.border(foot.patch, side).kind == nurbs::Border::pole && surface_.on_side(foot.at(), side) &&
         leads_off_pole(d, foot, side, beyond))
@@ -77,7 +62,7 @@ bool MultiPatchProjector::leads_on(const Vector3& d, const SurfaceFoot& foot, Su
     if (border.kind != nurbs::Border::welded || !surface_.on_side(foot.at(), side)) continue;
     const SurfacePoint start = surface_.across(foot.at(), side);
     const Vector3 image = foot.image + border.translation;
-    beyond = on_surface(border.patch, image, patches_[border.patch]->warm(d - image, start.xi));
+    beyond = warm(d, start, image);
     beyond.iterations += foot.iterations;
     const bool left = !surface_.on_side(beyond.at(), border.side);
     if (left && beyond.distance <= foot.distance * kEqual) return true;
@@ -87,8 +72,7 @@ bool MultiPatchProjector::leads_on(const Vector3& d, const SurfaceFoot& foot, Su
 
 // Goes round the pole from patch to patch, both ways if the patches do not close: a patch that leads downhill
 // need not be the next one.
-bool MultiPatchProjector::leads_off_pole(const Vector3& d, const SurfaceFoot& foot, int pole,
-                                         SurfaceFoot& beyond) const {
+bool MultiPatchProjector::leads_off_pole(const Vector3& d, const Foot& foot, int pole, Foot& beyond) const {
   for (const int way : {0, 1}) {
     SurfacePoint corner = foot.at();
     Vector3 image = foot.image;
@@ -102,7 +86,7 @@ bool MultiPatchProjector::leads_off_pole(const Vector3& d, const SurfaceFoot& fo
       const int along = 1 - border.side / 2;
       at_pole = 2 * along + (corner.xi[along] == surface_.end_of_side(corner.patch, 2 * along + 1) ? 1 : 0);
       if (corner.patch == foot.patch && at_pole == pole) return false;  // all round
-      beyond = on_surface(corner.patch, image, patches_[corner.patch]->warm(d - image, corner.xi));
+      beyond = warm(d, corner, image);
       beyond.iterations += foot.iterations;
       if (!surface_.on_side(beyond.at(), at_pole) && beyond.distance <= foot.distance * kEqual) return true;
       if (surface_.border(corner.patch, at_pole).kind != nurbs::Border::pole) break;
@@ -113,16 +97,16 @@ bool MultiPatchProjector::leads_off_pole(const Vector3& d, const SurfaceFoot& fo
 }
 
 void MultiPatchProjector::add_minima(const Vector3& d, const Vector3& image, double reach, double same_foot,
-                                     const int* elements, int count, std::vector<SurfaceFoot>& out) const {
-  const auto same = [&](const SurfaceFoot& a, const SurfaceFoot& b) {
-    return (a.foot - b.foot).squaredNorm() <= same_foot * same_foot;
+                                     const int* elements, int count, std::vector<Foot>& out) const {
+  const auto same = [&](const Foot& a, const Foot& b) {
+    return (a.point - b.point).squaredNorm() <= same_foot * same_foot;
   };
-  const auto known = [&](const SurfaceFoot& foot) {
-    return std::any_of(out.begin(), out.end(), [&](const SurfaceFoot& other) { return same(foot, other); });
+  const auto known = [&](const Foot& foot) {
+    return std::any_of(out.begin(), out.end(), [&](const Foot& other) { return same(foot, other); });
   };
   // A minimum within round-off of a border may seem to lie beyond it from either side.
-  const auto lies_beyond = [&](const SurfaceFoot& foot) {
-    SurfaceFoot beyond;
+  const auto lies_beyond = [&](const Foot& foot) {
+    Foot beyond;
     return leads_on(d, foot, beyond) && !same(foot, beyond);
   };
   const auto first_new = static_cast<std::ptrdiff_t>(out.size());
@@ -134,13 +118,13 @@ void MultiPatchProjector::add_minima(const Vector3& d, const Vector3& image, dou
     for (; k < count && elements[k] < next; ++k) patch_elements_.push_back(elements[k] - first);
     patches_[p]->all_minima_on(d - image, reach, patch_elements_.data(),
                                static_cast<int>(patch_elements_.size()), found_);
-    for (const Projection& projection : found_) {
-      const SurfaceFoot foot = on_surface(p, image, projection);
+    for (const Foot& on_patch : found_) {
+      const Foot foot = placed(on_patch, p, image);
       if (!known(foot) && !lies_beyond(foot)) out.push_back(foot);
     }
   }
   std::sort(out.begin() + first_new, out.end(),
-            [](const SurfaceFoot& a, const SurfaceFoot& b) { return a.distance < b.distance; });
+            [](const Foot& a, const Foot& b) { return a.distance < b.distance; });
 }
 
 }  // namespace search

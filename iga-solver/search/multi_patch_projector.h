@@ -12,13 +12,6 @@
 
 namespace search {
 
-/// A local minimum of the distance: a projection on one patch, with the foot at S(xi) + image.
-struct SurfaceFoot : Projection {
-  int patch;
-  Vector3 image;  ///< the surface was met moved by this (periodic images; else 0) [length]
-  SurfacePoint at() const { return {patch, xi}; }
-};
-
 class MultiPatchProjector {
  public:
   /// Keeps a reference to `surface`, which must outlive it.
@@ -30,26 +23,26 @@ class MultiPatchProjector {
   const SurfaceProjector& patch(int p) const { return *patches_[p]; }
 
   /// Local minimum reached from a point of the surface moved by `image`.
-  SurfaceFoot follow(const Vector3& d, const SurfacePoint& from, const Vector3& image) const;
+  Foot follow(const Vector3& d, const SurfacePoint& from, const Vector3& image) const;
   /// The same for `count` points, several at a time: feet[k] goes on, on the image where it is, for d[k], to
   /// where follow() leads it, to the last bit.
-  void follow_batch(const Vector3* d, SurfaceFoot* const* feet, int count) const;
-  /// The same from a foot already known on its patch.
-  SurfaceFoot cross_borders(const Vector3& d, SurfaceFoot foot) const;
+  void follow(const Vector3* d, Foot* const* feet, int count) const;
 
   /// Adds to `out`, nearest first, the local minima nearer than `reach` on candidate elements (numbers in
   /// rising order) of the surface moved by `image`.  Feet closer than `same_foot` to one in `out` are left
   /// out.
   void add_minima(const Vector3& d, const Vector3& image, double reach, double same_foot, const int* elements,
-                  int count, std::vector<SurfaceFoot>& out) const;
+                  int count, std::vector<Foot>& out) const;
 
  private:
-  bool leads_on(const Vector3& d, const SurfaceFoot& foot, SurfaceFoot& beyond) const;
-  bool leads_off_pole(const Vector3& d, const SurfaceFoot& foot, int pole, SurfaceFoot& beyond) const;
+  Foot warm(const Vector3& d, const SurfacePoint& from, const Vector3& image) const;
+  Foot cross_borders(const Vector3& d, Foot foot) const;
+  bool leads_on(const Vector3& d, const Foot& foot, Foot& beyond) const;
+  bool leads_off_pole(const Vector3& d, const Foot& foot, int pole, Foot& beyond) const;
 
   const MultiPatch& surface_;
   std::vector<std::unique_ptr<SurfaceProjector>> patches_;
-  mutable std::vector<Projection> found_;    // of one patch
+  mutable std::vector<Foot> found_;          // of one patch
   mutable std::vector<int> patch_elements_;  // candidates in the patch's own numbering
 };
 

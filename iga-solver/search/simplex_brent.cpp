@@ -75,7 +75,7 @@ class DistanceTo {
     return H_00 > 0.0 && H_00 * H_11 > H_01 * H_01;
   }
 
-  Projection projection(const Vector2& x, ProjectionStatus status, int iterations) const {
+  Foot foot_at(const Vector2& x, FootStatus status, int iterations) const {
     const Vector2 xi = parameter(x);
     const Vector3 foot = evaluate_at(x, 0).S;
     return {{xi[0], xi[1]}, foot, (d_ - foot).norm(), status, iterations};
@@ -96,7 +96,7 @@ class DistanceTo {
   mutable nurbs::BezierElement element_;  // the last one visited
 };
 
-Projection brent_from(const DistanceTo& distance, const Vector2& start) {
+Foot brent_from(const DistanceTo& distance, const Vector2& start) {
   Vector2 x = start;
   int iterations = 0;
   bool converged = false;
@@ -106,35 +106,35 @@ Projection brent_from(const DistanceTo& distance, const Vector2& start) {
     if (!brent_sweep(distance, kStep, x) || !distance.inside(x)) break;
     converged = (x - before).norm() <= kLastStep;
   }
-  const Projection at_start = distance.projection(start, ProjectionStatus::not_converged, iterations);
+  const Foot at_start = distance.foot_at(start, FootStatus::not_converged, iterations);
   if (!converged || !distance.convex(x)) return at_start;
   // A start that is the foot to round-off may be nearer by as little.
-  const Projection foot = distance.projection(x, ProjectionStatus::interior, iterations);
+  const Foot foot = distance.foot_at(x, FootStatus::interior, iterations);
   const bool nearer = foot.distance <= at_start.distance || (x - start).norm() <= kLastStep;
   return nearer ? foot : at_start;
 }
 
 }  // namespace
 
-Projection closest_point_simplex_brent(const Space<2>& space, const NodalVectors& control_points,
-                                       const Vector3& d, const Parameter<2>& guess, bool warm) {
+Foot closest_point_simplex_brent(const Space<2>& space, const NodalVectors& control_points, const Vector3& d,
+                                 const Parameter<2>& guess, bool warm) {
   const DistanceTo distance(d, space, control_points, guess);
   const Vector2 origin = Vector2::Zero();
   if (warm) return brent_from(distance, origin);
   return brent_from(distance, simplex_minimum(distance, origin, kFirstEdge * distance.inward(), kHalvings));
 }
 
-Projection closest_point_simplex_brent_on_elements(const Space<2>& space, const NodalVectors& control_points,
-                                                   const Vector3& d, const int* elements, int element_count) {
+Foot closest_point_simplex_brent_on_elements(const Space<2>& space, const NodalVectors& control_points,
+                                             const Vector3& d, const int* elements, int element_count) {
   if (element_count < 1) throw std::invalid_argument("no elements given, expected at least 1");
-  Projection best{};
+  Foot best{};
   best.distance = std::numeric_limits<double>::infinity();
   for (int k = 0; k < element_count; ++k) {
     const Box box = element_box(space, control_points, elements[k]);
     if (box.squared_distance(d) >= best.distance * best.distance) continue;
-    const Projection foot =
+    const Foot foot =
         closest_point_simplex_brent(space, control_points, d, space.element_centre(elements[k]), false);
-    if (foot.status == ProjectionStatus::not_converged) return foot;
+    if (foot.status == FootStatus::not_converged) return foot;
     if (foot.distance < best.distance) best = foot;
   }
   return best;

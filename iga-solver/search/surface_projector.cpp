@@ -74,17 +74,17 @@ void SurfaceProjector::set_control_points(const Eigen::Ref<const NodalVectors>& 
   ++version_;
 }
 
-Projection SurfaceProjector::projection(const Vector3& d, const DescentResult& found) const {
-  Projection result;
+Foot SurfaceProjector::foot_of(const Vector3& d, const DescentResult& found) const {
+  Foot result;
   int borders = 0;
   for (int i = 0; i < 2; ++i) {
     const AxisElement& element = elements_.axis(i, found.at.e[i]);
     result.xi[i] = element.parameter(found.at.s[i]);
     if (element.at_patch_end(result.xi[i]) || found.crease[i]) ++borders;
   }
-  result.foot = d + found.r;
+  result.point = d + found.r;
   result.distance = found.r.norm();
-  result.status = std::isfinite(result.distance) ? kByBorders[borders] : ProjectionStatus::not_converged;
+  result.status = std::isfinite(result.distance) ? kByBorders[borders] : FootStatus::not_converged;
   result.iterations = found.iterations;
   return result;
 }
@@ -98,7 +98,7 @@ DescentResult SurfaceProjector::descend_after(const Vector3& d, const LocalPoint
 }
 
 // As a rule the next step leads into a neighbour, and Newton's method goes on and ends there.
-bool SurfaceProjector::follow(const Vector3& d, Start& start, NewtonEnd& end) const {
+bool SurfaceProjector::go_on(const Vector3& d, Start& start, NewtonEnd& end) const {
   constexpr int kMaxNeighbours = 3;
   Start next;
   for (int k = 0; k < kMaxNeighbours && !end.done && neighbour(start.at, end.next, next); ++k) {
@@ -111,12 +111,11 @@ bool SurfaceProjector::follow(const Vector3& d, Start& start, NewtonEnd& end) co
   return end.done;
 }
 
-Projection SurfaceProjector::warm_beyond(const Vector3& d, const Start& from,
-                                         const NewtonEnd& stopped) const {
+Foot SurfaceProjector::warm_beyond(const Vector3& d, const Start& from, const NewtonEnd& stopped) const {
   Start start = from;
   NewtonEnd end = stopped;
-  if (!follow(d, start, end)) return minimum_or_global(d, descend_after(d, start.at, end));
-  Projection result;
+  if (!go_on(d, start, end)) return minimum_or_global(d, descend_after(d, start.at, end));
+  Foot result;
   take_foot(end, start.at.e, result);
   return result;
 }
@@ -140,49 +139,49 @@ bool SurfaceProjector::neighbour(const LocalPoint& from, const double (&to)[2], 
   return crossed;
 }
 
-SurfaceProjector::Foot SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& from) const {
+SurfaceProjector::Reached SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& from) const {
   Start start{from, elements_.element(from.e)};
   NewtonEnd end = newton(d, start);
-  if (!end.done && !follow(d, start, end)) return foot(d, descend_after(d, start.at, end));
-  Foot foot{{}, DescentEnd::minimum, {{start.at.e[0], start.at.e[1]}, {end.s[0], end.s[1]}}};
-  take_foot(end, start.at.e, foot.point);
-  return foot;
+  if (!end.done && !go_on(d, start, end)) {
+    const DescentResult found = descend_after(d, start.at, end);
+    return {foot_of(d, found), found.end, found.at};
+  }
+  Reached reached{{}, DescentEnd::minimum, {{start.at.e[0], start.at.e[1]}, {end.s[0], end.s[1]}}};
+  take_foot(end, start.at.e, reached.foot);
+  return reached;
 }
 
-SurfaceProjector::Foot SurfaceProjector::foot(const Vector3& d, const DescentResult& found) const {
-  return {projection(d, found), found.end, found.at};
+Foot SurfaceProjector::minimum_or_global(const Vector3& d, const DescentResult& found) const {
+  const Foot foot = foot_of(d, found);
+  return found.end == DescentEnd::minimum ? foot : global(d, {foot, found.end, found.at});
 }
 
-Projection SurfaceProjector::minimum_or_global(const Vector3& d, const DescentResult& found) const {
-  return found.end == DescentEnd::minimum ? projection(d, found) : global(d, foot(d, found));
-}
-
-// out(k) is where the k-th result goes.
-template <class Out>
-void SurfaceProjector::run_batches(const Vector3* d, const Parameter<2>* guesses, int count,
-                                   const Out& out) const {
+void SurfaceProjector::warm_batch(const Vector3* d, Foot* const* feet, int count) const {
   const ElementKernel& kernel = elements_.kernel();
   NewtonBatch batch;
   int e[NewtonBatch::kCapacity][2];
+  Vector3 moved[NewtonBatch::kCapacity];
   for (int first = 0; first < count; first += batch.count) {
     batch.count = std::min(NewtonBatch::kCapacity, count - first);
     for (int k = 0; k < batch.count; ++k) {
+      const Foot& foot = *feet[first + k];
       for (int i = 0; i < 2; ++i) {
-        const ElementAxis::Place place = elements_.axis(i).locate(guesses[first + k][i]);
+        const ElementAxis::Place place = elements_.axis(i).locate(foot.xi[i]);
         e[k][i] = place.e, batch.s[i][k] = place.s;
       }
       const ElementStore::Element element = elements_.element(e[k]);
       elements_.prefetch_some(element);
-      batch.element[k] = element.row, batch.d[k] = d[first + k].data();
+      moved[k] = d[first + k] - foot.image;
+      batch.element[k] = element.row, batch.d[k] = moved[k].data();
     }
     kernel.newton_batch(kernel.p, kernel.q, batch);
     for (int k = 0; k < batch.count; ++k) {
-      Projection& foot = out(first + k);
+      Foot& foot = *feet[first + k];
       if (batch.done[k] == 0) {
-        foot = warm_beyond(d[first + k], start(guesses[first + k]), batch.end(k));
+        foot = placed(warm_beyond(moved[k], start(foot.xi), batch.end(k)), foot.patch, foot.image);
         continue;
       }
-      for (int c = 0; c < 3; ++c) foot.foot[c] = batch.foot[c][k];
+      for (int c = 0; c < 3; ++c) foot.point[c] = batch.foot[c][k] + foot.image[c];
       foot.distance = batch.distance[k];
       foot.iterations = static_cast<int>(batch.iterations[k]);
       take_parameters(e[k], {batch.s[0][k], batch.s[1][k]}, foot);
@@ -190,66 +189,55 @@ void SurfaceProjector::run_batches(const Vector3* d, const Parameter<2>* guesses
   }
 }
 
-void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses, int count,
-                                  Projection* out) const {
-  run_batches(d, guesses, count, [out](int k) -> Projection& { return out[k]; });
-}
-
-void SurfaceProjector::warm_batch(const Vector3* d, const Parameter<2>* guesses, int count,
-                                  Projection* const* out) const {
-  run_batches(d, guesses, count, [out](int k) -> Projection& { return *out[k]; });
-}
-
 LocalPoint SurfaceProjector::centre(int element) const {
   const Indices<2> e = space_.element_indices(element);
   return {{e[0], e[1]}, {0.0, 0.0}};
 }
 
-Projection SurfaceProjector::cold(const Vector3& d) const {
+Foot SurfaceProjector::cold(const Vector3& d) const {
   Search search{tree_, d};
   search_tree(search);
   if (!search.started) return global(d, foot_from(d, centre(0)));  // not finite, or too far off for the tree
-  return search.best.point;
+  return search.best.foot;
 }
 
-Projection SurfaceProjector::nearest(const Vector3& d, const Parameter<2>& guess) const {
+Foot SurfaceProjector::nearest(const Vector3& d, const Parameter<2>& guess) const {
   return global(d, foot_from(d, local(guess)));
 }
 
 // The global minimum; `start` is a point known.
-Projection SurfaceProjector::global(const Vector3& d, const Foot& start) const {
-  if (!start.finite()) return start.point;
+Foot SurfaceProjector::global(const Vector3& d, const Reached& start) const {
+  if (!start.finite()) return start.foot;
   Search search{tree_, d};
   search.best = start;
   search.started = true;
   search_tree(search);
-  return search.best.point;
+  return search.best.foot;
 }
 
-Projection SurfaceProjector::cold_on(const Vector3& d, const int* elements, int count) const {
+Foot SurfaceProjector::cold_on(const Vector3& d, const int* elements, int count) const {
   if (count < 1) throw std::invalid_argument("no elements given, expected at least 1");
   Search search{tree_, d};
   search_elements(elements, count, search);
-  return search.best.point;
+  return search.best.foot;
 }
 
-void SurfaceProjector::all_minima(const Vector3& d, double reach, std::vector<Projection>& out) const {
+void SurfaceProjector::all_minima(const Vector3& d, double reach, std::vector<Foot>& out) const {
   collect(d, reach, out, [this](Search& search) { search_tree(search); });
 }
 
 void SurfaceProjector::all_minima_on(const Vector3& d, double reach, const int* elements, int count,
-                                     std::vector<Projection>& out) const {
+                                     std::vector<Foot>& out) const {
   collect(d, reach, out, [&](Search& search) { search_elements(elements, count, search); });
 }
 
 template <class Examine>
-void SurfaceProjector::collect(const Vector3& d, double reach, std::vector<Projection>& out,
+void SurfaceProjector::collect(const Vector3& d, double reach, std::vector<Foot>& out,
                                Examine examine) const {
   out.clear();
   Search search{tree_, d, &out, reach * reach, true};
   examine(search);
-  std::sort(out.begin(), out.end(),
-            [](const Projection& a, const Projection& b) { return a.distance < b.distance; });
+  std::sort(out.begin(), out.end(), [](const Foot& a, const Foot& b) { return a.distance < b.distance; });
 }
 
 }  // namespace search

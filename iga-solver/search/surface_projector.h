@@ -17,8 +17,8 @@
 
 #include "search/box_tree.h"
 #include "search/element_descent.h"
+#include "search/foot.h"
 #include "search/local_reach.h"
-#include "search/projection.h"
 #include "search/surface_tree.h"
 
 namespace search {
@@ -50,7 +50,7 @@ class SurfaceProjector {
   void set_control_points(const Eigen::Ref<const NodalVectors>& control_points);
 
   /// Local minimum reached from `guess`, not above it; the global one where the descent gets stuck.
-  Projection warm(const Vector3& d, const Parameter<2>& guess) const { return warm_from(d, start(guess)); }
+  Foot warm(const Vector3& d, const Parameter<2>& guess) const { return warm_from(d, start(guess)); }
   /// The same in two parts.  A loop that asks for the start of its next point before it searches for this one
   /// does not wait for memory: start() has the element fetched.
   struct Start {
@@ -63,38 +63,38 @@ class SurfaceProjector {
     elements_.prefetch(element);
     return {{{u.e, v.e}, {u.s, v.s}}, element};
   }
-  Projection warm_from(const Vector3& d, const Start& start) const {
+  Foot warm_from(const Vector3& d, const Start& start) const {
     const NewtonEnd end = newton(d, start);
-    Projection result;
+    Foot result;
     if (end.done)
       take_foot(end, start.at.e, result);
     else
       result = warm_beyond(d, start, end);
     return result;
   }
-  /// The same for `count` points, several at a time: for each what warm() gives, to the last bit.
-  void warm_batch(const Vector3* d, const Parameter<2>* guesses, int count, Projection* out) const;
-  void warm_batch(const Vector3* d, const Parameter<2>* guesses, int count, Projection* const* out) const;
+  /// The same for `count` points, several at a time: feet[k] goes on from its xi, on the surface moved by its
+  /// image, to where warm() leads it for d[k], to the last bit.  Patch and image stay.
+  void warm_batch(const Vector3* d, Foot* const* feet, int count) const;
   /// Global minimum, by the tree.
-  Projection cold(const Vector3& d) const;
+  Foot cold(const Vector3& d) const;
   /// Global minimum, warm: the tree proves that nothing is nearer than the minimum reached from `guess`.
-  Projection nearest(const Vector3& d, const Parameter<2>& guess) const;
+  Foot nearest(const Vector3& d, const Parameter<2>& guess) const;
   /// Minimum over candidate elements.  The candidates must include all elements nearer than the result, as
   /// those of BoxTree::query do whose reach is not smaller.  Throws std::invalid_argument if there are none.
-  Projection cold_on(const Vector3& d, const int* elements, int count) const;
+  Foot cold_on(const Vector3& d, const int* elements, int count) const;
   /// All local minima nearer than `reach`, each once, nearest first.  Of minima that are not isolated (d on
   /// the axis of a tube) there are some.
-  void all_minima(const Vector3& d, double reach, std::vector<Projection>& out) const;
+  void all_minima(const Vector3& d, double reach, std::vector<Foot>& out) const;
   /// Those of them that lie on candidate elements, as above.
   void all_minima_on(const Vector3& d, double reach, const int* elements, int count,
-                     std::vector<Projection>& out) const;
+                     std::vector<Foot>& out) const;
 
   const Space<2>& space() const { return space_; }
   /// Those given last.
   const NodalVectors& control_points() const { return elements_.control_points(); }
 
  private:
-  struct Foot;
+  struct Reached;
   struct Search;
 
   LocalPoint local(const Parameter<2>& xi) const {
@@ -108,14 +108,14 @@ class SurfaceProjector {
     kernel.newton(kernel.p, kernel.q, start.element.row, d.data(), start.at.s[0], start.at.s[1], end);
     return end;
   }
-  void take_foot(const NewtonEnd& end, const int (&e)[2], Projection& out) const {
-    for (int c = 0; c < 3; ++c) out.foot[c] = end.foot[c];
+  void take_foot(const NewtonEnd& end, const int (&e)[2], Foot& out) const {
+    for (int c = 0; c < 3; ++c) out.point[c] = end.foot[c];
     out.distance = end.distance;
     out.iterations = end.iterations;
     take_parameters(e, end.s, out);
   }
   // Parameters and status of a foot inside an element.
-  void take_parameters(const int (&e)[2], const double (&s)[2], Projection& out) const {
+  void take_parameters(const int (&e)[2], const double (&s)[2], Foot& out) const {
     int borders = 0;
     for (int i = 0; i < 2; ++i) {
       const AxisElement& element = elements_.axis(i, e[i]);
@@ -124,20 +124,17 @@ class SurfaceProjector {
     }
     out.status = kByBorders[borders];
   }
-  template <class Out>
-  void run_batches(const Vector3* d, const Parameter<2>* guesses, int count, const Out& out) const;
-  Projection projection(const Vector3& d, const DescentResult& found) const;
-  bool follow(const Vector3& d, Start& start, NewtonEnd& end) const;
-  Projection warm_beyond(const Vector3& d, const Start& start, const NewtonEnd& end) const;
+  Foot foot_of(const Vector3& d, const DescentResult& found) const;
+  bool go_on(const Vector3& d, Start& start, NewtonEnd& end) const;
+  Foot warm_beyond(const Vector3& d, const Start& start, const NewtonEnd& end) const;
   bool neighbour(const LocalPoint& from, const double (&to)[2], Start& start) const;
   DescentResult descend_after(const Vector3& d, const LocalPoint& start, const NewtonEnd& end) const;
-  Foot foot_from(const Vector3& d, const LocalPoint& start) const;
-  Foot foot(const Vector3& d, const DescentResult& found) const;
-  Projection minimum_or_global(const Vector3& d, const DescentResult& found) const;
-  Projection global(const Vector3& d, const Foot& start) const;
+  Reached foot_from(const Vector3& d, const LocalPoint& start) const;
+  Foot minimum_or_global(const Vector3& d, const DescentResult& found) const;
+  Foot global(const Vector3& d, const Reached& start) const;
   LocalPoint centre(int element) const;
   template <class Examine>
-  void collect(const Vector3& d, double reach, std::vector<Projection>& out, Examine examine) const;
+  void collect(const Vector3& d, double reach, std::vector<Foot>& out, Examine examine) const;
   // surface_search.cpp:
   void search_tree(Search& search) const;
   void search_elements(const int* elements, int count, Search& search) const;
@@ -157,8 +154,7 @@ class SurfaceProjector {
   bool holds(const DistancePolynomial& F, const Parameter<2>& xi) const;
   void start_from(const LocalPoint& start, Search& search) const;
 
-  static constexpr ProjectionStatus kByBorders[] = {ProjectionStatus::interior, ProjectionStatus::edge,
-                                                    ProjectionStatus::corner};
+  static constexpr FootStatus kByBorders[] = {FootStatus::interior, FootStatus::edge, FootStatus::corner};
 
   const Space<2>& space_;
   ElementStore elements_;

@@ -44,7 +44,7 @@ void SurfaceProjector::search_elements(const int* elements, int count, Search& s
     bounds = {bounds.low.cwiseMin(here.low), bounds.high.cwiseMax(here.high)};
   }
   search.begin((bounds.high - bounds.low).norm());
-  const Foot start = foot_from(search.d, centre(elements[first]));
+  const Reached start = foot_from(search.d, centre(elements[first]));
   if (search.all == nullptr || start.end == DescentEnd::minimum) search.found(start);
   if (search.all == nullptr && !search.best.finite()) return;
   for (int k = 0; k < count; ++k) {
@@ -116,15 +116,15 @@ bool SurfaceProjector::has_its_only_foot(const ElementBlock& block, Search& sear
   const ElementWindow own = tree_.elements(block), window = reach_.window(level, own.begin);
   const double reach = kReach * reach_(level, own.begin, elements_.control_points());
   if (!(search.bound2 < reach * reach)) return false;
-  const auto is_in_window = [&](const Projection& foot) {
+  const auto is_in_window = [&](const Foot& foot) {
     const LocalPoint at = local(foot.xi);
     return foot.distance < reach && window.holds(at.e) && interior_of_region(at);
   };
   if (std::any_of(search.all->begin(), search.all->end(), is_in_window)) return true;
   const int middle[2] = {(own.begin[0] + own.end[0]) / 2, (own.begin[1] + own.end[1]) / 2};
-  const Foot foot = foot_from(search.d, {{middle[0], middle[1]}, {0.0, 0.0}});
-  if (foot.end != DescentEnd::minimum || !is_in_window(foot.point)) return false;
-  search.found(foot);
+  const Reached reached = foot_from(search.d, {{middle[0], middle[1]}, {0.0, 0.0}});
+  if (reached.end != DescentEnd::minimum || !is_in_window(reached.foot)) return false;
+  search.found(reached);
   return true;
 }
 
@@ -183,7 +183,7 @@ const Vector4* SurfaceProjector::bezier_net(int element) const {
 void SurfaceProjector::examine(const DistancePolynomial& F, Search& search) const {
   if (F.lower_bound(search.bound2) >= 0.0) return;
   for (int corner = 0; corner < 4 && search.all == nullptr; ++corner) {
-    const double distance = search.best.point.distance;
+    const double distance = search.best.foot.distance;
     if (F.corner_distance2(corner) + F.round_off() < distance * distance)
       start_from(F.corner(corner), search);
   }
@@ -236,7 +236,7 @@ bool SurfaceProjector::holds(const DistancePolynomial& F, const Parameter<2>& xi
 // D has one minimum at most on this part: goes to it.  False if the descent gets stuck.
 bool SurfaceProjector::descend_in(const DistancePolynomial& F, Search& search) const {
   const bool for_nearest = search.all == nullptr;
-  if (for_nearest && search.best.end != DescentEnd::unknown && holds(F, search.best.point.xi)) return true;
+  if (for_nearest && search.best.end != DescentEnd::unknown && holds(F, search.best.foot.xi)) return true;
   const DescentResult inside = descend(elements_, search.d, F.centre(), &F.part());
   const bool reached = inside.end == DescentEnd::minimum;
   if (!reached || inside.r.squaredNorm() < search.bound2) start_from(inside.at, search);

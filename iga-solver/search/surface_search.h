@@ -11,16 +11,16 @@ namespace search {
 
 constexpr double kEqual = 4.0 * std::numeric_limits<double>::epsilon();  // of distances, relative: round-off
 
-// The end of a descent as a projection, and what is known of it.
-struct SurfaceProjector::Foot {
-  Projection point;
+// Where a descent ends, and what is known of it.
+struct SurfaceProjector::Reached {
+  Foot foot;
   DescentEnd end;
   LocalPoint at;
 
-  bool finite() const { return point.status != ProjectionStatus::not_converged; }
+  bool finite() const { return foot.status != FootStatus::not_converged; }
   // Of equally near feet one inside comes before one on an edge (so that no seam of a closed patch is felt),
   // and any foot before a point that is none.
-  int rank() const { return end == DescentEnd::unknown ? 3 : static_cast<int>(point.status); }
+  int rank() const { return end == DescentEnd::unknown ? 3 : static_cast<int>(foot.status); }
 };
 
 // A search for the nearest foot, or for all.
@@ -31,12 +31,12 @@ struct SurfaceProjector::Search {
 
   const SurfaceTree& tree;
   const Vector3& d;
-  std::vector<Projection>* all = nullptr;  // null in a search for the nearest
-  double bound2 = kInfinity;               // squared distance from which on nothing is wanted
-  bool started = false;                    // there is a bound
-  Foot best{};                             // the nearest so far; of a search for all the last
-  double same = 0.0;                       // lengths that differ less are equal
-  double size = 0.0;                       // of the surface
+  std::vector<Foot>* all = nullptr;  // null in a search for the nearest
+  double bound2 = kInfinity;         // squared distance from which on nothing is wanted
+  bool started = false;              // there is a bound
+  Reached best{};                    // the nearest so far; of a search for all the last
+  double same = 0.0;                 // lengths that differ less are equal
+  double size = 0.0;                 // of the surface
 
   // For the tree: d and the bound in its units.
   SurfaceTree::Point point{};
@@ -59,11 +59,11 @@ struct SurfaceProjector::Search {
     limit = tree.limit(point, squared);
   }
 
-  void set_best(const Foot& foot) {
-    const double distance = foot.point.distance;
+  void set_best(const Reached& reached) {
+    const double distance = reached.foot.distance;
     if (!started) same = kEqual * (size + distance);
     started = true;
-    best = foot;
+    best = reached;
     set_bound(best.rank() == 0 ? distance * distance * (1.0 - kTie) : (distance + same) * (distance + same));
     nothing_is_proved();
   }
@@ -75,25 +75,26 @@ struct SurfaceProjector::Search {
   }
 
   // A window with a foot has nothing else that is wanted if its local reach is above this.
-  double needed_reach() const { return all != nullptr ? std::sqrt(bound2) : best.point.distance; }
+  double needed_reach() const { return all != nullptr ? std::sqrt(bound2) : best.foot.distance; }
 
-  void found(const Foot& foot) {
-    if (all != nullptr) return list(foot);
-    if (!started) return set_best(foot);
-    const int lower = foot.rank() - best.rank();
-    const double level = best.point.distance + (lower < 0 ? same : lower > 0 ? -same : 0.0);
-    if (foot.point.distance < level) set_best(foot);
+  void found(const Reached& reached) {
+    if (all != nullptr) return list(reached);
+    if (!started) return set_best(reached);
+    const int lower = reached.rank() - best.rank();
+    const double level = best.foot.distance + (lower < 0 ? same : lower > 0 ? -same : 0.0);
+    if (reached.foot.distance < level) set_best(reached);
   }
 
-  void list(const Foot& foot) {
-    if (foot.end == DescentEnd::unknown || !(foot.point.distance * foot.point.distance < bound2)) return;
-    for (Projection& other : *all) {
-      if ((other.foot - foot.point.foot).norm() > same) continue;
-      if (foot.point.status < other.status) other = foot.point;
+  void list(const Reached& reached) {
+    const Foot& foot = reached.foot;
+    if (reached.end == DescentEnd::unknown || !(foot.distance * foot.distance < bound2)) return;
+    for (Foot& other : *all) {
+      if ((other.point - foot.point).norm() > same) continue;
+      if (foot.status < other.status) other = foot;
       return;
     }
-    all->push_back(foot.point);
-    best = foot;
+    all->push_back(foot);
+    best = reached;
     nothing_is_proved();
   }
 };

@@ -84,7 +84,7 @@ void add_search(Case& c, const std::string& name, Search search) {
 void add_warm(Case& c, const std::string& name, const search::SurfaceProjector& ours) {
   auto right = std::make_shared<std::optional<double>>();
   benchmark::RegisterBenchmark((name + c.label).c_str(), [&c, &ours, right](benchmark::State& state) {
-    if (!*right) *right = fraction_right(c, [&](const Query& q) { return ours.warm(q.d, q.guess).foot; });
+    if (!*right) *right = fraction_right(c, [&](const Query& q) { return ours.warm(q.d, q.guess).point; });
     size_t i = 0;
     search::SurfaceProjector::Start start = ours.start(c.queries[0].guess);
     while (state.KeepRunningBatch(kBatch))
@@ -92,26 +92,44 @@ void add_warm(Case& c, const std::string& name, const search::SurfaceProjector& 
         const Query& query = c.queries[i];
         if (++i == c.queries.size()) i = 0;
         const search::SurfaceProjector::Start next = ours.start(c.queries[i].guess);
-        benchmark::DoNotOptimize(ours.warm_from(query.d, start).foot);
+        benchmark::DoNotOptimize(ours.warm_from(query.d, start).point);
         start = next;
       }
     state.counters["right"] = **right;
   });
 }
 
-/// Feet of all points, kBatch at a time.
+/// Feet of kBatch points at a time, each from its guess.
+class Batch {
+ public:
+  Batch() {
+    for (int k = 0; k < kBatch; ++k) places_[k] = &feet_[k];
+  }
+  /// Those of the points from number `first` on.
+  const search::Foot* feet(const Case& c, const search::SurfaceProjector& ours, int first) {
+    for (int k = 0; k < kBatch; ++k) feet_[k].xi = c.guesses[first + k];
+    ours.warm_batch(&c.points[first], places_, kBatch);
+    return feet_;
+  }
+
+ private:
+  search::Foot feet_[kBatch], *places_[kBatch];
+};
+
 void add_batch(Case& c, const std::string& name, const search::SurfaceProjector& ours) {
   auto right = std::make_shared<std::optional<double>>();
   benchmark::RegisterBenchmark((name + c.label).c_str(), [&c, &ours, right](benchmark::State& state) {
-    std::vector<search::Projection> feet(kPoints);
-    if (!*right) {
-      ours.warm_batch(c.points.data(), c.guesses.data(), kPoints, feet.data());
-      *right = fraction_right(c, [&](const Query& q) { return feet[&q - c.queries.data()].foot; });
-    }
+    Batch batch;
+    const search::Foot* feet = nullptr;
+    if (!*right)
+      *right = fraction_right(c, [&](const Query& q) {
+        const auto number = static_cast<int>(&q - c.queries.data());
+        if (number % kBatch == 0) feet = batch.feet(c, ours, number);
+        return feet[number % kBatch].point;
+      });
     int i = 0;
     while (state.KeepRunningBatch(kBatch)) {
-      ours.warm_batch(&c.points[i], &c.guesses[i], kBatch, &feet[i]);
-      benchmark::DoNotOptimize(feet.data());
+      benchmark::DoNotOptimize(batch.feet(c, ours, i));
       if ((i += kBatch) == kPoints) i = 0;
     }
     state.counters["right"] = **right;
@@ -132,15 +150,15 @@ void add_levels(Case& c) {
 
 void add_searches(Case& c) {
   add_warm(c, "warm/ours", c.ours);
-  add_search(c, "warm_call/ours", [&c](const Query& q) { return c.ours.warm(q.d, q.guess).foot; });
+  add_search(c, "warm_call/ours", [&c](const Query& q) { return c.ours.warm(q.d, q.guess).point; });
   add_batch(c, "batch/ours", c.ours);
-  add_search(c, "nearest/ours", [&c](const Query& q) { return c.ours.nearest(q.d, q.guess).foot; });
+  add_search(c, "nearest/ours", [&c](const Query& q) { return c.ours.nearest(q.d, q.guess).point; });
   add_search(c, "warm/opencascade", [&c](const Query& q) { return c.opencascade.warm(q.d, q.guess); });
   add_search(c, "warm/simplex_brent", [&c](const Query& q) {
     return search::closest_point_simplex_brent(c.surface.space, c.surface.control_points, q.d, q.guess, true)
-        .foot;
+        .point;
   });
-  add_search(c, "cold/ours", [&c](const Query& q) { return c.ours.cold(q.d).foot; });
+  add_search(c, "cold/ours", [&c](const Query& q) { return c.ours.cold(q.d).point; });
   add_search(c, "cold/opencascade", [&c](const Query& q) { return c.opencascade.cold(q.d); });
 }
 
@@ -192,8 +210,8 @@ void add_steps(Case& c) {
       for (size_t i = 0; i < c.queries.size(); ++i) {
         const Query &query = c.queries[i], &after = c.queries[std::min(i + 1, c.queries.size() - 1)];
         const search::SurfaceProjector::Start next = c.ours.start(after.guess);
-        const search::Projection contact = c.ours.warm_from(query.d, start);
-        coupling::FootBasis(c.surface.space, contact.xi).distribute(contact.foot - query.d, f);
+        const search::Foot contact = c.ours.warm_from(query.d, start);
+        coupling::FootBasis(c.surface.space, contact.xi).distribute(contact.point - query.d, f);
         start = next;
       }
       benchmark::DoNotOptimize(f.data());
@@ -201,14 +219,14 @@ void add_steps(Case& c) {
   });
   benchmark::RegisterBenchmark(("step_batch/ours" + c.label).c_str(), [&c](benchmark::State& state) {
     nurbs::NodalVectors f(3, c.surface.space.control_point_count());
-    search::Projection feet[kBatch];
+    Batch batch;
     while (state.KeepRunningBatch(kPoints)) {
       c.ours.set_control_points(c.surface.control_points);
       f.setZero();
       for (int i = 0; i < kPoints; i += kBatch) {
-        c.ours.warm_batch(&c.points[i], &c.guesses[i], kBatch, feet);
+        const search::Foot* feet = batch.feet(c, c.ours, i);
         for (int k = 0; k < kBatch; ++k)
-          coupling::FootBasis(c.surface.space, feet[k].xi).distribute(feet[k].foot - c.points[i + k], f);
+          coupling::FootBasis(c.surface.space, feet[k].xi).distribute(feet[k].point - c.points[i + k], f);
       }
       benchmark::DoNotOptimize(f.data());
     }

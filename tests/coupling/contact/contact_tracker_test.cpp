@@ -119,7 +119,7 @@ TEST(ContactTracker, FollowsTwoBranchesOfManyParticles) {
         ASSERT_EQ(feet.count, 2) << "particle " << particle << ", step " << step;
         for (const TrackedFoot& tracked : feet) {
           const double z = tracked.foot.patch == 0 ? -kGap : kGap;
-          EXPECT_LT((tracked.foot.foot - Vector3(d[0], d[1], z)).norm(), 1e-13)
+          EXPECT_LT((tracked.foot.point - Vector3(d[0], d[1], z)).norm(), 1e-13)
               << particle << ", step " << step;
           EXPECT_NEAR(tracked.foot.distance, std::abs(z - d[2]), 1e-13);
           ASSERT_GE(tracked.slot, 0);
@@ -163,7 +163,7 @@ TEST(ContactTracker, SlotsStayWithTheirSideOfAKink) {
         const int side = tracked.foot.patch;
         const double height = d.dot(normals[side]);
         EXPECT_NEAR(tracked.foot.distance, height, 1e-13);
-        EXPECT_LT((tracked.foot.foot - (d - height * normals[side])).norm(), 1e-13);
+        EXPECT_LT((tracked.foot.point - (d - height * normals[side])).norm(), 1e-13);
         if (tracked.slot < 0) continue;
         ++touching;
         if (particle > 0) continue;
@@ -234,7 +234,7 @@ TEST(ContactTracker, FeetOfImagesAtEdgesAndKinks) {
       SCOPED_TRACE(testing::Message() << "particle " << particle << ", step " << step);
       if (particle >= 60) {
         ASSERT_EQ(feet.count, 1);
-        EXPECT_LT((feet.first->foot.foot - Vector3(0, d[1], 0.5)).norm(), 1e-13);
+        EXPECT_LT((feet.first->foot.point - Vector3(0, d[1], 0.5)).norm(), 1e-13);
         return;
       }
       ASSERT_EQ(feet.count, 2);
@@ -245,7 +245,7 @@ TEST(ContactTracker, FeetOfImagesAtEdgesAndKinks) {
         const Vector3 normal = Vector3(falling ? 1 : -1, 0, 1).normalized();
         const double height = (d - Vector3(valley, 0, 0)).dot(normal);
         EXPECT_NEAR(tracked.foot.distance, height, 1e-13);
-        EXPECT_LT((tracked.foot.foot - (d - height * normal)).norm(), 1e-13);
+        EXPECT_LT((tracked.foot.point - (d - height * normal)).norm(), 1e-13);
         EXPECT_EQ(tracked.foot.image,
                   falling ? Vector3((valley - 0.5) * period) : Vector3((valley + 0.5) * period));
         ASSERT_GE(tracked.slot, 0);

@@ -107,7 +107,7 @@ int expect_all_minima(const Surface& surface, const Vector3& low, const Vector3&
   const judge::DistanceBound bound(surface);
   std::vector<int> elements(surface.space.element_count());
   std::iota(elements.begin(), elements.end(), 0);
-  std::vector<Projection> found, found_on;
+  std::vector<Foot> found, found_on;
   int several = 0;
   for (int k = 0; k < kPoints; ++k) {
     const Vector3 d(uniform(random, low[0], high[0]), uniform(random, low[1], high[1]),
@@ -119,14 +119,14 @@ int expect_all_minima(const Surface& surface, const Vector3& low, const Vector3&
     for (size_t m = 0; m < std::min(found.size(), found_on.size()); ++m)
       EXPECT_NEAR(found_on[m].distance, found[m].distance, 1e-13);
     for (const Minimum& m : BruteForce(surface, d).minima_within(reach)) {
-      const auto same = [&](const Projection& p) {
-        return std::abs(p.distance - m.distance) < 1e-12 && (p.foot - m.foot).norm() < 1e-6;
+      const auto same = [&](const Foot& p) {
+        return std::abs(p.distance - m.distance) < 1e-12 && (p.point - m.foot).norm() < 1e-6;
       };
       EXPECT_EQ(std::count_if(found.begin(), found.end(), same), 1) << "foot " << m.foot.transpose();
     }
     for (size_t m = 0; m < found.size(); ++m) {
-      SCOPED_TRACE(testing::Message() << "found " << found[m].foot.transpose());
-      EXPECT_NE(found[m].status, ProjectionStatus::not_converged);
+      SCOPED_TRACE(testing::Message() << "found " << found[m].point.transpose());
+      EXPECT_NE(found[m].status, FootStatus::not_converged);
       EXPECT_LT(found[m].distance, reach);
       EXPECT_NEAR((bound.point(found[m].xi) - d).norm(), found[m].distance, 1e-14);
       const judge::LocalConditions at = bound.conditions(d, found[m].xi);
@@ -134,7 +134,7 @@ int expect_all_minima(const Surface& surface, const Vector3& low, const Vector3&
       EXPECT_GT(at.curvature, 0.0);
       for (size_t other = 0; other < m; ++other) {
         EXPECT_LE(found[other].distance, found[m].distance);
-        EXPECT_GT((found[other].foot - found[m].foot).norm(), 1e-8);
+        EXPECT_GT((found[other].point - found[m].point).norm(), 1e-8);
       }
     }
     if (found.size() > 1) ++several;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "feet.h"
 #include "nurbs/primitives.h"
 #include "nurbs/shapes.h"
 #include "search/multi_patch_projector.h"
@@ -36,9 +37,9 @@ NodalVectors shape(const Surface& sheet, int step) {
   return points;
 }
 
-void expect_same(const Projection& p, const Projection& expected) {
+void expect_same(const Foot& p, const Foot& expected) {
   EXPECT_EQ(p.distance, expected.distance);
-  EXPECT_EQ(p.foot, expected.foot);
+  EXPECT_EQ(p.point, expected.point);
   EXPECT_EQ(p.xi, expected.xi);
   EXPECT_EQ(p.status, expected.status);
 }
@@ -76,7 +77,7 @@ TEST(ChangingShape, EverySearchIsThatOfANewProjector) {
       // The order of the searches changes, so that each is the first to use what the last step left behind.
       for (int search = step; search < step + 6; ++search)
         for (int k = 0; k < 20; ++k) {
-          std::vector<Projection> all, expected;
+          std::vector<Foot> all, expected;
           const double reach = k % 2 == 0 ? 0.05 : 0.3;
           switch (search % 6) {
             case 0:
@@ -103,10 +104,7 @@ TEST(ChangingShape, EverySearchIsThatOfANewProjector) {
               expect_same_feet(all, expected);
           }
         }
-      std::vector<Projection> batch(d.size()), expected(d.size());
-      old.warm_batch(d.data(), guesses.data(), 20, batch.data());
-      fresh.warm_batch(d.data(), guesses.data(), 20, expected.data());
-      expect_same_feet(batch, expected);
+      expect_same_feet(closest_from(old, d, guesses), closest_from(fresh, d, guesses));
     }
   }
 }
@@ -123,7 +121,7 @@ TEST(ChangingShape, ATroughHasTwoFeetWhereTheFlatSheetHadOne) {
       points(2, a) = depth * std::pow(2.0 * points(0, a) - 1.0, 2);
     projector.set_control_points(points);
   };
-  std::vector<Projection> feet;
+  std::vector<Foot> feet;
   for (int turn = 0; turn < 3; ++turn) {
     bend(0.0);
     for (const double y : {0.2, 0.5}) {
@@ -137,7 +135,7 @@ TEST(ChangingShape, ATroughHasTwoFeetWhereTheFlatSheetHadOne) {
       projector.all_minima({0.5, y, 0.6}, 0.7, feet);
       ASSERT_EQ(feet.size(), 2U) << "turn " << turn;
       EXPECT_NEAR(feet[0].distance, feet[1].distance, 1e-12);
-      EXPECT_NEAR(feet[0].foot[0] + feet[1].foot[0], 1.0, 1e-12);
+      EXPECT_NEAR(feet[0].point[0] + feet[1].point[0], 1.0, 1e-12);
       EXPECT_LT(feet[0].distance, 0.5);
     }
   }
@@ -162,7 +160,7 @@ TEST(ChangingShape, PatchesFollowTogether) {
     for (MultiPatchProjector* projector : {&old, &fresh}) projector->set_control_points(points);
     for (int k = 0; k < 40; ++k) {
       const Vector3 d = 2.0 * Vector3::NullaryExpr([&] { return shapes::uniform(random, -1.0, 1.0); });
-      std::vector<SurfaceFoot> feet, expected;
+      std::vector<Foot> feet, expected;
       old.add_minima(d, Vector3::Zero(), 1.5, 1e-7, elements.data(), count, feet);
       fresh.add_minima(d, Vector3::Zero(), 1.5, 1e-7, elements.data(), count, expected);
       expect_same_feet(feet, expected);

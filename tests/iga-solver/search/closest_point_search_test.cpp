@@ -85,9 +85,9 @@ Vector3 random_point(shapes::Random& random) {
 void expect_nearest(const Surface& surface, shapes::Random& random, int points) {
   for (int k = 0; k < points; ++k) {
     const Vector3 d = random_point(random);
-    const Projection p = closest(surface, d);
+    const Foot p = closest(surface, d);
     EXPECT_NEAR(p.distance, brute_force_distance(surface, d), 1e-11) << "d = " << d.transpose();
-    EXPECT_NE(p.status, ProjectionStatus::not_converged);
+    EXPECT_NE(p.status, FootStatus::not_converged);
     EXPECT_NEAR(p.distance, distance_at(surface, d, p.xi), 1e-14);
   }
 }
@@ -141,14 +141,14 @@ TEST(ClosestPointSearch, CandidatesOfABoxTree) {
   int within_reach = 0;
   for (int k = 0; k < 500; ++k) {
     const Vector3 d = random_point(random);
-    const Projection p = closest(hills, d);
+    const Foot p = closest(hills, d);
     constexpr double reach = 0.2;
     if (p.distance > reach) continue;
     ++within_reach;
     candidates.clear();
     tree.query(d, reach, candidates);
     ASSERT_FALSE(candidates.empty());
-    const Projection q = projector.cold_on(d, candidates.data(), static_cast<int>(candidates.size()));
+    const Foot q = projector.cold_on(d, candidates.data(), static_cast<int>(candidates.size()));
     EXPECT_NEAR(q.distance, p.distance, 1e-14);
   }
   EXPECT_GT(within_reach, 50);
@@ -168,7 +168,7 @@ TEST(ClosestPointSearch, WarmStartsFollow) {
   for (int step = 0; step < steps; ++step) {
     const double t = 2 * M_PI * step / steps;
     const Vector3 d(0.5 + 0.6 * std::sin(3 * t), 0.5 + 0.6 * std::sin(2 * t), 0.08);  // beyond the edges, too
-    const Projection warm = projector.warm(d, xi);
+    const Foot warm = projector.warm(d, xi);
     EXPECT_NEAR(warm.distance, projector.cold(d).distance, 1e-14) << step;
     xi = warm.xi;
     most = std::max(most, warm.iterations);

@@ -20,16 +20,16 @@ constexpr double kQuarter = M_PI / 2;
 struct Expected {
   Vector3 d;
   double xi, eta, distance;
-  ProjectionStatus status;
+  FootStatus status;
 };
 
-void expect_foot(const Surface& surface, const Projection& p, const Expected& expected) {
+void expect_foot(const Surface& surface, const Foot& p, const Expected& expected) {
   EXPECT_NEAR(p.xi[0], expected.xi, 1e-10);
   EXPECT_NEAR(p.xi[1], expected.eta, 1e-10);
   EXPECT_NEAR(p.distance, expected.distance, 1e-10);
   EXPECT_EQ(p.status, expected.status);
-  EXPECT_NEAR((interpolate(surface.space, surface.control_points, p.xi) - p.foot).norm(), 0.0, 1e-13);
-  EXPECT_NEAR((expected.d - p.foot).norm(), p.distance, 1e-14);
+  EXPECT_NEAR((interpolate(surface.space, surface.control_points, p.xi) - p.point).norm(), 0.0, 1e-13);
+  EXPECT_NEAR((expected.d - p.point).norm(), p.distance, 1e-14);
 }
 
 // Cold, and warm from a grid of guesses all over the patch.
@@ -45,7 +45,7 @@ void expect_feet(const Surface& surface, const std::vector<Expected>& cases) {
   }
 }
 
-using Status = ProjectionStatus;
+using Status = FootStatus;
 
 TEST(ClosestPoint, QuarterCylinder) {
   Surface cylinder = shapes::revolve(shapes::line(10.0, 20.0), kQuarter);
@@ -96,7 +96,7 @@ TEST(ClosestPoint, FullCylinderAcrossArcs) {
     const int arc = static_cast<int>(azimuth / kQuarter);
     const double xi = arc + shapes::arc_parameter(azimuth - arc * kQuarter, kQuarter);
     const double start = xi + shapes::uniform(random, -0.9, 0.9);
-    for (const Projection& p :
+    for (const Foot& p :
          {closest(cylinder, d), closest_from(cylinder, d, {start, shapes::uniform(random, 0.0, 1.0)})}) {
       EXPECT_NEAR(p.distance, std::abs(rho - 2.0), 1e-14);
       EXPECT_NEAR(p.xi[0], xi, 1e-13);
@@ -111,7 +111,7 @@ TEST(ClosestPoint, SmoothCreaseIsInterior) {
   const Surface cylinder = shapes::revolve(shapes::line(2.0, 5.0), kQuarter, 4);
   for (double rho : {1.0, 3.0})
     for (double start : {0.7, 1.0, 1.4}) {
-      const Projection p = closest_from(cylinder, {0.0, rho, 2.5}, {start, 0.2});
+      const Foot p = closest_from(cylinder, {0.0, rho, 2.5}, {start, 0.2});
       EXPECT_NEAR(p.xi[0], 1.0, 1e-15);
       EXPECT_EQ(p.status, Status::interior);
     }
@@ -127,8 +127,8 @@ TEST(ClosestPoint, FlatPatchToRoundOff) {
     for (int k = 0; k < 200; ++k) {
       const Vector3 shadow(shapes::uniform(random, -.3, .3), shapes::uniform(random, -.3, .3), 0.0);
       const Vector3 d = shadow + Vector3(0, 0, shapes::uniform(random, -0.1, 0.1));
-      const Projection p = closest_from(flat, d, shapes::random_parameter(random, flat.space));
-      EXPECT_LE((p.foot - shadow).lpNorm<Eigen::Infinity>(), 8e-16 * 0.6) << "degree " << degree;
+      const Foot p = closest_from(flat, d, shapes::random_parameter(random, flat.space));
+      EXPECT_LE((p.point - shadow).lpNorm<Eigen::Infinity>(), 8e-16 * 0.6) << "degree " << degree;
       EXPECT_DOUBLE_EQ(p.distance, std::abs(d.z()));
       EXPECT_EQ(p.status, Status::interior);
     }
@@ -149,7 +149,7 @@ class Roof : public testing::Test {
 
 TEST_F(Roof, RidgeIsAMinimumFromOutside) {
   for (double start : {0.0, 0.3, 0.99, 1.0, 1.2, 2.0}) {
-    const Projection p = closest_from(roof_, {0.3, 0.4, 3.0}, {start, 0.9});
+    const Foot p = closest_from(roof_, {0.3, 0.4, 3.0}, {start, 0.9});
     EXPECT_EQ(p.xi[0], 1.0);
     EXPECT_NEAR(p.xi[1], 0.4, 1e-15);
     EXPECT_NEAR(p.distance, std::hypot(0.3, 1.0), 1e-15);
@@ -160,18 +160,18 @@ TEST_F(Roof, RidgeIsAMinimumFromOutside) {
 TEST_F(Roof, SlopesAreFoundAcrossTheRidge) {
   for (double start : {0.0, 0.3, 0.99, 1.0, 1.2, 2.0})
     for (double side : {-1.0, 1.0}) {
-      const Projection p =
+      const Foot p =
           closest_from(roof_, {side * 2.0, 0.4, 2.0}, {start, 0.1});  // above the middle of a slope
-      EXPECT_NEAR((p.foot - Vector3(side, 0.4, 1.0)).norm(), 0.0, 1e-15);
+      EXPECT_NEAR((p.point - Vector3(side, 0.4, 1.0)).norm(), 0.0, 1e-15);
       EXPECT_EQ(p.status, Status::interior);
     }
 }
 
 TEST_F(Roof, ValleyHasAMinimumOnEachSide) {
   for (double start : {0.2, 0.9, 1.1, 1.8}) {
-    const Projection p = closest_from(roof_, {0.0, 0.4, 1.5}, {start, 0.1});
+    const Foot p = closest_from(roof_, {0.0, 0.4, 1.5}, {start, 0.1});
     EXPECT_NEAR(p.distance, 0.5 / std::sqrt(2.0), 1e-15);
-    EXPECT_NEAR(p.foot.x(), start < 1.0 ? -0.25 : 0.25, 1e-15);
+    EXPECT_NEAR(p.point.x(), start < 1.0 ? -0.25 : 0.25, 1e-15);
     EXPECT_EQ(p.status, Status::interior);
   }
 }
@@ -179,7 +179,7 @@ TEST_F(Roof, ValleyHasAMinimumOnEachSide) {
 // From beyond the axis, the middle of a concave arc is the farthest point: stationary, but no minimum.
 TEST(ClosestPoint, LeavesAMaximum) {
   const Surface cylinder = shapes::revolve(shapes::line(10.0, 20.0), kQuarter);
-  const Projection p = closest_from(cylinder, {-5, -5, 8}, {0.5, 0.4});
+  const Foot p = closest_from(cylinder, {-5, -5, 8}, {0.5, 0.4});
   EXPECT_NEAR(p.distance, std::hypot(15.0, 5.0), 1e-13);
   EXPECT_EQ(p.status, Status::edge);
 }
@@ -196,10 +196,10 @@ TEST(ClosestPoint, LeavesASaddle) {
       saddle.control_points.col(a++) << i, j, (i == 0 ? -1.0 : 1.0) - (j == 0 ? -1.0 : 1.0);
     }
   const double height = 0.8;
-  const Projection p = closest_from(saddle, {0, 0, height}, {0.0, 0.0});
+  const Foot p = closest_from(saddle, {0, 0, height}, {0.0, 0.0});
   // Minimum of x^2 + (x^2 - h)^2: x^2 = h - 1/2.
-  EXPECT_NEAR(std::abs(p.foot.x()), std::sqrt(height - 0.5), 1e-14);
-  EXPECT_NEAR(p.foot.y(), 0.0, 1e-14);
+  EXPECT_NEAR(std::abs(p.point.x()), std::sqrt(height - 0.5), 1e-14);
+  EXPECT_NEAR(p.point.y(), 0.0, 1e-14);
   EXPECT_NEAR(p.distance, std::sqrt(height - 0.25), 1e-14);
 }
 
@@ -213,7 +213,7 @@ TEST(ClosestPoint, RollsThroughAPole) {
         const double along = step * 0.05;
         const Vector3 d(along * std::cos(direction) - offset * std::sin(direction),
                         along * std::sin(direction) + offset * std::cos(direction), 4.0);
-        const Projection p = closest_from(bowl, d, xi);
+        const Foot p = closest_from(bowl, d, xi);
         EXPECT_NEAR(p.distance, 5.0 - d.norm(), 1e-13) << offset << " " << direction << " " << step;
         EXPECT_NE(p.status, Status::not_converged);
         xi = p.xi;
@@ -227,7 +227,7 @@ TEST(ClosestPoint, FocalPoints) {
   const Surface octant = shapes::revolve(shapes::quarter_arc(0.0, 5.0), kQuarter);
   for (double guess : {0.0, 0.3, 0.5, 0.9, 1.0}) {
     EXPECT_NEAR(closest_from(cylinder, {0, 0, 7}, {guess, 0.1}).distance, 10.0, 1e-13);
-    const Projection p = closest_from(octant, {0, 0, 0}, {guess, guess});
+    const Foot p = closest_from(octant, {0, 0, 0}, {guess, guess});
     EXPECT_NEAR(p.distance, 5.0, 1e-13);
     EXPECT_NE(p.status, Status::not_converged);
   }
@@ -244,7 +244,7 @@ TEST(ClosestPoint, EveryElementIsSearchedForItself) {
   const int elements[] = {1, 0};
   SurfaceProjector projector(fold.space);
   projector.set_control_points(fold.control_points);
-  const Projection p = projector.cold_on({8, 0.4, 1.5}, elements, 2);
+  const Foot p = projector.cold_on({8, 0.4, 1.5}, elements, 2);
   EXPECT_NEAR(p.distance, 1.5, 1e-15);
   EXPECT_NEAR(p.xi[0], 0.8, 1e-15);
 }
@@ -257,10 +257,10 @@ TEST(ClosestPoint, ScalingAllLengthsChangesNothing) {
     const Surface scaled{hills.space, scale * hills.control_points};
     for (int k = 0; k < 200; ++k) {
       const Vector3 d(shapes::uniform(random, -.2, 1.2), shapes::uniform(random, -.2, 1.2), .4);
-      const Projection p = closest(hills, d), q = closest(scaled, scale * d);
+      const Foot p = closest(hills, d), q = closest(scaled, scale * d);
       EXPECT_EQ(p.status, q.status);
       EXPECT_NEAR(q.distance, scale * p.distance, 1e-14 * scale);
-      EXPECT_NEAR((q.foot - scale * p.foot).norm(), 0.0, 1e-12 * scale);
+      EXPECT_NEAR((q.point - scale * p.point).norm(), 0.0, 1e-12 * scale);
       if (scale == 1.0 / 1024) {
         EXPECT_EQ(p.xi, q.xi);  // a power of two: the same bits
         EXPECT_EQ(p.iterations, q.iterations);

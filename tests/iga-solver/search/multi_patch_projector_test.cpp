@@ -17,11 +17,11 @@ namespace {
 using namespace nurbs;
 
 // On all elements of the surface and its images.
-std::vector<SurfaceFoot> minima(const MultiPatchProjector& projector, const Vector3& d, double reach,
-                                const std::vector<Vector3>& images = {Vector3::Zero()}) {
+std::vector<Foot> minima(const MultiPatchProjector& projector, const Vector3& d, double reach,
+                         const std::vector<Vector3>& images = {Vector3::Zero()}) {
   std::vector<int> elements(projector.surface().element_count());
   std::iota(elements.begin(), elements.end(), 0);
-  std::vector<SurfaceFoot> feet;
+  std::vector<Foot> feet;
   for (const Vector3& image : images)
     projector.add_minima(d, image, reach, 1e-7, elements.data(), static_cast<int>(elements.size()), feet);
   return feet;
@@ -78,7 +78,7 @@ TEST(MultiPatchProjector, MinimaAtASharedPole) {
             const Vector3 d =
                 distance * Vector3(std::sin(polar) * std::cos(longitude),
                                    std::sin(polar) * std::sin(longitude), pole * std::cos(polar));
-            const std::vector<SurfaceFoot> feet = minima(projector, d, 0.4);
+            const std::vector<Foot> feet = minima(projector, d, 0.4);
             ASSERT_GE(feet.size(), 1U) << meridians << " patches, open " << open << ", d " << d.transpose();
             EXPECT_NEAR(feet[0].distance, std::abs(distance - 1.0), 1e-13);
             // The edges of a wedge that is missing have feet of their own, but not the pole.
@@ -86,7 +86,7 @@ TEST(MultiPatchProjector, MinimaAtASharedPole) {
               EXPECT_EQ(feet.size(), 1U) << meridians << " patches, d " << d.transpose();
             }
             for (size_t i = 1; i < feet.size(); ++i)
-              EXPECT_GT((feet[i].foot - Vector3(0.0, 0.0, pole)).norm(), 1e-6) << d.transpose();
+              EXPECT_GT((feet[i].point - Vector3(0.0, 0.0, pole)).norm(), 1e-6) << d.transpose();
           }
     }
 }
@@ -108,10 +108,10 @@ TEST(MultiPatchProjector, MinimaAtAPoleOnAPeriodicFace) {
         const double polar = 0.2 * (k + 1) / 40.0, longitude = 0.61 * k;
         const Vector3 direction(std::sin(polar) * std::cos(longitude), std::sin(polar) * std::sin(longitude),
                                 pole * std::cos(polar));
-        const std::vector<SurfaceFoot> feet =
+        const std::vector<Foot> feet =
             minima(projector, distance * direction, 0.4, {Vector3::Zero(), -period});
         ASSERT_EQ(feet.size(), 1U) << "direction " << direction.transpose();
-        EXPECT_LT((feet[0].foot - direction).norm(), 1e-13);
+        EXPECT_LT((feet[0].point - direction).norm(), 1e-13);
       }
 }
 
@@ -124,9 +124,9 @@ TEST(MultiPatchProjector, FollowsManyAcrossBorders) {
   constexpr int kPoints = 150, kSteps = 60;  // more than are taken at a time
   const Vector3 images[2] = {Vector3::Zero(), Vector3(40.0, -30.0, 20.0)};
   std::vector<Vector3> d(kPoints);
-  std::vector<SurfaceFoot> feet(kPoints);
-  std::vector<SurfaceFoot*> pointers;
-  for (SurfaceFoot& foot : feet) pointers.push_back(&foot);
+  std::vector<Foot> feet(kPoints);
+  std::vector<Foot*> pointers;
+  for (Foot& foot : feet) pointers.push_back(&foot);
   const auto direction = [](int k, int step) {
     const Vector3 axis = Vector3(std::cos(k), std::sin(3.0 * k), 0.1 + 0.001 * k).normalized();
     const Vector3 start = axis.cross(Vector3(std::sin(k), 0.3, std::cos(2.0 * k))).normalized();
@@ -137,23 +137,23 @@ TEST(MultiPatchProjector, FollowsManyAcrossBorders) {
     for (int k = 0; k < kPoints; ++k) d[k] = images[k % 2] + (1.0 + 0.002 * k) * direction(k, step);
     if (step == 0)
       for (int k = 0; k < kPoints; ++k) {
-        const std::vector<SurfaceFoot> all = minima(projector, d[k], 0.4, {images[k % 2]});
+        const std::vector<Foot> all = minima(projector, d[k], 0.4, {images[k % 2]});
         ASSERT_FALSE(all.empty()) << "point " << k;
         feet[k] = all[0];
       }
     std::vector<int> before;
-    std::vector<SurfaceFoot> alone;
+    std::vector<Foot> alone;
     for (int k = 0; k < kPoints; ++k) {
       before.push_back(feet[k].patch);
       alone.push_back(projector.follow(d[k], feet[k].at(), feet[k].image));
     }
-    projector.follow_batch(d.data(), pointers.data(), kPoints);
+    projector.follow(d.data(), pointers.data(), kPoints);
     for (int k = 0; k < kPoints; ++k) {
       changes += feet[k].patch != before[k];
       ASSERT_NEAR(feet[k].distance, 0.002 * k, 1e-13) << "point " << k << ", step " << step;
-      ASSERT_LT((feet[k].foot - images[k % 2] - direction(k, step)).norm(), 1e-13);
+      ASSERT_LT((feet[k].point - images[k % 2] - direction(k, step)).norm(), 1e-13);
       ASSERT_EQ(feet[k].image, images[k % 2]);
-      ASSERT_EQ(feet[k].foot, alone[k].foot);  // to the last bit
+      ASSERT_EQ(feet[k].point, alone[k].point);  // to the last bit
       ASSERT_EQ(feet[k].xi, alone[k].xi);
     }
   }
@@ -180,9 +180,9 @@ TEST(MultiPatchProjector, OneFootOutsideACube) {
     const Vector3 d = Vector3::NullaryExpr([&] { return shapes::uniform(random, -0.5, 1.5); });
     const Vector3 foot = d.cwiseMax(0.0).cwiseMin(1.0);
     if (foot == d) continue;
-    const std::vector<SurfaceFoot> feet = minima(projector, d, 1.0);
+    const std::vector<Foot> feet = minima(projector, d, 1.0);
     ASSERT_EQ(feet.size(), 1U) << "d " << d.transpose();
-    EXPECT_LT((feet[0].foot - foot).norm(), 1e-14) << "d " << d.transpose();
+    EXPECT_LT((feet[0].point - foot).norm(), 1e-14) << "d " << d.transpose();
     ++on_faces_edges_corners[(foot.array() != d.array()).count()];
   }
   for (const int kind : {1, 2, 3}) EXPECT_GT(on_faces_edges_corners[kind], 100);
@@ -204,14 +204,14 @@ TEST(MultiPatchProjector, FootOnAPeriodicFloor) {
     Vector3 image = Vector3::Zero();
     for (int step = 0; step < 64; ++step) {
       const Vector3 below(0.5 + way * step / 8.0, 0.5 + way * step / 16.0, 0.0);
-      const SurfaceFoot foot = projector.follow(below + up, at, image);
-      ASSERT_LT((foot.foot - below).norm(), 1e-14) << "step " << step;
+      const Foot foot = projector.follow(below + up, at, image);
+      ASSERT_LT((foot.point - below).norm(), 1e-14) << "step " << step;
       std::vector<Vector3> images;
       for (const double x : {-1.0, 0.0, 1.0})
         for (const double y : {-1.0, 0.0, 1.0}) images.push_back(foot.image + x * period_x + y * period_y);
-      const std::vector<SurfaceFoot> feet = minima(projector, below + up, 0.3, images);
+      const std::vector<Foot> feet = minima(projector, below + up, 0.3, images);
       ASSERT_EQ(feet.size(), 1U) << "step " << step;
-      EXPECT_LT((feet[0].foot - below).norm(), 1e-14) << "step " << step;
+      EXPECT_LT((feet[0].point - below).norm(), 1e-14) << "step " << step;
       at = foot.at(), image = foot.image;
     }
   }

@@ -16,12 +16,12 @@ namespace {
 
 using namespace nurbs;
 
-using Status = ProjectionStatus;
+using Status = FootStatus;
 
-std::vector<Projection> minima(const Surface& surface, const Vector3& d) {
+std::vector<Foot> minima(const Surface& surface, const Vector3& d) {
   SurfaceProjector projector(surface.space);
   projector.set_control_points(surface.control_points);
-  std::vector<Projection> all;
+  std::vector<Foot> all;
   projector.all_minima(d, 100.0, all);
   return all;
 }
@@ -44,12 +44,12 @@ TEST(Poles, TipOfACone) {
         const double slant = std::max(0.0, (3.0 * rho - 4.0 * z) / 5.0);  // from the tip to the foot
         const Vector3 foot =
             tip + slant / 5.0 * Vector3(3.0 * std::cos(azimuth), 3.0 * std::sin(azimuth), -4.0);
-        std::vector<Projection> found = minima(quarter, d);
+        std::vector<Foot> found = minima(quarter, d);
         ASSERT_EQ(found.size(), 1u);
         for (const double xi : {0.0, 0.4, 1.0})
           for (const double eta : {0.0, 0.5, 1.0}) found.push_back(closest_from(quarter, d, {xi, eta}));
-        for (const Projection& p : found) {
-          EXPECT_NEAR((p.foot - foot).norm(), 0.0, slant < kResolution ? kResolution : 1e-13);
+        for (const Foot& p : found) {
+          EXPECT_NEAR((p.point - foot).norm(), 0.0, slant < kResolution ? kResolution : 1e-13);
           EXPECT_NEAR(p.distance, (d - foot).norm(), 1e-14);
           EXPECT_EQ(p.status != Status::interior, slant < kResolution);
         }
@@ -70,15 +70,15 @@ TEST(Poles, PoleOfAnEllipsoid) {
       dome.control_points.topRows<3>() -=
           0.5 * across * (across.transpose() * dome.control_points.topRows<3>());
       const Vector3 d(0, 0, 5.0 - depth);
-      const std::vector<Projection> found = minima(dome, d);
-      const auto on_pole = [&](const Projection& p) { return (p.foot - pole).norm() < 1e-7; };
+      const std::vector<Foot> found = minima(dome, d);
+      const auto on_pole = [&](const Foot& p) { return (p.point - pole).norm() < 1e-7; };
       EXPECT_EQ(std::count_if(found.begin(), found.end(), on_pole), depth < 1.25 ? 1 : 0);
       // Nearest: the pole, or beyond the focus y^2 / 6.25 + z^2 / 25 = 1 at z = (25 / 18.75) d_z.
       const double z = 25.0 / 18.75 * d.z(), y2 = 6.25 * (1.0 - z * z / 25.0);
       const double least = depth < 1.25 ? std::abs(depth) : std::sqrt(y2 + (z - d.z()) * (z - d.z()));
       EXPECT_NEAR(closest(dome, d).distance, least, 1e-12);
       for (const double eta : {0.0, 0.3, 1.0}) {
-        const Projection p = closest_from(dome, d, {0.1, eta});
+        const Foot p = closest_from(dome, d, {0.1, eta});
         EXPECT_NEAR(p.distance, least, 1e-12);
         EXPECT_NE(p.status, Status::not_converged);
       }
@@ -97,7 +97,7 @@ TEST(Poles, RoundOffHoldsNoMaximum) {
     const Vector3 centre = vector(3000);
     const Surface quarter = torus(frame(centre, vector(1)), 2, 1, sector(90, 3), refined(arc(0, 90), 3, 2));
     for (const double xi : {0.0, 0.2, 1.0 / 3.0, 0.9}) {
-      const Projection p = closest_from(quarter, centre, {xi, 0.0});
+      const Foot p = closest_from(quarter, centre, {xi, 0.0});
       EXPECT_NEAR(p.distance, std::sqrt(5.0), 1e-11);
       EXPECT_EQ(p.xi[1], 1.0);
     }
@@ -119,11 +119,11 @@ TEST(Poles, SeamOfACylinder) {
     const double height = shapes::uniform(random, 0.0, 20.0), gap = shapes::uniform(random, -0.4, 0.4);
     const Vector3 out(std::cos(azimuth), std::sin(azimuth), 0.0), up(0, 0, height);
     const Vector3 d = (kRadius + gap) * out + up, foot = kRadius * out + up;
-    for (const Projection& p :
+    for (const Foot& p :
          {projector.cold(d), projector.cold_on(d, elements.data(), static_cast<int>(elements.size())),
           projector.nearest(d, {k % 3 ? 0.01 : 0.99, 0.5})}) {
       EXPECT_EQ(p.status, Status::interior) << "azimuth " << azimuth;
-      EXPECT_NEAR((p.foot - foot).norm(), 0.0, 1e-13) << "azimuth " << azimuth;
+      EXPECT_NEAR((p.point - foot).norm(), 0.0, 1e-13) << "azimuth " << azimuth;
     }
   }
 }
@@ -138,13 +138,13 @@ TEST(Poles, CentresOfSpheresAndAxes) {
     EXPECT_NEAR(closest(*surface, d).distance, 5.0, 1e-13);
     for (const double xi : {0.0, 0.06, 0.5, 1.0})
       for (const double eta : {0.0, 0.3, 1.0}) {
-        const Projection p = closest_from(*surface, d, {xi, eta});
+        const Foot p = closest_from(*surface, d, {xi, eta});
         EXPECT_NEAR(p.distance, 5.0, 1e-13);
         EXPECT_NE(p.status, Status::not_converged);
       }
-    const std::vector<Projection> found = minima(*surface, d);
+    const std::vector<Foot> found = minima(*surface, d);
     EXPECT_FALSE(found.empty());
-    for (const Projection& p : found) EXPECT_NEAR(p.distance, 5.0, 1e-13);
+    for (const Foot& p : found) EXPECT_NEAR(p.distance, 5.0, 1e-13);
   }
 }
 

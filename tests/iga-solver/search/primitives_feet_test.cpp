@@ -22,23 +22,23 @@ Curve meshed_arc(double from, double to, int elements, int degree = 2) {
 Frame tilted() { return frame({0.3, -0.2, 0.5}, {1, 2, 3}, {1, -1, 4}); }
 Frame upright() { return frame({0, 0, 0}, {0, 0, 1}); }
 
-struct Foot {
+struct Expected {
   Vector3 d;
   double xi, eta, distance;
 };
 
 // The feet in the shape's own frame, and the same wherever the shape stands: parameters and distance to
 // 1e-10.
-void expect_feet(const std::function<Surface(const Frame&)>& shape, const std::vector<Foot>& feet) {
+void expect_feet(const std::function<Surface(const Frame&)>& shape, const std::vector<Expected>& feet) {
   for (const Frame& f : {upright(), tilted()}) {
     const Surface surface = shape(f);
-    for (const Foot& foot : feet) {
+    for (const Expected& foot : feet) {
       SCOPED_TRACE(testing::Message() << "d = " << foot.d.transpose());
-      const Projection p = closest(surface, f.origin + f.axes * foot.d);
+      const Foot p = closest(surface, f.origin + f.axes * foot.d);
       EXPECT_NEAR(p.xi[0], foot.xi, 1e-10);
       EXPECT_NEAR(p.xi[1], foot.eta, 1e-10);
       EXPECT_NEAR(p.distance, foot.distance, 1e-10);
-      EXPECT_NE(p.status, ProjectionStatus::not_converged);
+      EXPECT_NE(p.status, FootStatus::not_converged);
     }
   }
 }

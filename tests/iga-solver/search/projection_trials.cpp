@@ -15,8 +15,8 @@
 #include <map>
 
 #include "distance_bound.h"
+#include "feet.h"
 #include "search/box_tree.h"
-#include "search/surface_projector.h"
 #include "trial_surfaces.h"
 
 namespace search {
@@ -64,7 +64,7 @@ class Trial {
 
   /// What is wrong with the cold search, or an empty text.
   std::string try_cold(const Vector3& d, Counts& counts) const {
-    const Projection p = as_given_.search.cold(d);
+    const Foot p = as_given_.search.cold(d);
     if (std::string wrong = inconsistent(d, p); !wrong.empty()) return wrong;
     if (std::string wrong = not_least(d, p, counts); !wrong.empty()) return wrong;
     const double scaled = scaled_.search.cold(kScale * d).distance / kScale;
@@ -81,7 +81,7 @@ class Trial {
     const double nearest = as_given_.search.cold(d).distance;
     std::vector<int> candidates;
     as_given_.tree.query(d, 1.2 * nearest + 0.1 * trial_.element, candidates);
-    const Projection p = as_given_.search.cold_on(d, candidates.data(), static_cast<int>(candidates.size()));
+    const Foot p = as_given_.search.cold_on(d, candidates.data(), static_cast<int>(candidates.size()));
     if (std::string wrong = inconsistent(d, p); !wrong.empty()) return wrong;
     if (std::abs(p.distance - nearest) > kTolerance * nearest + judge_.round_off())
       return fmt::format("distance {:.16g}, on all elements it is {:.16g}", p.distance, nearest);
@@ -91,14 +91,14 @@ class Trial {
 
   /// The same for the warm search that goes on to the nearest.
   std::string try_nearest(const Vector3& d, const Parameter<2>& guess, Counts& counts) const {
-    const Projection p = as_given_.search.nearest(d, guess);
+    const Foot p = as_given_.search.nearest(d, guess);
     if (std::string wrong = inconsistent(d, p); !wrong.empty()) return wrong;
     return not_least(d, p, counts);
   }
 
   /// The same for the warm search from `guess`.
   std::string try_warm(const Vector3& d, const Parameter<2>& guess) const {
-    const Projection p = as_given_.search.warm(d, guess);
+    const Foot p = as_given_.search.warm(d, guess);
     if (std::string wrong = inconsistent(d, p); !wrong.empty()) return wrong;
     const double start = (judge_.point(guess) - d).norm();
     if (p.distance > start + judge_.round_off() + 1e-15 * start)
@@ -110,11 +110,10 @@ class Trial {
   /// The same for the warm searches together; `number` is that of the point in question.
   std::string try_batch(const std::vector<Vector3>& d, const std::vector<Parameter<2>>& guesses,
                         int& number) const {
-    std::vector<Projection> batch(d.size());
-    as_given_.search.warm_batch(d.data(), guesses.data(), static_cast<int>(d.size()), batch.data());
+    const std::vector<Foot> batch = closest_from(as_given_.search, d, guesses);
     for (number = 0; number < static_cast<int>(d.size()); ++number) {
-      const Projection &p = batch[number], one = as_given_.search.warm(d[number], guesses[number]);
-      if (p.distance != one.distance || p.foot != one.foot || p.xi != one.xi || p.status != one.status ||
+      const Foot &p = batch[number], one = as_given_.search.warm(d[number], guesses[number]);
+      if (p.distance != one.distance || p.point != one.point || p.xi != one.xi || p.status != one.status ||
           p.iterations != one.iterations)
         return fmt::format("distance {:.16g} at [{}, {}], alone {:.16g} at [{}, {}]", p.distance, p.xi[0],
                            p.xi[1], one.distance, one.xi[0], one.xi[1]);
@@ -125,19 +124,19 @@ class Trial {
   Parameter<2> foot(const Vector3& d) const { return as_given_.search.cold(d).xi; }
 
  private:
-  std::string inconsistent(const Vector3& d, const Projection& p) const {
-    if (p.status == ProjectionStatus::not_converged) return "not converged";
-    const double apart = (judge_.point(p.xi) - p.foot).norm();
+  std::string inconsistent(const Vector3& d, const Foot& p) const {
+    if (p.status == FootStatus::not_converged) return "not converged";
+    const double apart = (judge_.point(p.xi) - p.point).norm();
     if (!(apart <= judge_.round_off() + 1e-15 * p.distance))
       return fmt::format("the foot is {:.3g} elements from its parameters", apart / trial_.element);
-    if (!(std::abs((d - p.foot).norm() - p.distance) <= judge_.round_off()))
+    if (!(std::abs((d - p.point).norm() - p.distance) <= judge_.round_off()))
       return "the distance is not that of the foot";
     if (borders(p.xi) > static_cast<int>(p.status))
       return "the status does not say that the foot is on an edge";
     return {};
   }
 
-  std::string not_least(const Vector3& d, const Projection& p, Counts& counts) const {
+  std::string not_least(const Vector3& d, const Foot& p, Counts& counts) const {
     const judge::Nearest nearest = judge_.nearest(d, {p.xi, p.distance, 0}, kTolerance);
     counts.nets += nearest.nets;
     if (nearest.distance < (1.0 - kTolerance) * p.distance - judge_.round_off())
@@ -146,7 +145,7 @@ class Trial {
     return {};
   }
 
-  // 0 inside the patch, 1 on an edge, 2 on a corner, as ProjectionStatus counts.
+  // 0 inside the patch, 1 on an edge, 2 on a corner, as FootStatus counts.
   int borders(const Parameter<2>& xi) const {
     int count = 0;
     for (int i = 0; i < 2; ++i) {
@@ -156,7 +155,7 @@ class Trial {
     return count;
   }
 
-  std::string no_minimum(const Vector3& d, const Projection& p, Counts& counts) const {
+  std::string no_minimum(const Vector3& d, const Foot& p, Counts& counts) const {
     constexpr double kIsolated = 1e-2;
     const judge::LocalConditions at = judge_.conditions(d, p.xi);
     const double round_off = judge_.round_off() + 1e-14 * p.distance;

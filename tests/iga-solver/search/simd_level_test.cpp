@@ -7,7 +7,7 @@
 
 #include <cstdlib>
 
-#include "search/surface_projector.h"
+#include "feet.h"
 #include "trial_surfaces.h"
 
 namespace search {
@@ -73,17 +73,16 @@ TEST(SimdLevel, BatchesFindTheFeetOfSinglePoints) {
     for (const SimdLevel level : levels()) {
       SurfaceProjector projector(trial.surface.space, level);
       projector.set_control_points(trial.surface.control_points);
-      std::vector<Projection> batch(given.size());
-      projector.warm_batch(d.data(), guesses.data(), static_cast<int>(d.size()), batch.data());
+      const std::vector<Foot> batch = closest_from(projector, d, guesses);
       for (size_t i = 0; i < given.size(); ++i) {
-        const Projection one = projector.warm(d[i], guesses[i]);
+        const Foot one = projector.warm(d[i], guesses[i]);
         SCOPED_TRACE(testing::Message() << name(level) << ", surface " << k << ", point " << i);
         EXPECT_EQ(batch[i].status, one.status);
         EXPECT_EQ(batch[i].iterations, one.iterations);
-        EXPECT_EQ(batch[i].foot, one.foot);
+        EXPECT_EQ(batch[i].point, one.point);
         EXPECT_EQ(batch[i].distance, one.distance);
         EXPECT_EQ(batch[i].xi, one.xi);
-        ++points, inside += one.status == ProjectionStatus::interior;
+        ++points, inside += one.status == FootStatus::interior;
       }
     }
   }
@@ -102,7 +101,7 @@ TEST(SimdLevel, LevelsAgree) {
       SurfaceProjector projector(trial.surface.space, level);
       projector.set_control_points(trial.surface.control_points);
       for (const Query& query : queries(random, trial, 12)) {
-        const Projection expected = portable.cold(query.d), found = projector.cold(query.d);
+        const Foot expected = portable.cold(query.d), found = projector.cold(query.d);
         SCOPED_TRACE(testing::Message() << name(level) << ", surface " << k);
         EXPECT_NEAR(found.distance, expected.distance, 1e-10 * trial.element + 1e-13 * expected.distance);
       }

@@ -21,7 +21,7 @@ namespace {
 
 using namespace nurbs;
 
-using Status = ProjectionStatus;
+using Status = FootStatus;
 
 // Inside the element and, where polynomials go on, a little outside.
 TEST(BezierElement, EqualsTheSurface) {
@@ -63,7 +63,7 @@ Vector3 unit_normal(const Surface& surface, const Parameter<2>& xi) {
   return S_i[0].cross(S_i[1]).normalized();
 }
 
-Projection paper(const Surface& surface, const Vector3& d, const Parameter<2>& guess, bool warm) {
+Foot paper(const Surface& surface, const Vector3& d, const Parameter<2>& guess, bool warm) {
   return closest_point_simplex_brent(surface.space, surface.control_points, d, guess, warm);
 }
 
@@ -98,16 +98,16 @@ double expect_interior_feet(bool warm, double off) {
       const Surface surface = hills(random, degree, rational);
       for (int k = 0; k < 100; ++k, ++trials) {
         const Trial t = trial(random, surface, off);
-        const Projection p = paper(surface, t.d, t.guess, warm);
+        const Foot p = paper(surface, t.d, t.guess, warm);
         if (p.status != Status::interior) continue;
         ++converged;
-        const Projection newton = closest_from(surface, t.d, p.xi);  // confirms it stays there
+        const Foot newton = closest_from(surface, t.d, p.xi);  // confirms it stays there
         for (int i = 0; i < 2; ++i) {
           EXPECT_NEAR(p.xi[i], t.xi[i], 1e-10) << "degree " << degree << ", trial " << k;
           EXPECT_NEAR(p.xi[i], newton.xi[i], 1e-10);
         }
         EXPECT_NEAR(p.distance, newton.distance, 1e-10);
-        EXPECT_NEAR(p.distance, (t.d - p.foot).norm(), 1e-15);
+        EXPECT_NEAR(p.distance, (t.d - p.point).norm(), 1e-15);
       }
     }
   return static_cast<double>(converged) / trials;
@@ -124,7 +124,7 @@ TEST(SimplexBrent, ColdFromCorners) {
   for (int k = 0; k < 20; ++k) {
     const Trial t = trial(random, surface, 0.0);
     for (const Parameter<2>& corner : {Parameter<2>{0, 0}, {1, 0}, {0, 1}, {1, 1}}) {
-      const Projection p = paper(surface, t.d, corner, false);
+      const Foot p = paper(surface, t.d, corner, false);
       ASSERT_EQ(p.status, Status::interior);
       for (int i = 0; i < 2; ++i) EXPECT_NEAR(p.xi[i], t.xi[i], 1e-10);
     }
@@ -141,11 +141,11 @@ TEST(SimplexBrent, BestOfElementsIsTheNearest) {
     std::iota(elements.begin(), elements.end(), 0);
     const int count = static_cast<int>(elements.size());
     const Vector3 d(shapes::uniform(random, 0.2, 0.8), shapes::uniform(random, 0.2, 0.8), 0.3);
-    const Projection p = closest_point_simplex_brent_on_elements(surface.space, surface.control_points, d,
-                                                                 elements.data(), count);
+    const Foot p = closest_point_simplex_brent_on_elements(surface.space, surface.control_points, d,
+                                                           elements.data(), count);
     if (p.status != Status::interior) continue;
     ++converged;
-    const Projection newton = closest(surface, d);
+    const Foot newton = closest(surface, d);
     EXPECT_NEAR(p.distance, newton.distance, 1e-12);
     for (int i = 0; i < 2; ++i) EXPECT_NEAR(p.xi[i], newton.xi[i], 1e-10);
   }
@@ -170,7 +170,7 @@ TEST(SimplexBrent, WarmIterationsAlongAPath) {
       const Parameter<2> xi = {0.2 + 0.6 * s, 0.5 - 0.3 * std::cos(3.0 * s)};
       const Vector3 d = interpolate(surface.space, surface.control_points, xi) +
                         0.02 * std::cos(20.0 * s) * unit_normal(surface, xi);
-      const Projection p = paper(surface, d, guess, n > 0);
+      const Foot p = paper(surface, d, guess, n > 0);
       ASSERT_EQ(p.status, Status::interior) << "step " << n;
       for (int i = 0; i < 2; ++i) ASSERT_NEAR(p.xi[i], xi[i], 1e-10) << "step " << n;
       guess = p.xi;
@@ -194,9 +194,9 @@ TEST(SimplexBrent, DoesNotConvergeBeyondEdgesAndOnCreases) {
   for (bool warm : {true, false}) {
     for (const Vector3& d : {Vector3(1.2, 0.5, 0.1), Vector3(-0.1, -0.1, 0.0), Vector3(0.5, 1.0, 0.3)})
       EXPECT_EQ(paper(square, d, {0.6, 0.7}, warm).status, Status::not_converged) << d.transpose();
-    const Projection p = paper(roof, {0.1, 0.4, 2.0}, {0.3, 0.6}, warm);
+    const Foot p = paper(roof, {0.1, 0.4, 2.0}, {0.3, 0.6}, warm);
     EXPECT_EQ(p.status, Status::not_converged);
-    EXPECT_NEAR(p.distance, (Vector3(0.1, 0.4, 2.0) - p.foot).norm(), 1e-15);
+    EXPECT_NEAR(p.distance, (Vector3(0.1, 0.4, 2.0) - p.point).norm(), 1e-15);
   }
 }
 
@@ -219,12 +219,12 @@ TEST(SimplexBrent, NeverEndsFartherThanItStarted) {
     const Parameter<2> guess = shapes::random_parameter(random, surface.space);
     const Vector3 d(shapes::uniform(random, 0, 1), shapes::uniform(random, 0, 1),
                     shapes::uniform(random, -0.3, 0.3));
-    const Projection p = paper(surface, d, guess, true);
+    const Foot p = paper(surface, d, guess, true);
     if (p.status != Status::interior) continue;
     ++converged;
     const double start = (interpolate(surface.space, surface.control_points, guess) - d).norm();
     EXPECT_LE(p.distance, start);
-    const Projection newton = closest_from(surface, d, p.xi);
+    const Foot newton = closest_from(surface, d, p.xi);
     for (int i = 0; i < 2; ++i) EXPECT_NEAR(p.xi[i], newton.xi[i], 1e-9);
   }
   EXPECT_GT(converged, 300);
@@ -237,8 +237,8 @@ TEST(SimplexBrent, ScalingLengthsChangesNothing) {
   const NodalVectors scaled = scale * surface.control_points;
   for (int k = 0; k < 20; ++k) {
     const Trial t = trial(random, surface, 0.3);
-    const Projection p = paper(surface, t.d, t.guess, false);
-    const Projection q = closest_point_simplex_brent(surface.space, scaled, scale * t.d, t.guess, false);
+    const Foot p = paper(surface, t.d, t.guess, false);
+    const Foot q = closest_point_simplex_brent(surface.space, scaled, scale * t.d, t.guess, false);
     EXPECT_EQ(p.xi, q.xi);
     EXPECT_EQ(p.status, q.status);
     EXPECT_EQ(p.iterations, q.iterations);

@@ -28,10 +28,10 @@ std::vector<int> all_elements(const Surface& surface) {
   return elements;
 }
 
-void expect_on_surface(const Surface& surface, const Vector3& d, const Projection& p) {
-  EXPECT_NE(p.status, ProjectionStatus::not_converged);
-  EXPECT_NEAR((interpolate(surface.space, surface.control_points, p.xi) - p.foot).norm(), 0.0, 1e-12);
-  EXPECT_NEAR((p.foot - d).norm(), p.distance, 1e-14);
+void expect_on_surface(const Surface& surface, const Vector3& d, const Foot& p) {
+  EXPECT_NE(p.status, FootStatus::not_converged);
+  EXPECT_NEAR((interpolate(surface.space, surface.control_points, p.xi) - p.point).norm(), 0.0, 1e-12);
+  EXPECT_NEAR((p.point - d).norm(), p.distance, 1e-14);
 }
 
 // Gradient, metric and Hessian of the power form are those of the basis functions, in all degrees.
@@ -89,7 +89,7 @@ TEST(SurfaceProjector, ColdIsTheNearest) {
     const std::vector<int> elements = all_elements(surface);
     for (int trial = 0; trial < 5; ++trial) {
       const Vector3 d = random_point(random);
-      const Projection cold = projector.cold(d);
+      const Foot cold = projector.cold(d);
       expect_on_surface(surface, d, cold);
       const judge::Nearest least = bound.nearest(d, {cold.xi, cold.distance, 0}, 1e-9);
       EXPECT_LE(cold.distance, least.distance * (1 + 1e-9) + bound.round_off());
@@ -100,9 +100,9 @@ TEST(SurfaceProjector, ColdIsTheNearest) {
                                d)
                                   .norm());
       EXPECT_LE(cold.distance, grid * (1 + 1e-9));
-      const Projection candidates = projector.cold_on(d, elements.data(), static_cast<int>(elements.size()));
+      const Foot candidates = projector.cold_on(d, elements.data(), static_cast<int>(elements.size()));
       EXPECT_NEAR(candidates.distance, cold.distance, 1e-9 * cold.distance);
-      const Projection nearest = projector.nearest(d, shapes::random_parameter(random, surface.space));
+      const Foot nearest = projector.nearest(d, shapes::random_parameter(random, surface.space));
       EXPECT_NEAR(nearest.distance, cold.distance, 1e-9 * cold.distance);
     }
   }
@@ -111,7 +111,7 @@ TEST(SurfaceProjector, ColdIsTheNearest) {
 // Every minimum that warm starts from everywhere run into is listed, once, the nearest first.
 TEST(SurfaceProjector, AllMinimaHoldsEveryWarmResult) {
   shapes::Random random(23);
-  std::vector<Projection> minima;
+  std::vector<Foot> minima;
   for (int k = 0; k < 20; ++k) {
     const Surface surface = shapes::random_patch<2>(random, 4, 1 + k % 3, k % 2 > 0);
     SurfaceProjector projector(surface.space);
@@ -123,14 +123,14 @@ TEST(SurfaceProjector, AllMinimaHoldsEveryWarmResult) {
     EXPECT_NEAR(minima[0].distance, nearest, 1e-9 * nearest);
     for (size_t i = 1; i < minima.size(); ++i) {
       EXPECT_GE(minima[i].distance, minima[i - 1].distance);
-      EXPECT_GT((minima[i].foot - minima[i - 1].foot).norm(), 1e-8);
+      EXPECT_GT((minima[i].point - minima[i - 1].point).norm(), 1e-8);
     }
     for (int trial = 0; trial < 60; ++trial) {
-      const Projection warm = projector.warm(d, shapes::random_parameter(random, surface.space));
+      const Foot warm = projector.warm(d, shapes::random_parameter(random, surface.space));
       expect_on_surface(surface, d, warm);
       if (warm.distance > reach * (1 - 1e-9)) continue;
       EXPECT_TRUE(std::any_of(minima.begin(), minima.end(),
-                              [&](const Projection& p) { return (p.foot - warm.foot).norm() < 1e-6; }))
+                              [&](const Foot& p) { return (p.point - warm.point).norm() < 1e-6; }))
           << "d = " << d.transpose() << ", distance " << warm.distance;
     }
   }
@@ -144,11 +144,11 @@ TEST(SurfaceProjector, FollowsMovedControlPoints) {
   SurfaceProjector projector(hills.space);
   projector.set_control_points(hills.control_points);
   const Vector3 d(0.4, 0.6, 0.3), shift(512.0, -1024.0, 256.0);
-  const Projection before = projector.cold(d);
+  const Foot before = projector.cold(d);
   projector.set_control_points(hills.control_points.colwise() + shift);
-  for (const Projection& p : {projector.cold(d + shift), projector.warm(d + shift, before.xi)}) {
+  for (const Foot& p : {projector.cold(d + shift), projector.warm(d + shift, before.xi)}) {
     EXPECT_NEAR(p.distance, before.distance, 1e-12);
-    EXPECT_NEAR((p.foot - shift - before.foot).norm(), 0.0, 1e-11);
+    EXPECT_NEAR((p.point - shift - before.point).norm(), 0.0, 1e-11);
   }
 }
 
@@ -164,8 +164,8 @@ TEST(SurfaceProjector, WrongArguments) {
   EXPECT_THROW(projector.set_control_points(NodalVectors::Zero(3, 5)), std::invalid_argument);
   projector.set_control_points(hills.control_points);
   EXPECT_THROW(projector.cold_on({0, 0, 0}, nullptr, 0), std::invalid_argument);
-  const Projection p = projector.cold({0, 0, std::nan("")});
-  EXPECT_EQ(p.status, ProjectionStatus::not_converged);
+  const Foot p = projector.cold({0, 0, std::nan("")});
+  EXPECT_EQ(p.status, FootStatus::not_converged);
 }
 
 }  // namespace
