@@ -34,7 +34,7 @@ void write(const GeometryFile& geometry, const std::string& path, const std::vec
   const auto format = geometry_io::format_of_path(path);
   if (!format)
     throw std::runtime_error(
-        fmt::format("{}: unknown extension, expected .yaml, .yml, .h5, .hdf5 or .xml", path));
+        fmt::format("{}: unknown extension, expected {}", path, geometry_io::written_extensions()));
   std::string bytes;
   try {
     bytes = geometry_io::write_geometry(geometry, *format);
@@ -49,7 +49,7 @@ void write(const GeometryFile& geometry, const std::string& path, const std::vec
                         written, input));
   const std::string problem = geometry_io::write_file(path, [&](std::ostream& file) { file << bytes; });
   if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
-  fmt::print("written to {} ({})\n", path, geometry_io::format_name(*format));
+  fmt::print("written to {} ({})\n", path, *format);
 }
 
 void run(const Options& options) {

@@ -2,8 +2,11 @@
 #include "geometry_io/geometry_io.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
+#include <stdexcept>
+#include <vector>
 
 #include "geometry_io/formats.h"
 #include "geometry_io/hdf5_file.h"
@@ -13,11 +16,10 @@ namespace geometry_io {
 namespace {
 
 struct FormatEntry {
-  Format format;
-  const char* name;
+  Format name;
   std::initializer_list<const char*> extensions;
   GeometryFile (*parse)(const std::string& bytes, const std::string& file, Units units);
-  std::string (*write)(const GeometryFile& geometry);
+  std::string (*write)(const GeometryFile& geometry);  // null: files are read only
 };
 
 GeometryFile parse_yaml(const std::string& text, const std::string& file, Units) {
@@ -25,13 +27,17 @@ GeometryFile parse_yaml(const std::string& text, const std::string& file, Units)
 }
 
 const FormatEntry kFormats[] = {
-    {Format::yaml, "YAML", {".yaml", ".yml"}, parse_yaml, write_yaml},
-    {Format::hdf5, "HDF5", {".h5", ".hdf5"}, parse_hdf5, write_hdf5},
-    {Format::xml, "G+Smo XML", {".xml"}, parse_gismo, write_gismo},
+    {format::yaml, {".yaml", ".yml"}, parse_yaml, write_yaml},
+    {format::hdf5, {".h5", ".hdf5"}, parse_hdf5, write_hdf5},
+    {format::xml, {".xml"}, parse_gismo, write_gismo},
 };
-const FormatEntry& entry(Format format) { return kFormats[static_cast<int>(format)]; }
+const FormatEntry& entry(Format format) {
+  for (const FormatEntry& known : kFormats)
+    if (known.name == format) return known;
+  throw std::invalid_argument(fmt::format("there is no geometry format '{}'", format));
+}
 
-Format input_format(const std::string& path) { return format_of_path(path).value_or(Format::yaml); }
+Format input_format(const std::string& path) { return format_of_path(path).value_or(format::yaml); }
 
 // The file that a geometry file names names no further one.
 GeometryFile read_other_file(const std::string& path, Units units, const ReadFile& read) {
@@ -44,14 +50,21 @@ GeometryFile read_other_file(const std::string& path, Units units, const ReadFil
 
 }  // namespace
 
-const char* format_name(Format format) { return entry(format).name; }
-
 std::optional<Format> format_of_path(const std::string& path) {
   const std::string extension = std::filesystem::path(path).extension().string();
   for (const FormatEntry& known : kFormats)
     for (const char* one : known.extensions)
-      if (extension == one) return known.format;
+      if (extension == one) return known.name;
   return std::nullopt;
+}
+
+std::string written_extensions() {
+  std::vector<std::string> found;
+  for (const FormatEntry& known : kFormats)
+    if (known.write) found.insert(found.end(), known.extensions.begin(), known.extensions.end());
+  const std::string last = found.back();
+  found.pop_back();
+  return fmt::format("{} or {}", fmt::join(found, ", "), last);
 }
 
 std::string read_file(const std::string& path) {
@@ -62,14 +75,14 @@ std::string read_file(const std::string& path) {
 }
 
 std::string readable(const std::string& path, std::string bytes) {
-  if (input_format(path) == Format::hdf5) return unpacked_hdf5(bytes, path);
+  if (input_format(path) == format::hdf5) return unpacked_hdf5(bytes, path);
   return bytes;
 }
 
 GeometryFile read_geometry(const std::string& path, const ReadFile& read, Units units) {
   const Format format = input_format(path);
   const std::string bytes = read(path);
-  if (format == Format::yaml) return parse_geometry_file(bytes, path, geometry_opener(read));
+  if (format == format::yaml) return parse_geometry_file(bytes, path, geometry_opener(read));
   return entry(format).parse(bytes, path, units);
 }
 
@@ -80,7 +93,9 @@ OpenGeometry geometry_opener(ReadFile read) {
 }
 
 std::string write_geometry(const GeometryFile& geometry, Format format) {
-  return entry(format).write(geometry);
+  const FormatEntry& known = entry(format);
+  if (!known.write) throw std::invalid_argument(fmt::format("{} files are read, not written", format));
+  return known.write(geometry);
 }
 
 }  // namespace geometry_io

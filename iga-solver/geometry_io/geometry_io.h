@@ -7,16 +7,21 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "geometry_io/geometry_file.h"
 
 namespace geometry_io {
 
-enum class Format { yaml, hdf5, xml };
-/// "YAML", "HDF5", "G+Smo XML".
-const char* format_name(Format format);
-/// By the file's extension: .h5, .hdf5, .xml, .yaml or .yml.
+/// The name of a row of the table in geometry_io.cpp.
+using Format = std::string_view;
+namespace format {
+constexpr Format yaml = "YAML", hdf5 = "HDF5", xml = "G+Smo XML";
+}
+/// By the file's extension, such as .h5.
 std::optional<Format> format_of_path(const std::string& path);
+/// ".yaml, .yml, .h5, .hdf5 or .xml": those that write_geometry can write.
+std::string written_extensions();
 
 /// Gives the bytes of the file at `path`, or what `readable` makes of them; throws InputError if it
 /// cannot.
@@ -35,7 +40,7 @@ GeometryFile read_geometry(const std::string& path, const ReadFile& read, Units 
 OpenGeometry geometry_opener(ReadFile read);
 
 /// The file's bytes; reading them gives the same numbers to the last bit.  Throws std::invalid_argument if
-/// the format cannot hold the geometry.
+/// the format cannot hold the geometry, or has no writer.
 std::string write_geometry(const GeometryFile& geometry, Format format);
 
 }  // namespace geometry_io

@@ -147,7 +147,7 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
 
 ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& read) {
   const std::string text = read(path);
-  if (geometry_io::format_of_path(path) == geometry_io::Format::hdf5)  // what was read are its values
+  if (geometry_io::format_of_path(path) == geometry_io::format::hdf5)  // what was read are its values
     geometry_io::refuse_kind(geometry_io::FileKind::hdf5, path);
   return parse_model_file(text, path, read);
 }

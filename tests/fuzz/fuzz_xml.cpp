@@ -15,6 +15,6 @@ void fuzz_one(const std::string& input) {
   const geometry_io::GeometryFile geometry = read("wall.xml", input);
   for (const auto& surface : geometry.surfaces)
     geometry_io::named_surface(geometry, surface.first, "wall.xml");
-  const std::string text = geometry_io::write_geometry(geometry, geometry_io::Format::yaml);
-  check_that(geometry_io::write_geometry(read("wall.yaml", text), geometry_io::Format::yaml) == text);
+  const std::string text = geometry_io::write_geometry(geometry, geometry_io::format::yaml);
+  check_that(geometry_io::write_geometry(read("wall.yaml", text), geometry_io::format::yaml) == text);
 }

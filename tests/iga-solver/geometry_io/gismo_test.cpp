@@ -120,7 +120,7 @@ geometry:
     - {degrees: [1, 1], knots: [[0, 0, 1, 1], [0, 0, 1, 1]], control_points: [[1,1,0],[1,0,0],[2,1,0],[2,0,0]]}
 )";
   const GeometryFile squares = parse_geometry_file(text, "squares.yaml");
-  const std::string xml = write_geometry(squares, Format::xml);
+  const std::string xml = write_geometry(squares, format::xml);
   // patch 0 side xi+ (2), patch 1 side eta- (3); xi of 0 is eta of 1, same way; eta of 0 is xi of 1,
   // reversed.
   EXPECT_THAT(xml, HasSubstr("<interfaces>\n0 2 1 3 1 0 1 0\n</interfaces>"));

@@ -19,10 +19,10 @@ using nurbs::Face;
 using nurbs::Surface;
 using nurbs::Volume;
 
-constexpr Format kFormats[] = {Format::yaml, Format::hdf5, Format::xml};
+constexpr Format kFormats[] = {format::yaml, format::hdf5, format::xml};
 
 const char* file_of(Format format) {
-  return format == Format::yaml ? "wall.yaml" : format == Format::hdf5 ? "wall.h5" : "wall.xml";
+  return format == format::yaml ? "wall.yaml" : format == format::hdf5 ? "wall.h5" : "wall.xml";
 }
 
 GeometryFile again(const GeometryFile& geometry, Format format) {
@@ -74,7 +74,7 @@ TEST(RoundTrip, RandomSurfaces) {
     GeometryFile geometry = random_geometry(seed, true, false);
     geometry.surfaces = {{"wall", {{0, {}}, {1, {}}, {2, {}}}}, {"two lids: <\"'&/>", {{2, {}}, {0, {}}}}};
     for (const Format format : kFormats) {
-      if (format == Format::hdf5) {
+      if (format == format::hdf5) {
         geometry.surfaces.erase("two lids: <\"'&/>");  // '/' makes groups
         geometry.surfaces["lids \xc3\xa4"] = {{1, {}}};
       }
@@ -99,8 +99,8 @@ TEST(RoundTrip, RandomVolumesWithNamedFaces) {
 TEST(RoundTrip, SurfacesBesideVolumes) {
   GeometryFile geometry = random_geometry(1, true, true);
   geometry.surfaces = {{"wall", {{1, Face::xi_minus}, {4, {}}}}};
-  for (const Format format : {Format::yaml, Format::hdf5}) expect_same(geometry, again(geometry, format));
-  EXPECT_THAT([&] { write_geometry(geometry, Format::xml); },
+  for (const Format format : {format::yaml, format::hdf5}) expect_same(geometry, again(geometry, format));
+  EXPECT_THAT([&] { write_geometry(geometry, format::xml); },
               testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("surfaces and volumes")));
 }
 
@@ -151,13 +151,13 @@ TEST(RoundTrip, ExactRoundShapesStayClosedToTheLastBit) {
 TEST(RoundTrip, FromFormatToFormat) {
   GeometryFile geometry = random_geometry(7, true, false);
   geometry.surfaces = {{"wall", {{1, {}}, {0, {}}}}};
-  expect_same(geometry, again(again(again(geometry, Format::xml), Format::hdf5), Format::yaml));
+  expect_same(geometry, again(again(again(geometry, format::xml), format::hdf5), format::yaml));
 }
 
 TEST(RoundTrip, HDF5NamesHaveNoSlash) {
   GeometryFile geometry = random_geometry(1, true, false);
   geometry.surfaces = {{"a/b", {{0, {}}}}};
-  EXPECT_THAT([&] { write_geometry(geometry, Format::hdf5); },
+  EXPECT_THAT([&] { write_geometry(geometry, format::hdf5); },
               testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("a/b")));
 }
 
