@@ -13,7 +13,7 @@ SOURCE = r"[\w*/.-]+\.(?:h|cpp|py|c|cmake|svg|map|in|\*)"
 
 
 def documents() -> list[Path]:
-    found = [ROOT / "README.md"]
+    found = [ROOT / "README.md", ROOT / "CONTRIBUTING.md"]
     for folder in FOLDERS:
         found += (ROOT / folder).rglob("*.md")
     return found
