@@ -9,7 +9,7 @@
 
 #include "search/distance_polynomial.h"
 #include "search/pole.h"
-#include "search/surface_search.h"
+#include "search/search_state.h"
 
 namespace search {
 namespace {
@@ -139,7 +139,7 @@ bool SurfaceProjector::neighbour(const LocalPoint& from, const double (&to)[2], 
   return crossed;
 }
 
-SurfaceProjector::Reached SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& from) const {
+Reached SurfaceProjector::foot_from(const Vector3& d, const LocalPoint& from) const {
   Start start{from, elements_.element(from.e)};
   NewtonEnd end = newton(d, start);
   if (!end.done && !go_on(d, start, end)) {

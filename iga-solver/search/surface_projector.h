@@ -25,6 +25,8 @@ namespace search {
 
 class DistancePolynomial;
 struct ProductTerm;
+struct Reached;
+struct Search;
 
 /// All lengths in those of the control points.  Results do not depend on earlier calls.  Elements and tree
 /// are brought up to date when first used, by const members too: one object must not be shared by threads.
@@ -94,9 +96,6 @@ class SurfaceProjector {
   const NodalVectors& control_points() const { return elements_.control_points(); }
 
  private:
-  struct Reached;
-  struct Search;
-
   LocalPoint local(const Parameter<2>& xi) const {
     const ElementAxis::Place u = elements_.axis(0).locate(xi[0]), v = elements_.axis(1).locate(xi[1]);
     return {{u.e, v.e}, {u.s, v.s}};

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Branch and bound of SurfaceProjector: over the tree, past what is proved around a foot, and in elements.
-#include "search/surface_search.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "nurbs/assert.h"
 #include "search/distance_polynomial.h"
+#include "search/search_state.h"
+#include "search/surface_projector.h"
 
 namespace search {
 namespace {

@@ -1,18 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What the searches of SurfaceProjector carry along; used by its two sources alone.
+// What the searches of SurfaceProjector carry along; used by its sources alone (surface_projector.cpp,
+// surface_search.cpp).
 #pragma once
 
 #include <cmath>
 #include <limits>
+#include <vector>
 
-#include "search/surface_projector.h"
+#include "search/element_descent.h"
+#include "search/foot.h"
+#include "search/local_reach.h"
+#include "search/surface_tree.h"
 
 namespace search {
 
 constexpr double kEqual = 4.0 * std::numeric_limits<double>::epsilon();  // of distances, relative: round-off
 
 // Where a descent ends, and what is known of it.
-struct SurfaceProjector::Reached {
+struct Reached {
   Foot foot;
   DescentEnd end;
   LocalPoint at;
@@ -24,7 +29,7 @@ struct SurfaceProjector::Reached {
 };
 
 // A search for the nearest foot, or for all.
-struct SurfaceProjector::Search {
+struct Search {
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kTie = 1e-10;      // relative: squared distances this close are equal
   static constexpr double kSameFoot = 1e-7;  // of the surface's size: feet this close are one of all
