@@ -16,7 +16,6 @@
 namespace {
 
 using testing::Contains;
-using testing::HasSubstr;
 
 std::string page(const std::string& name) {
   std::ifstream file(std::string(MANUAL_FOLDER) + "/" + name);

@@ -12,7 +12,6 @@
 
 namespace {
 
-using liggghts_pkg::LawContact;
 using liggghts_pkg::LawForce;
 
 constexpr double kRadius = 1e-3, kModulus = 5e10;  // E*
