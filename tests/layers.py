@@ -62,6 +62,7 @@ class Targets(unittest.TestCase):
         for path in product_files():
             self.assertEqual(len(folders(owners(path))), 1, f"{name(path)}: which target compiles it?")
 
+    @unittest.skipIf("liggghts-pkg" not in product(), "a build without LIGGGHTS lacks what includes some")
     def test_every_header_is_included(self):
         seen = set().union(*(compiled_with(source) for target in targets().values() for source in target.sources))
         self.assertEqual([name(path) for path in product_files() if path not in seen], [])
