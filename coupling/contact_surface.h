@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <cstdint>
 #include <vector>
 
 #include "nurbs/multi_patch.h"
@@ -12,17 +13,25 @@ namespace coupling {
 using nurbs::NodalVectors;
 using nurbs::Vector3;
 
+/// A node of the structure, the same on every rank.
+using NodeId = std::int64_t;
+
 /// Linear map from solver nodes to surface control points: x_surface = S x_nodes, f_nodes = S^T f_surface.
 /// One matrix serves both ways, so the power of a force is the same on both sides.  A volume's face is a
 /// selection of its nodes.
 class SurfaceMap {
  public:
-  /// S is n_control_points x n_nodes [-].
-  explicit SurfaceMap(const Eigen::SparseMatrix<double, Eigen::RowMajor>& S) : S_(S) {}
+  using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, NodeId>;
+
+  /// S is n_control_points x n_nodes [-]; columns are node ids.
+  explicit SurfaceMap(Matrix S) : S_(std::move(S)) {}
   /// The control points are the nodes.
-  static SurfaceMap identity(int nodes);
+  static SurfaceMap identity(NodeId nodes);
   /// Control point i is node[i].
-  static SurfaceMap selection(const std::vector<int>& node, int nodes);
+  static SurfaceMap selection(const std::vector<NodeId>& node, NodeId nodes);
+  /// The same map for nodal arrays whose columns belong to these ids (rising).  Throws std::invalid_argument,
+  /// naming the node, if it needs one that is not among them.
+  SurfaceMap on(const std::vector<NodeId>& nodes) const;
 
   /// surface (3 x n_control_points) = values of the control points where `nodal` (3 x n_nodes) are those of
   /// the nodes.
@@ -30,16 +39,16 @@ class SurfaceMap {
   /// Adds S^T times control-point forces (3 x n_control_points) to nodal forces (3 x n_nodes).
   void add_to_nodes(const NodalVectors& surface, NodalVectors& nodal) const;
 
-  int control_point_count() const { return static_cast<int>(S_.rows()); }
-  int node_count() const { return static_cast<int>(S_.cols()); }
+  NodeId control_point_count() const { return S_.rows(); }
+  NodeId node_count() const { return S_.cols(); }
 
  private:
-  Eigen::SparseMatrix<double, Eigen::RowMajor> S_;
+  Matrix S_;
 };
 
 struct ContactSurface {
   nurbs::MultiPatch topology;
-  SurfaceMap map;
+  SurfaceMap map;  ///< from the nodes of the whole structure
   /// Per patch: +1 or -1 where the normal dS/dxi x dS/deta points out of or into the body; 0 for a two-sided
   /// surface.
   std::vector<int> outward_sign;

@@ -30,7 +30,8 @@ std::vector<int> side_nodes(const nurbs::BoundarySurface& face, int side) {
 ContactSurface surface_of(const structure::Body& body, const std::vector<structure::SkinPiece>& skin) {
   std::vector<nurbs::BoundarySurface> faces;
   std::vector<nurbs::Surface> patches;
-  std::vector<int> nodes, outward_sign;
+  std::vector<NodeId> nodes;
+  std::vector<int> outward_sign;
   for (const structure::SkinPiece& piece : skin) {
     const nurbs::BoundarySurface face = body.skin(piece);
     patches.push_back({face.space, body.reference()(Eigen::all, face.volume_control_point)});
@@ -61,6 +62,7 @@ IgaStructure::IgaStructure(structure::ExplicitSolver solver, std::vector<structu
                            std::vector<structure::Probe> probes, const std::optional<Vector3>& gravity)
     : solver_(std::move(solver)),
       skin_(std::move(skin)),
+      nodes_(solver_.node_ids()),
       surface_(surface_of(solver_.body(), skin_)),
       probes_(std::move(probes)),
       gravity_(gravity) {}
@@ -112,7 +114,7 @@ Fingerprint IgaStructure::fingerprint() const {
   const double E = material.youngs_modulus(), nu = material.poissons_ratio(), density = material.density();
   std::vector<double> constants{E, nu, density};
   if (material.state_size() > 0) constants.push_back(material.state_size());
-  const std::vector<int>& fixed = solver_.supports().fixed_dofs();
+  const std::vector<Eigen::Index>& fixed = solver_.supports().fixed_dofs();
   std::vector<std::string> faces;
   for (const structure::SkinPiece& piece : skin_) faces.emplace_back(name_of(piece));
   const auto geometry = [&](const auto& patches) { return geometry_part(patches, body.reference()); };

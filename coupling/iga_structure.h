@@ -24,6 +24,7 @@ class IgaStructure final : public StructureSolver {
   void write_history(SharedHistory history) { history_.emplace(std::move(history)); }
 
   const ContactSurface& surface() const override { return surface_; }
+  const std::vector<NodeId>& nodes() const override { return nodes_; }
   const NodalVectors& positions() const override { return solver_.positions(); }
   const NodalVectors& velocities() const override { return solver_.velocities(); }
 
@@ -51,6 +52,7 @@ class IgaStructure final : public StructureSolver {
  private:
   structure::ExplicitSolver solver_;
   std::vector<structure::SkinPiece> skin_;
+  std::vector<NodeId> nodes_;
   ContactSurface surface_;
   std::vector<structure::Probe> probes_;
   std::optional<Vector3> gravity_;

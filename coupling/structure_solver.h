@@ -42,9 +42,10 @@ class StructureSolver {
   virtual ~StructureSolver() = default;
 
   virtual const ContactSurface& surface() const = 0;
-  /// Of the solver's own nodes, 3 x node_count, in the body frame: current positions [length] and velocities
-  /// relative to it [length/time].  During a step (after begin_step) the velocities are those of the half
-  /// step.
+  /// Ids of the nodes that this rank holds, rising; nodal arrays have one column for each.
+  virtual const std::vector<NodeId>& nodes() const = 0;
+  /// In the body frame: current positions [length] and velocities relative to it [length/time].  During a
+  /// step (after begin_step) the velocities are those of the half step.
   virtual const NodalVectors& positions() const = 0;
   virtual const NodalVectors& velocities() const = 0;
   /// Where the body frame is; the identity for a solver whose positions are in space.
@@ -75,18 +76,22 @@ class StructureSolver {
   virtual bool deforms() const { return moves(); }
   /// Whether initialise_forces and end_step use the forces; if not, they may be called with forces of zero.
   virtual bool needs_forces() const { return moves(); }
-  virtual Eigen::VectorXd control_node_mass() const = 0;  ///< [mass], one per node; empty for a rigid surface
-  virtual double kinetic_energy() const = 0;              ///< sum m_A |v_A|^2 / 2 [energy]
-  virtual double strain_energy() const = 0;               ///< [energy]; may cost as much as a step
-  virtual Work work() const { return {}; }                ///< zero for a body that is not integrated
-  virtual Vector3 linear_momentum() const = 0;            ///< sum m_A v_A
+  virtual Eigen::VectorXd control_node_mass()
+      const = 0;                                ///< [mass], one per node held; empty for a rigid surface
+  virtual double kinetic_energy() const = 0;    ///< sum m_A |v_A|^2 / 2 [energy]
+  virtual double strain_energy() const = 0;     ///< [energy]; may cost as much as a step
+  virtual Work work() const { return {}; }      ///< zero for a body that is not integrated
+  virtual Vector3 linear_momentum() const = 0;  ///< sum m_A v_A
   virtual Vector3 angular_momentum(const Vector3& about) const = 0;  ///< sum (x_A - about) x m_A v_A
   virtual std::optional<SurfaceMaterial> material() const = 0;
   /// Gravity among its own loads [length/time^2]; nothing if they have none.
   virtual std::optional<Vector3> gravity() const { return std::nullopt; }
   virtual std::vector<Probe> probes() const = 0;
 
-  /// The state as numbers, for restart files; load throws std::invalid_argument if the size does not fit.
+  /// The state as numbers, for restart files: of the whole structure, in the order of ids, whatever the ranks
+  /// hold, so that other ranks may load it; complete on every rank.  load takes what is of this rank, and
+  /// throws std::invalid_argument if the size does not fit.  Both are collective, as energies and momenta
+  /// are.
   virtual std::vector<double> save() const = 0;
   virtual void load(const std::vector<double>& state) = 0;
   /// What these numbers belong to: all that must be the same in the solver that loads them.

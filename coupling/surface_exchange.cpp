@@ -2,6 +2,10 @@
 #include "coupling/surface_exchange.h"
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 
 #include "coupling/force_distribution.h"
@@ -9,19 +13,36 @@
 
 namespace coupling {
 
-SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver) : comm_(comm), solver_(solver) {
+namespace {
+
+/// Numbers of contacts, and where in their list a rank's begin, are an int for MPI.
+void expect_int(std::int64_t contacts) {
+  constexpr int kMost = std::numeric_limits<int>::max();
+  if (contacts > kMost)
+    throw std::runtime_error("SurfaceExchange: " + std::to_string(contacts) +
+                             " contacts with a deforming wall in one step, expected at most " +
+                             std::to_string(kMost));
+}
+
+}  // namespace
+
+SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver)
+    : comm_(comm), solver_(solver), map_(solver.surface().map.on(solver.nodes())) {
   int ranks = 1;
   MPI_Comm_size(comm_, &ranks);
-  bytes_.resize(ranks);
+  MPI_Type_contiguous(sizeof(ContactForce), MPI_BYTE, &contact_);
+  MPI_Type_commit(&contact_);
+  all_counts_.resize(ranks);
+  counts_.resize(ranks);
   offset_.resize(ranks);
   surface_forces_.setZero(3, solver.surface().topology.control_point_count());
-  nodal_forces_.setZero(3, solver.surface().map.node_count());
+  nodal_forces_.setZero(3, map_.node_count());
   import_surface();
 }
 
 void SurfaceExchange::import_surface() {
-  solver_.surface().map.to_surface(solver_.positions(), positions_);
-  solver_.surface().map.to_surface(solver_.velocities(), velocities_);
+  map_.to_surface(solver_.positions(), positions_);
+  map_.to_surface(solver_.velocities(), velocities_);
 }
 
 const NodalVectors& SurfaceExchange::export_add(const std::vector<ContactForce>& local) {
@@ -37,28 +58,26 @@ const NodalVectors& SurfaceExchange::export_add(const std::vector<ContactForce>&
     foot.distribute(Vector3::Map(contact.F), surface_forces_);
   }
   nodal_forces_.setZero();
-  solver_.surface().map.add_to_nodes(surface_forces_, nodal_forces_);
+  map_.add_to_nodes(surface_forces_, nodal_forces_);
   return nodal_forces_;
 }
 
 void SurfaceExchange::gather(const std::vector<ContactForce>& local) {
-  const int ranks = static_cast<int>(bytes_.size());
+  const std::size_t ranks = counts_.size();
   if (ranks == 1) {
     contacts_ = local;
     return;
   }
-  const int mine = static_cast<int>(local.size() * sizeof(ContactForce));
-  MPI_Allgather(&mine, 1, MPI_INT, bytes_.data(), 1, MPI_INT, comm_);
-  int total = 0;
-  for (int rank = 0; rank < ranks; ++rank) {
-    offset_[rank] = total;
-    total += bytes_[rank];
-  }
-  NURBS_ASSERT(total % sizeof(ContactForce) == 0, total, sizeof(ContactForce));
-  contacts_.resize(total / sizeof(ContactForce));
+  const std::int64_t mine = static_cast<std::int64_t>(local.size());
+  MPI_Allgather(&mine, 1, MPI_INT64_T, all_counts_.data(), 1, MPI_INT64_T, comm_);
+  const std::int64_t total = std::accumulate(all_counts_.begin(), all_counts_.end(), std::int64_t(0));
+  expect_int(total);
+  contacts_.resize(total);
   if (total == 0) return;
-  MPI_Allgatherv(local.data(), mine, MPI_BYTE, contacts_.data(), bytes_.data(), offset_.data(), MPI_BYTE,
-                 comm_);
+  std::copy(all_counts_.begin(), all_counts_.end(), counts_.begin());
+  std::partial_sum(counts_.begin(), counts_.end() - 1, offset_.begin() + 1);
+  MPI_Allgatherv(local.data(), static_cast<int>(mine), contact_, contacts_.data(), counts_.data(),
+                 offset_.data(), contact_, comm_);
 }
 
 }  // namespace coupling

@@ -6,13 +6,14 @@
 
 #include <mpi.h>
 
+#include <cstdint>
 #include <vector>
 
 #include "coupling/structure_solver.h"
 
 namespace coupling {
 
-/// One contact as the rank of its particle reports it.  Plain data: it travels as bytes.
+/// One contact as the rank of its particle reports it.  Plain data: it travels as one piece of bytes.
 struct ContactForce {
   long tag;      ///< particle's global id
   int branch;    ///< which of the particle's contacts with this wall
@@ -25,6 +26,9 @@ class SurfaceExchange {
  public:
   /// The solver must outlive the exchange.
   SurfaceExchange(MPI_Comm comm, StructureSolver& solver);
+  ~SurfaceExchange() { MPI_Type_free(&contact_); }
+  SurfaceExchange(const SurfaceExchange&) = delete;
+  SurfaceExchange& operator=(const SurfaceExchange&) = delete;
 
   /// Brings positions and velocities of the surface's control points to this rank; call after every change of
   /// the solver's state.
@@ -32,9 +36,10 @@ class SurfaceExchange {
   const NodalVectors& positions() const { return positions_; }    ///< 3 x n_control_points [length]
   const NodalVectors& velocities() const { return velocities_; }  ///< 3 x n_control_points [length/time]
 
-  /// Collective.  Returns the nodal forces (3 x n_nodes) of the contacts of all ranks: each is spread to its
-  /// control points (eq. 34) in the order of (tag, branch), so the sums do not depend on how many ranks there
-  /// are.
+  /// Collective.  Returns the forces on the nodes that this rank holds, of the contacts of all ranks: each is
+  /// spread to its control points (eq. 34) in the order of (tag, branch), so the sums do not depend on how
+  /// many ranks there are.  Throws std::runtime_error on every rank if there are more contacts than MPI
+  /// counts.
   const NodalVectors& export_add(const std::vector<ContactForce>& local);
 
  private:
@@ -42,10 +47,13 @@ class SurfaceExchange {
 
   MPI_Comm comm_;
   StructureSolver& solver_;
+  SurfaceMap map_;  ///< from the nodes that this rank holds
+  MPI_Datatype contact_;
   NodalVectors positions_, velocities_;
   NodalVectors surface_forces_, nodal_forces_;
-  std::vector<ContactForce> contacts_;  ///< of all ranks
-  std::vector<int> bytes_, offset_;     ///< per rank
+  std::vector<ContactForce> contacts_;    ///< of all ranks
+  std::vector<std::int64_t> all_counts_;  ///< of contacts per rank
+  std::vector<int> counts_, offset_;      ///< the same as MPI takes them
 };
 
 }  // namespace coupling

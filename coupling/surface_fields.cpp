@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/surface_fields.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -53,7 +54,10 @@ void SurfaceFields::add(const SurfaceContact& contact) {
 
 Eigen::MatrixXd SurfaceFields::sum_over_ranks(const Eigen::MatrixXd& local) const {
   Eigen::MatrixXd sum = local;
-  MPI_Reduce(local.data(), sum.data(), static_cast<int>(local.size()), MPI_DOUBLE, MPI_SUM, 0, comm_);
+  constexpr Eigen::Index kPiece = 1 << 30;  // MPI counts in int
+  for (Eigen::Index first = 0; first < local.size(); first += kPiece)
+    MPI_Reduce(local.data() + first, sum.data() + first,
+               static_cast<int>(std::min(kPiece, local.size() - first)), MPI_DOUBLE, MPI_SUM, 0, comm_);
   return sum;
 }
 

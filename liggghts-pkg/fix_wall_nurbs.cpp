@@ -38,7 +38,7 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
       memory_(*modify, id, options_.slots, store_force_),
       columns_(structure_, loop_, world),
       restart_(lmp, id, options_.file, structure_),
-      no_forces_(coupling::NodalVectors::Zero(3, structure_.surface().map.node_count())) {
+      no_forces_(coupling::NodalVectors::Zero(3, structure_.nodes().size())) {
   delete primitiveWall_;
   primitiveWall_ = nullptr;
   if (store_force_contact_stress_)

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
 
 #include "nurbs/assert.h"
@@ -30,6 +31,8 @@ RigidSurface::RigidSurface(nurbs::PatchedSurface surface, std::vector<int> outwa
       positions_(std::move(surface.control_points)),
       velocities_(NodalVectors::Zero(3, positions_.cols())) {
   surface_.outward_sign.resize(surface_.topology.patch_count(), 0);
+  nodes_.resize(positions_.cols());
+  std::iota(nodes_.begin(), nodes_.end(), NodeId(0));
 }
 
 void RigidSurface::drive(RigidDrive drive) {

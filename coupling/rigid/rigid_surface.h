@@ -31,6 +31,7 @@ class RigidSurface final : public StructureSolver {
   Servo* servo() { return servo_ ? &*servo_ : nullptr; }
 
   const ContactSurface& surface() const override { return surface_; }
+  const std::vector<NodeId>& nodes() const override { return nodes_; }
   const NodalVectors& positions() const override { return positions_; }
   const NodalVectors& velocities() const override { return velocities_; }
   RigidFrame frame() const override { return body_.frame(); }
@@ -66,6 +67,7 @@ class RigidSurface final : public StructureSolver {
   RigidSurface(nurbs::PatchedSurface surface, std::vector<int> outward_sign);
 
   ContactSurface surface_;
+  std::vector<NodeId> nodes_;  // the control points
   NodalVectors positions_, velocities_;
   MovingFrame body_;
   RigidMotion motion_;

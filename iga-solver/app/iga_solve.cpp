@@ -71,7 +71,7 @@ void print_model(const io::ModelFile& model, const ExplicitSolver& solver) {
   fmt::print("  elements     {} ({} x {} x {}), degrees {} {} {}\n", space.element_count(),
              space.knots(0).element_count(), space.knots(1).element_count(), space.knots(2).element_count(),
              space.degree(0), space.degree(1), space.degree(2));
-  fmt::print("  dof          {}, {} of them fixed\n", 3 * space.control_point_count(),
+  fmt::print("  dof          {}, {} of them fixed\n", 3L * space.control_point_count(),
              solver.supports().fixed_dofs().size());
   fmt::print("  mass         {:.8g}\n", solver.mass().nodal_mass().sum());
 }

@@ -49,7 +49,7 @@ class Body {
   virtual void evolve(const NodalVectors& u, double dt, NodalVectors& f) = 0;
   /// The end of a step: what points remember is now what evolve() found.
   virtual void commit() = 0;
-  /// What points remember, in the order of elements and points; empty for a law without memory.
+  /// What points remember, element after element, equally much of each; empty for a law without memory.
   virtual const std::vector<double>& memory() const = 0;
   /// Throws std::invalid_argument if the size does not fit.
   virtual void set_memory(std::vector<double> memory) = 0;

@@ -6,10 +6,15 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "nurbs/types.h"
 
 namespace structure {
+
+/// A node or an element of the whole body, counted from 0: the same however it is cut.
+using Id = std::int64_t;
 
 /// This one is of a body in one piece: nothing to tell.
 class Halo {
@@ -18,6 +23,8 @@ class Halo {
 
   /// How many of the `held` nodes the part owns.
   virtual Eigen::Index owned(Eigen::Index held) const { return held; }
+  virtual Id node_id(Eigen::Index held) const { return held; }
+  virtual Id element_id(Eigen::Index held) const { return held; }
   /// Adds to each owner's column of a nodal array (3 x held) what other parts have at their ghosts of it.
   virtual void sum_to_owners(nurbs::NodalVectors& /*values*/) const {}
   /// Copies the owners' columns to all ghosts.
@@ -26,6 +33,10 @@ class Halo {
   virtual void sum(double* /*values*/, std::size_t /*count*/) const {}
   /// The largest number of all parts; not a number if one is none.
   virtual double largest(double value) const { return value; }
+  /// Rows of equally many numbers, one per id, from all parts in the order of the ids; complete on all parts.
+  virtual std::vector<double> in_order(const std::vector<Id>& /*ids*/, std::vector<double> rows) const {
+    return rows;
+  }
 
   double sum(double value) const {
     sum(&value, 1);

@@ -35,6 +35,7 @@ class LateSurface final : public coupling::StructureSolver {
   }
 
   // The solver's own.
+  const std::vector<coupling::NodeId>& nodes() const override { return solver_->nodes(); }
   const coupling::ContactSurface& surface() const override { return solver_->surface(); }
   coupling::RigidFrame frame() const override { return solver_->frame(); }
   void begin_run() override { solver_->begin_run(); }

@@ -88,6 +88,66 @@ TEST(SurfaceExchange, ImportBringsTheControlPoints) {
   EXPECT_EQ(exchange.velocities().cwiseAbs().maxCoeff(), 0.0);
 }
 
+/// A solver whose node ids have gaps: control point i of its surface is node 1000 + 3 i, and this rank holds
+/// a few nodes beside those.
+class SparseNodes final : public coupling::StructureSolver {
+ public:
+  using NodeId = coupling::NodeId;
+  explicit SparseNodes(const nurbs::Surface& patch)
+      : surface_{nurbs::join({patch}).topology, coupling::SurfaceMap::identity(0), {0}} {
+    std::vector<NodeId> node;
+    for (int i = 0; i < patch.control_points.cols(); ++i) node.push_back(1000 + 3 * i);
+    surface_.map = coupling::SurfaceMap::selection(node, NodeId(1) << 40);
+    nodes_ = node;
+    nodes_.insert(nodes_.begin(), {5, 700 + Ranks().me});
+    nodes_.push_back(NodeId(1) << 39);
+    positions_ = NodalVectors::Constant(3, nodes_.size(), -99.0);
+    positions_.middleCols(2, node.size()) = patch.control_points;
+  }
+  const coupling::ContactSurface& surface() const override { return surface_; }
+  const std::vector<NodeId>& nodes() const override { return nodes_; }
+  const NodalVectors& positions() const override { return positions_; }
+  const NodalVectors& velocities() const override { return positions_; }
+  void initialise_forces(const NodalVectors&) override {}
+  void begin_step() override {}
+  void end_step(const NodalVectors&) override {}
+  void set_time_step(double) override {}
+  double stable_time_step() const override { return 1.0; }
+  bool moves() const override { return true; }
+  Eigen::VectorXd control_node_mass() const override { return {}; }
+  double kinetic_energy() const override { return 0.0; }
+  double strain_energy() const override { return 0.0; }
+  Vector3 linear_momentum() const override { return Vector3::Zero(); }
+  Vector3 angular_momentum(const Vector3&) const override { return Vector3::Zero(); }
+  std::optional<coupling::SurfaceMaterial> material() const override { return {}; }
+  std::vector<coupling::Probe> probes() const override { return {}; }
+  std::vector<double> save() const override { return {}; }
+  void load(const std::vector<double>&) override {}
+  coupling::Fingerprint fingerprint() const override { return {}; }
+
+ private:
+  coupling::ContactSurface surface_;
+  std::vector<NodeId> nodes_;
+  NodalVectors positions_;
+};
+
+TEST(SurfaceExchange, KnowsNodesByTheirIds) {
+  const Ranks ranks;
+  const nurbs::Surface surface = test::wavy_surface();
+  coupling::RigidSurface dense({surface});
+  SparseNodes sparse(surface);
+  coupling::SurfaceExchange by_column(MPI_COMM_WORLD, dense), by_id(MPI_COMM_WORLD, sparse);
+  EXPECT_EQ(by_id.positions(), surface.control_points);
+
+  std::vector<ContactForce> mine;
+  for (long tag = 1; tag <= 40; ++tag)
+    if (tag % ranks.count == ranks.me) mine.push_back(contact(tag));
+  const NodalVectors expected = by_column.export_add(mine), forces = by_id.export_add(mine);
+  ASSERT_EQ(forces.cols(), expected.cols() + 3);
+  EXPECT_EQ(forces.middleCols(2, expected.cols()), expected);
+  EXPECT_EQ(forces.leftCols(2).cwiseAbs().maxCoeff() + forces.rightCols(1).cwiseAbs().maxCoeff(), 0.0);
+}
+
 TEST(LateSurface, IsSeenAsItWasTwoStepsAgo) {
   const auto knots = nurbs::KnotVector::uniform(2, 1);
   nurbs::Volume cube = nurbs::box({0, 0, 0}, {1, 1, 1}, {knots, knots, knots});

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <stdexcept>
 
 #include "coupling/force_distribution.h"
 #include "wavy_surface.h"
@@ -57,7 +58,7 @@ TEST(ForceDistribution, PowerIsTheSameOnBothSides) {
 TEST(SurfaceMap, TransposedPairForAnyMatrix) {
   std::srand(11);
   const Eigen::MatrixXd dense = Eigen::MatrixXd::Random(5, 8);
-  const SurfaceMap map(dense.sparseView());
+  const SurfaceMap map(SurfaceMap::Matrix(dense.sparseView()));
   const NodalVectors x = NodalVectors::Random(3, 8), f = NodalVectors::Random(3, 5);
   NodalVectors on_surface, on_nodes = NodalVectors::Zero(3, 8);
   map.to_surface(x, on_surface);
@@ -77,6 +78,20 @@ TEST(SurfaceMap, SelectionPicksNodesAndAddsForces) {
   map.add_to_nodes(picked, x);
   EXPECT_EQ(x(0, 4), 8.0);
   EXPECT_EQ(x(0, 5), 5.0);
+}
+
+TEST(SurfaceMap, OnTheNodesOfARankIsTheSameMap) {
+  constexpr coupling::NodeId kFar = coupling::NodeId(1) << 40;
+  const SurfaceMap map = SurfaceMap::selection({kFar + 4, 7, kFar + 2}, 2 * kFar);
+  const SurfaceMap held = map.on({3, 7, kFar + 2, kFar + 4});
+  EXPECT_EQ(held.node_count(), 4);
+  NodalVectors x(3, 4), picked, f = NodalVectors::Zero(3, 4);
+  x.row(0) << 30, 70, 20, 40;
+  held.to_surface(x, picked);
+  EXPECT_EQ(Vector3(picked.row(0)), Vector3(40, 70, 20));
+  held.add_to_nodes(picked, f);
+  EXPECT_EQ(Eigen::RowVector4d(f.row(0)), Eigen::RowVector4d(0, 70, 20, 40));
+  EXPECT_THROW(map.on({3, kFar + 2, kFar + 4}), std::invalid_argument) << "node 7 is missing";
 }
 
 }  // namespace

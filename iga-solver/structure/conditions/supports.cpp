@@ -8,7 +8,7 @@
 namespace structure {
 
 void Supports::fix(const NodeSet& nodes, const Directions& directions) {
-  for (int A : nodes)
+  for (const Eigen::Index A : nodes)
     for (int i = 0; i < 3; ++i)
       if (directions[i]) dofs_.push_back(3 * A + i);
   std::sort(dofs_.begin(), dofs_.end());
@@ -17,7 +17,7 @@ void Supports::fix(const NodeSet& nodes, const Directions& directions) {
 
 void Supports::apply(NodalVectors& values) const {
   NURBS_ASSERT(dofs_.empty() || dofs_.back() < values.size(), values.size());
-  for (int dof : dofs_) values.data()[dof] = 0.0;
+  for (const Eigen::Index dof : dofs_) values.data()[dof] = 0.0;
 }
 
 }  // namespace structure

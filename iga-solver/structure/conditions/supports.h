@@ -22,10 +22,10 @@ class Supports {
   /// Sets the fixed entries of nodal values (3 x n) to zero: velocities, accelerations, trial vectors.
   void apply(NodalVectors& values) const;
   /// Fixed degrees of freedom 3 A + direction, rising, each once.
-  const std::vector<int>& fixed_dofs() const { return dofs_; }
+  const std::vector<Eigen::Index>& fixed_dofs() const { return dofs_; }
 
  private:
-  std::vector<int> dofs_;
+  std::vector<Eigen::Index> dofs_;
 };
 
 }  // namespace structure

@@ -158,28 +158,50 @@ Vector3 ExplicitSolver::angular_momentum(const Vector3& about) const {
   return halo_->sum(L);
 }
 
+std::vector<Id> ExplicitSolver::node_ids() const {
+  std::vector<Id> ids(u_.cols());
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = halo_->node_id(i);
+  return ids;
+}
+
+std::vector<Id> ExplicitSolver::element_ids() const {
+  std::vector<Id> ids(body_->element_count());
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = halo_->element_id(i);
+  return ids;
+}
+
 std::vector<double> ExplicitSolver::save() const {
+  std::vector<Id> nodes = node_ids();
+  nodes.resize(halo_->owned(u_.cols()));
   std::vector<double> state{time_};
-  const std::vector<double>& memory = body_->memory();
-  state.reserve(1 + 3 * u_.size() + memory.size());
+  const auto append = [&](const std::vector<double>& rows) {
+    state.insert(state.end(), rows.begin(), rows.end());
+  };
   for (const NodalVectors* values : {&u_, &v_, &a_})
-    state.insert(state.end(), values->data(), values->data() + values->size());
-  state.insert(state.end(), memory.begin(), memory.end());
+    append(halo_->in_order(nodes, {values->data(), values->data() + 3 * nodes.size()}));
+  append(halo_->in_order(element_ids(), body_->memory()));
   return state;
 }
 
 void ExplicitSolver::load(const std::vector<double>& state) {
-  const std::size_t size = u_.size(), expected = 1 + 3 * size + body_->memory().size();
+  const std::vector<Id> nodes = node_ids(), elements = element_ids();
+  std::vector<double> memory(body_->memory().size());
+  const std::size_t width = memory.size() / elements.size();  // equally much of every element
+  const std::size_t all_nodes = std::llround(halo_->sum(double(halo_->owned(u_.cols())))),
+                    all_elements = std::llround(halo_->sum(double(elements.size()))),
+                    expected = 1 + 9 * all_nodes + width * all_elements;
   if (state.size() != expected)
     throw std::invalid_argument(
         fmt::format("ExplicitSolver: state of {} numbers, expected {}", state.size(), expected));
-  auto next = state.begin();
+  const double* next = state.data();
   time_ = *next++;
   for (NodalVectors* values : {&u_, &v_, &a_}) {
-    std::copy_n(next, size, values->data());
-    next += size;
+    for (std::size_t i = 0; i < nodes.size(); ++i) values->col(i) = Vector3::Map(next + 3 * nodes[i]);
+    next += 3 * all_nodes;
   }
-  body_->set_memory({next, state.end()});
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    std::copy_n(next + width * elements[i], width, memory.data() + width * i);
+  body_->set_memory(std::move(memory));
   x_ = body_->reference() + u_;
   budget_.reset();
 }

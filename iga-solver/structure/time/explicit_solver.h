@@ -68,10 +68,14 @@ class ExplicitSolver {
   Vector3 linear_momentum() const;                       ///< sum m_A v_A
   Vector3 angular_momentum(const Vector3& about) const;  ///< sum (x_A - about) x m_A v_A
 
-  /// Time, displacements, velocities and accelerations as 1 + 9 node_count numbers, and what the material
-  /// remembers, to continue to the last bit.
+  /// Ids of the nodes that the part holds, one per column of nodal arrays.
+  std::vector<Id> node_ids() const;
+
+  /// The whole body's time, displacements, velocities and accelerations in the order of node ids, and what
+  /// the material remembers in the order of element ids, to continue to the last bit, cut in the same way or
+  /// in another.  Collective.
   std::vector<double> save() const;
-  /// Throws std::invalid_argument if the size does not fit.
+  /// Takes what is of the part.  Throws std::invalid_argument if the size does not fit.  Collective.
   void load(const std::vector<double>& state);
 
  private:
@@ -84,6 +88,7 @@ class ExplicitSolver {
   void start_energy_budget();
   void check_divergence(const NodalVectors& F) const;
   void half_kick();
+  std::vector<Id> element_ids() const;
 
   std::unique_ptr<Body> body_;
   Supports supports_;

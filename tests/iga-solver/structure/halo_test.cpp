@@ -55,20 +55,25 @@ class MeetingPlace {
   int arrived_ = 0, round_ = 0;
 };
 
+constexpr int kLayer = 16, kShared = kLayer, kHalf = 4 * kLayer, kWhole = 7 * kLayer;
+constexpr int kNodesBelow = kWhole - kHalf, kElementsBelow = 8;
+
 /// Part 0 is below the cut, and its last nodes are ghosts of the first nodes of part 1.
 class TwoPartHalo final : public structure::Halo {
  public:
   using Halo::sum;
-  TwoPartHalo(MeetingPlace& place, int part, int shared) : place_(place), part_(part), shared_(shared) {}
+  TwoPartHalo(MeetingPlace& place, int part) : place_(place), part_(part) {}
 
-  Eigen::Index owned(Eigen::Index held) const override { return part_ == 0 ? held - shared_ : held; }
+  Eigen::Index owned(Eigen::Index held) const override { return part_ == 0 ? held - kShared : held; }
+  structure::Id node_id(Eigen::Index held) const override { return held + part_ * kNodesBelow; }
+  structure::Id element_id(Eigen::Index held) const override { return held + part_ * kElementsBelow; }
   void sum_to_owners(NodalVectors& values) const override {
     const NodalVectors theirs = swapped(values);
-    if (part_ == 1) values.leftCols(shared_) += theirs;
+    if (part_ == 1) values.leftCols(kShared) += theirs;
   }
   void owners_to_ghosts(NodalVectors& values) const override {
     const NodalVectors theirs = swapped(values);
-    if (part_ == 0) values.rightCols(shared_) = theirs;
+    if (part_ == 0) values.rightCols(kShared) = theirs;
   }
   void sum(double* values, std::size_t count) const override {
     const std::vector<double> theirs = place_.swap(part_, {values, values + count});
@@ -80,21 +85,27 @@ class TwoPartHalo final : public structure::Halo {
     return std::isnan(value) || value > theirs ? value : theirs;
   }
 
+  /// Those of part 0 come first.
+  std::vector<double> in_order(const std::vector<structure::Id>&, std::vector<double> rows) const override {
+    const std::vector<double> theirs = place_.swap(part_, rows);
+    rows.insert(part_ == 0 ? rows.end() : rows.begin(), theirs.begin(), theirs.end());
+    return rows;
+  }
+
  private:
   NodalVectors swapped(const NodalVectors& values) const {
-    const NodalVectors mine = part_ == 0 ? values.rightCols(shared_) : values.leftCols(shared_);
+    const NodalVectors mine = part_ == 0 ? values.rightCols(kShared) : values.leftCols(kShared);
     const std::vector<double> theirs = place_.swap(part_, {mine.data(), mine.data() + mine.size()});
-    return Eigen::Map<const NodalVectors>(theirs.data(), 3, shared_);
+    return Eigen::Map<const NodalVectors>(theirs.data(), 3, kShared);
   }
 
   MeetingPlace& place_;
-  int part_, shared_;
+  int part_;
 };
 
 /// A tower of two distorted cubes of 2 x 2 x 2 elements, one on the other: the basis is only continuous at
 /// the cut, so that each cube is a patch of its own.  Nodes go up layer by layer.
 struct Tower {
-  static constexpr int kLayer = 16, kShared = kLayer, kHalf = 4 * kLayer, kWhole = 7 * kLayer;
   nurbs::KnotVector fine = nurbs::KnotVector::uniform(2, 2), tall{2, {0, 0, 0, .25, .5, .5, .75, 1, 1, 1}};
   nurbs::Volume whole =
       models::distorted(nurbs::box(Vector3::Zero(), Vector3(2, 2, 4), {fine, fine, tall}), 0.1);
@@ -113,6 +124,7 @@ struct Tower {
 
 /// What a run gives.
 struct Results {
+  std::vector<double> saved;  // at the end of it
   NodalVectors u, v;
   double stable, kinetic, strain, load_work;
   structure::Work work;
@@ -121,12 +133,14 @@ struct Results {
 };
 
 /// From random velocities v, under gravity and forces F, fixed at the foot if it has one.
-Results run(ExplicitSolver solver, const NodalVectors& v, const NodalVectors& F, double dt, int steps) {
+Results run(ExplicitSolver solver, const NodalVectors& v, const NodalVectors& F, double dt, int steps,
+            const std::vector<double>& state = {}) {
   Results r;
   solver.set_load(structure::gravity_load(solver.body(), {0.01, 0.0, -0.02}));
   solver.set_velocities(v);
   r.stable = solver.stable_time_step();
   solver.set_time_step(dt);
+  if (!state.empty()) solver.load(state);
   try {
     solver.initialise_forces(F);
     for (int n = 0; n < steps; ++n) {
@@ -140,6 +154,7 @@ Results run(ExplicitSolver solver, const NodalVectors& v, const NodalVectors& F,
   r.u = solver.displacements(), r.v = solver.velocities();
   r.kinetic = solver.kinetic_energy(), r.strain = solver.strain_energy(), r.load_work = solver.load_work();
   r.work = solver.work();
+  r.saved = solver.save();
   r.linear = solver.linear_momentum(), r.angular = solver.angular_momentum({1, 2, 3});
   return r;
 }
@@ -155,19 +170,20 @@ struct Runs {
   std::array<Results, 2> parts;
 };
 
-Runs run_both(double dt, int steps) {
+/// From `state` instead, if there is one.
+Runs run_both(double dt, int steps, const std::vector<double>& state = {}) {
   const Tower tower;
-  const NodalVectors v = 0.1 * models::random_vectors(Tower::kWhole, 5),
-                     F = 0.01 * models::random_vectors(Tower::kWhole, 6);
+  const NodalVectors v = 0.1 * models::random_vectors(kWhole, 5),
+                     F = 0.01 * models::random_vectors(kWhole, 6);
   Runs runs;
-  runs.whole = run(ExplicitSolver(tower.solid(tower.whole), foot(tower.whole.space)), v, F, dt, steps);
+  runs.whole = run(ExplicitSolver(tower.solid(tower.whole), foot(tower.whole.space)), v, F, dt, steps, state);
   MeetingPlace place;
   const auto run_part = [&](int part) {
     std::unique_ptr<Solid> half = tower.half(part);
     structure::Supports supports = part == 0 ? foot(half->patch().space) : structure::Supports();
-    runs.parts[part] = run(ExplicitSolver(std::move(half), std::move(supports),
-                                          std::make_unique<TwoPartHalo>(place, part, Tower::kShared)),
-                           Tower::own(v, part), Tower::own(F, part), dt, steps);
+    runs.parts[part] =
+        run(ExplicitSolver(std::move(half), std::move(supports), std::make_unique<TwoPartHalo>(place, part)),
+            Tower::own(v, part), Tower::own(F, part), dt, steps, state);
   };
   std::thread lower([&] { run_part(0); });
   run_part(1);
@@ -178,7 +194,7 @@ Runs run_both(double dt, int steps) {
 TEST(Halo, TwoPartsMoveAsTheWholeBodyDoes) {
   const Runs runs = run_both(0.1, 100);
   const Results& whole = runs.whole;
-  ASSERT_EQ(whole.u.cols(), Tower::kWhole);
+  ASSERT_EQ(whole.u.cols(), kWhole);
   for (int part = 0; part < 2; ++part) {
     SCOPED_TRACE(part);
     const Results& r = runs.parts[part];
@@ -194,10 +210,31 @@ TEST(Halo, TwoPartsMoveAsTheWholeBodyDoes) {
     EXPECT_LT((r.linear - whole.linear).norm(), 1e-12 * whole.linear.norm());
     EXPECT_LT((r.angular - whole.angular).norm(), 1e-12 * whole.angular.norm());
   }
-  EXPECT_EQ(runs.parts[0].u.rightCols(Tower::kShared), runs.parts[1].u.leftCols(Tower::kShared))
+  EXPECT_EQ(runs.parts[0].u.rightCols(kShared), runs.parts[1].u.leftCols(kShared))
       << "ghosts move as their owners, to the last bit";
   EXPECT_EQ(runs.parts[0].kinetic, runs.parts[1].kinetic);
   EXPECT_EQ(runs.parts[0].stable, runs.parts[1].stable);
+}
+
+double distance(const std::vector<double>& a, const std::vector<double>& b) {
+  using Values = Eigen::Map<const Eigen::VectorXd>;
+  return (Values(a.data(), a.size()) - Values(b.data(), b.size())).cwiseAbs().maxCoeff();
+}
+
+// A state is that of the whole body, in the order of ids: it does not show how the body was cut.
+TEST(Halo, AStateGoesFromAWholeBodyToPartsAndBack) {
+  const Runs runs = run_both(0.1, 30), further = run_both(0.1, 60);
+  for (const Results& r : runs.parts) {
+    ASSERT_EQ(r.saved.size(), 1u + 9 * kWhole + 16 * 27 * 18);
+    EXPECT_EQ(r.saved, runs.parts[0].saved);
+    EXPECT_LT(distance(r.saved, runs.whole.saved), 1e-13);
+  }
+  const Runs from_whole = run_both(0.1, 30, runs.whole.saved),
+             from_parts = run_both(0.1, 30, runs.parts[0].saved);
+  EXPECT_EQ(from_whole.whole.saved, further.whole.saved) << "to the last bit";
+  EXPECT_EQ(from_parts.parts[1].saved, further.parts[1].saved) << "to the last bit";
+  EXPECT_LT(distance(from_whole.parts[1].saved, further.whole.saved), 1e-13);
+  EXPECT_LT(distance(from_parts.whole.saved, further.whole.saved), 1e-13);
 }
 
 TEST(Halo, BothPartsNoticeThatTheBodyBlowsUp) {
