@@ -85,7 +85,7 @@ bool ContactLoop::has_outgrown_list(const ParticleView& particles) const {
 
 namespace {
 constexpr int kBlock = 64;  // candidates: their feet are found together, and are still at hand afterwards
-}
+}  // namespace
 
 void ContactLoop::step(const ParticleView& particles, const StepInfo& step, ContactModel& model,
                        ContactObserver* observer) {
@@ -99,18 +99,24 @@ void ContactLoop::step(const ParticleView& particles, const StepInfo& step, Cont
     tracker_.follow(queries, count);
     batch_.clear();
     for (int k = 0; k < count; ++k) find_contacts(particles, step, queries[k]);
-    if (batch_.empty()) continue;
-    model.evaluate(batch_.data(), static_cast<int>(batch_.size()));
-    for (const Contact& contact : batch_) apply(particles, step, contact);
-    if (observer)
-      for (const Contact& contact : batch_)
-        if (contact.touches || !contact.force.isZero(0.0)) observer->see(contact);
+    answer(particles, step, model, observer);
   }
 }
 
+// All contacts of the batch.
+inline void ContactLoop::answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,
+                                ContactObserver* observer) {
+  if (batch_.empty()) return;
+  model.evaluate(batch_.data(), static_cast<int>(batch_.size()));
+  for (const Contact& contact : batch_) apply(particles, step, contact);
+  if (observer)
+    for (const Contact& contact : batch_)
+      if (contact.touches || !contact.force.isZero(0.0)) observer->see(contact);
+}
+
 // The next candidates that may touch, from number `candidate` on.
-int ContactLoop::next_block(const ParticleView& particles, const StepInfo& step, int& candidate,
-                            ContactTracker::Query* queries) {
+inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo& step, int& candidate,
+                                   ContactTracker::Query* queries) {
   const std::vector<Candidate>& candidates = candidates_.candidates();
   int count = 0;
   for (; candidate < static_cast<int>(candidates.size()) && count < kBlock; ++candidate) {
@@ -128,8 +134,8 @@ int ContactLoop::next_block(const ParticleView& particles, const StepInfo& step,
   return count;
 }
 
-void ContactLoop::find_contacts(const ParticleView& particles, const StepInfo& step,
-                                const ContactTracker::Query& query) {
+inline void ContactLoop::find_contacts(const ParticleView& particles, const StepInfo& step,
+                                       const ContactTracker::Query& query) {
   const int i = candidates_.candidates()[query.candidate].particle;
   const ParticleSlots slots = particles.memory.of(i);
   const double radius = particles.radius[i];
@@ -159,16 +165,16 @@ void ContactLoop::find_contacts(const ParticleView& particles, const StepInfo& s
 
 // Whether the centre may come to the surface within one step; a wall that deforms is asked for its velocity
 // only where it matters.
-bool ContactLoop::may_cross(const ParticleView& particles, const StepInfo& step, int i,
-                            double distance) const {
+inline bool ContactLoop::may_cross(const ParticleView& particles, const StepInfo& step, int i,
+                                   double distance) const {
   constexpr double kNear = 0.1;  // of the distance
   return !wall_.deforms() || particles.velocity(i).norm() * step.dt + wall_travel_ >= kNear * distance;
 }
 
 // A centre that comes to the surface within one step would leave it on the other side; one that was on the
 // other side a step ago has done so.
-void ContactLoop::check_crossing(const ParticleView& particles, const StepInfo& step, int i, double distance,
-                                 const Vector3& delta, const Vector3& v_wall) {
+inline void ContactLoop::check_crossing(const ParticleView& particles, const StepInfo& step, int i,
+                                        double distance, const Vector3& delta, const Vector3& v_wall) {
   const double approach = (v_wall - particles.velocity(i)).dot(delta);  // times the distance
   // In this order: the sign of the approach is anyone's guess, for the processor too.
   if (std::abs(approach) * step.dt >= distance * distance &&
@@ -176,8 +182,8 @@ void ContactLoop::check_crossing(const ParticleView& particles, const StepInfo& 
     crossing_.raise(particles.tag[i], particles.radius[i], std::abs(approach) / distance);
 }
 
-int ContactLoop::take_slot(const ParticleView& particles, const StepInfo& step, int i,
-                           const TrackedFoot& tracked, const Vector3& delta) const {
+inline int ContactLoop::take_slot(const ParticleView& particles, const StepInfo& step, int i,
+                                  const TrackedFoot& tracked, const Vector3& delta) const {
   const ParticleSlots slots = particles.memory.of(i);
   const int place = tracked.slot >= 0 ? tracked.slot : slots.empty_slot();
   if (place < 0)
@@ -193,8 +199,8 @@ int ContactLoop::take_slot(const ParticleView& particles, const StepInfo& step, 
   return place;
 }
 
-void ContactLoop::add_contact(const ParticleView& particles, int i, const TrackedFoot& tracked,
-                              const Vector3& delta, const Vector3& v_wall) {
+inline void ContactLoop::add_contact(const ParticleView& particles, int i, const TrackedFoot& tracked,
+                                     const Vector3& delta, const Vector3& v_wall) {
   NURBS_ASSERT(0 <= i && i < particles.count, i, particles.count);
   const Foot& foot = tracked.foot;
   const double radius = particles.radius[i];
@@ -212,7 +218,7 @@ void ContactLoop::add_contact(const ParticleView& particles, int i, const Tracke
   contact.history = particles.memory.of(i).slot(tracked.slot).history();
 }
 
-void ContactLoop::apply(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
+inline void ContactLoop::apply(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
   const int i = contact.particle;
   const Vector3 &F = contact.force, &T = contact.torque;
   const Vector3 x = particles.centre(i), point = x - contact.delta;

@@ -113,6 +113,8 @@ class ContactLoop {
   void add_contact(const ParticleView& particles, int particle, const TrackedFoot& tracked,
                    const Vector3& delta, const Vector3& v_wall);
   void apply(const ParticleView& particles, const StepInfo& step, const Contact& contact);
+  void answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,
+              ContactObserver* observer);
   [[noreturn]] static void fail_as_not_finite(const ParticleView& particles, const StepInfo& step,
                                               const Contact& contact);
 

@@ -32,6 +32,7 @@ void Wall::import() {
   frame_ = structure_.frame();
   deforms_ = structure_.deforms();
   slides_ = structure_.slides();
+  needs_forces_ = structure_.needs_forces();
   is_turned_ = !frame_.rotation.isIdentity(0.0);
   stands_ = !deforms_ && !slides_ && frame_.velocity.isZero(0.0) && frame_.angular_velocity.isZero(0.0);
   if (imported_ && !deforms_) return;
@@ -50,11 +51,8 @@ double Wall::max_speed(const search::Box& bounds) const {
   return frame_.max_speed(bounds);
 }
 
-Vector3 Wall::velocity_of_moving(const Foot& foot, const Vector3& point, const Vector3& delta) const {
-  if (deforms_) return coupling::FootBasis(surface_, foot.at()).interpolate(exchange_.velocities());
-  Vector3 v = frame_.velocity_at(point);
-  if (slides_) v += structure_.surface_velocity(point, delta.normalized());
-  return v;
+Vector3 Wall::velocity_of_deforming(const Foot& foot) const {
+  return coupling::FootBasis(surface_, foot.at()).interpolate(exchange_.velocities());
 }
 
 int Wall::side_of(const Foot& foot, const Vector3& delta) const {

@@ -39,7 +39,7 @@ class Wall {
 
   bool deforms() const { return deforms_; }
   bool stands() const { return stands_; }  ///< nothing of it moves in this step
-  bool needs_forces() const { return structure_.needs_forces(); }
+  bool needs_forces() const { return needs_forces_; }
 
   Vector3 to_frame(const Vector3& x) const {
     const Vector3 from_origin = x - frame_.origin;
@@ -50,7 +50,11 @@ class Wall {
   double max_speed(const search::Box& bounds) const;
   /// At a foot, which is at `point` in space.
   Vector3 velocity(const Foot& foot, const Vector3& point, const Vector3& delta) const {
-    return stands_ ? Vector3::Zero() : velocity_of_moving(foot, point, delta);
+    if (stands_) return Vector3::Zero();
+    if (deforms_) return velocity_of_deforming(foot);
+    Vector3 v = frame_.velocity_at(point);
+    if (slides_) v += structure_.surface_velocity(point, delta.normalized());
+    return v;
   }
 
   /// +1 where dS/dxi x dS/deta points, -1 on the other side.
@@ -73,7 +77,7 @@ class Wall {
   double effective_radius(const Foot& foot, const Vector3& delta, double radius) const;
 
  private:
-  Vector3 velocity_of_moving(const Foot& foot, const Vector3& point, const Vector3& delta) const;
+  Vector3 velocity_of_deforming(const Foot& foot) const;
 
   const coupling::StructureSolver& structure_;
   coupling::SurfaceExchange& exchange_;
@@ -83,7 +87,8 @@ class Wall {
   const std::vector<int>& outward_sign_;  // of each patch
   coupling::RigidFrame frame_;
   double resolution_ = 0.0;
-  bool imported_ = false, deforms_ = false, slides_ = false, stands_ = false, is_turned_ = false;
+  bool imported_ = false, needs_forces_ = false, deforms_ = false, slides_ = false, stands_ = false,
+       is_turned_ = false;
 };
 
 }  // namespace contact
