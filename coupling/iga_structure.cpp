@@ -56,6 +56,22 @@ std::string name_of(const structure::SkinPiece& piece) {
   return piece.patch == 0 ? face : fmt::format("{} {}", piece.patch, face);
 }
 
+FingerprintPart material_part(const structure::Material& material) {
+  const double E = material.youngs_modulus(), nu = material.poissons_ratio(), density = material.density();
+  FingerprintPart part{"material",
+                       fmt::format("E = {:.10g}, nu = {:.10g}, density = {:.10g}", E, nu, density),
+                       {E, nu, density}};
+  for (const double constant : material.further_constants()) {
+    part.text += fmt::format(", {:.10g}", constant);
+    part.numbers.push_back(constant);
+  }
+  if (const int size = material.state_size(); size > 0) {  // parts of elastic solids are as they always were
+    part.text += fmt::format(", {} numbers of memory at a point", size);
+    part.numbers.push_back(size);
+  }
+  return part;
+}
+
 }  // namespace
 
 IgaStructure::IgaStructure(structure::ExplicitSolver solver, std::vector<structure::SkinPiece> skin,
@@ -111,9 +127,6 @@ std::vector<Probe> IgaStructure::probes() const {
 Fingerprint IgaStructure::fingerprint() const {
   const structure::Body& body = solver_.body();
   const structure::Material& material = body.material();
-  const double E = material.youngs_modulus(), nu = material.poissons_ratio(), density = material.density();
-  std::vector<double> constants{E, nu, density};
-  if (material.state_size() > 0) constants.push_back(material.state_size());
   const std::vector<Eigen::Index>& fixed = solver_.supports().fixed_dofs();
   std::vector<std::string> faces;
   for (const structure::SkinPiece& piece : skin_) faces.emplace_back(name_of(piece));
@@ -121,8 +134,7 @@ Fingerprint IgaStructure::fingerprint() const {
   return {std::visit(geometry, body.patches()),
           word_part("surface", fmt::format("{}", fmt::join(faces, ", "))),
           word_part("law of the material", material.law()),
-          {"material", fmt::format("E = {:.10g}, nu = {:.10g}, density = {:.10g}", E, nu, density),
-           std::move(constants)},
+          material_part(material),
           {"supports",
            fmt::format("{} fixed degrees of freedom", fixed.size()),
            {static_cast<double>(fixed.size()), checksum({fixed.begin(), fixed.end()})}}};

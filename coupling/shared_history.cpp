@@ -21,7 +21,9 @@ void SharedHistory::open(double time) {
 
 void SharedHistory::record_if_due(const structure::ExplicitSolver& solver) {
   if (!times_) open(solver.time());
-  if (times_->take(solver)) on_first_rank(comm_, [&] { history_->record(solver); });
+  if (!times_->take(solver)) return;
+  const io::HistoryRow row = io::measure(solver, probes_);
+  on_first_rank(comm_, [&] { history_->record(row); });
 }
 
 }  // namespace coupling

@@ -158,21 +158,34 @@ History::History(History&&) noexcept = default;
 const std::string& History::path() const { return writer_->file.path(); }
 
 void History::record_if_due(const structure::ExplicitSolver& solver) {
-  if (times_.take(solver)) record(solver);
+  if (times_.take(solver)) record(measure(solver, writer_->probes));
 }
 
-void History::record(const structure::ExplicitSolver& solver) {
+HistoryRow measure(const structure::ExplicitSolver& solver, const std::vector<structure::Probe>& probes) {
+  HistoryRow row{solver.time(),
+                 solver.kinetic_energy(),
+                 solver.strain_energy(),
+                 solver.load_work(),
+                 solver.linear_momentum(),
+                 solver.angular_momentum(Vector3::Zero()),
+                 solver.largest_displacement(),
+                 {}};
+  for (const structure::Probe& probe : probes) row.probes.push_back(probe.value(solver.displacements()));
+  return row;
+}
+
+void History::record(const HistoryRow& row) {
   Writer& w = *writer_;
-  w.append(w.kinetic_energy, solver.kinetic_energy());
-  w.append(w.strain_energy, solver.strain_energy());
-  w.append(w.load_work, solver.load_work());
-  w.append(w.linear_momentum, solver.linear_momentum());
-  w.append(w.angular_momentum, solver.angular_momentum(Vector3::Zero()));
-  w.append(w.largest_displacement, solver.displacements().colwise().norm().maxCoeff());
-  for (std::size_t i = 0; i < w.probes.size(); ++i)
-    w.append(w.probe_displacement[i], w.probes[i].value(solver.displacements()));
-  w.file.end_row(solver.time());
-  last_time_ = solver.time();
+  w.append(w.kinetic_energy, row.kinetic_energy);
+  w.append(w.strain_energy, row.strain_energy);
+  w.append(w.load_work, row.load_work);
+  w.append(w.linear_momentum, row.linear_momentum);
+  w.append(w.angular_momentum, row.angular_momentum);
+  w.append(w.largest_displacement, row.largest_displacement);
+  for (std::size_t i = 0; i < w.probe_displacement.size(); ++i)
+    w.append(w.probe_displacement[i], row.probes[i]);
+  w.file.end_row(row.time);
+  last_time_ = row.time;
 }
 
 }  // namespace io

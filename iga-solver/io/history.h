@@ -26,6 +26,16 @@ class OutputTimes {
   std::optional<double> last_;
 };
 
+/// One row, in the order of the file's data sets.
+struct HistoryRow {
+  double time, kinetic_energy, strain_energy, load_work;
+  Vector3 linear_momentum, angular_momentum;
+  double largest_displacement;
+  std::vector<Vector3> probes;  ///< displacements
+};
+/// Collective, as what it asks of the solver.
+HistoryRow measure(const structure::ExplicitSolver& solver, const std::vector<structure::Probe>& probes);
+
 class History {
  public:
   /// Creates `<output.file>.h5`, replacing an older one.  Throws std::runtime_error, naming the file, if that
@@ -43,7 +53,7 @@ class History {
   /// Appends a row if the next output time is reached (to within half a step): times 0, every, 2 every, ...
   void record_if_due(const structure::ExplicitSolver& solver);
   /// Appends a row and flushes: what was recorded survives a killed run.
-  void record(const structure::ExplicitSolver& solver);
+  void record(const HistoryRow& row);
   const std::string& path() const;
   /// Time of the last row, if there is one.
   std::optional<double> last_time() const { return last_time_; }

@@ -9,6 +9,7 @@
 #include "coupling/iga_structure.h"
 #include "coupling/rigid/rigid_surface.h"
 #include "nurbs/primitives.h"
+#include "standard_linear_solid.h"
 #include "structure/conditions/loads.h"
 #include "structure/material/linear_elastic.h"
 #include "structure/material/saint_venant_kirchhoff.h"
@@ -31,6 +32,7 @@ struct Box {
   std::array<int, 3> degrees{2, 2, 2};
   double E = 5.0, nu = 0.3, density = 7.0;
   bool large_displacements = false;
+  double relaxation_time = 0.0;  // none: elastic
   std::vector<nurbs::Face> held{nurbs::Face::zeta_minus};
   structure::Directions directions{true, true, true};
   std::vector<structure::SkinPiece> seen{{0, nurbs::Face::zeta_plus}};
@@ -42,7 +44,9 @@ struct Box {
     structure::Supports supports;
     for (const nurbs::Face face : held) supports.fix(structure::nodes_on(patch.space, {face}), directions);
     std::shared_ptr<const structure::Material> material;
-    if (large_displacements)
+    if (relaxation_time > 0.0)
+      material = std::make_shared<test::StandardLinearSolid>(E, nu, density, 0.5, relaxation_time);
+    else if (large_displacements)
       material = std::make_shared<structure::SaintVenantKirchhoff>(E, nu, density);
     else
       material = std::make_shared<structure::LinearElastic>(E, nu, density);
@@ -54,6 +58,16 @@ struct Box {
 };
 
 std::string change(const Box& now) { return difference(Box().fingerprint(), now.fingerprint()); }
+
+TEST(Fingerprint, KnowsTheMemoryOfTheMaterial) {
+  Box then, now;
+  then.relaxation_time = now.relaxation_time = 2.0;
+  EXPECT_THAT(difference(then.fingerprint(), now.fingerprint()), IsEmpty());
+  now.relaxation_time = 3.0;
+  EXPECT_THAT(difference(then.fingerprint(), now.fingerprint()),
+              testing::HasSubstr("0.5, 3, 18 numbers of memory at a point now"));
+  EXPECT_THAT(change(now), testing::HasSubstr("standard_linear_solid"));
+}
 
 TEST(Fingerprint, OfTheSameSolidAgrees) {
   EXPECT_THAT(change(Box()), IsEmpty());

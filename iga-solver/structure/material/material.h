@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace structure {
 
@@ -31,6 +32,8 @@ class Material {
   virtual double density() const = 0;         ///< reference mass density [kg/m^3]
   virtual double youngs_modulus() const = 0;  ///< small-strain value [Pa], compared with the deck's
   virtual double poissons_ratio() const = 0;  ///< small-strain value [-]
+  /// All others, in any order: a saved state belongs to one set of them.
+  virtual std::vector<double> further_constants() const { return {}; }
 };
 
 }  // namespace structure

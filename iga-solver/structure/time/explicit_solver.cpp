@@ -136,6 +136,8 @@ double ExplicitSolver::nodal_sum(const NodalVectors& q) const {
   return halo_->own(q).colwise().squaredNorm().dot(mass_->nodal_mass().head(halo_->owned(q.cols())));
 }
 
+double ExplicitSolver::largest_displacement() const { return halo_->largest(u_.colwise().norm().maxCoeff()); }
+
 double ExplicitSolver::kinetic_energy() const { return 0.5 * halo_->sum(nodal_sum(v_)); }
 
 double ExplicitSolver::strain_energy() const { return halo_->sum(body_->strain_energy(u_)); }

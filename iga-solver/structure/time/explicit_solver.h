@@ -59,7 +59,8 @@ class ExplicitSolver {
   /// 2 / omega_max about the state of the first call, which takes seconds for large models; then remembered.
   double stable_time_step() const;
 
-  double kinetic_energy() const;  ///< sum m_A |v_A|^2 / 2
+  double largest_displacement() const;  ///< of all nodes [length]
+  double kinetic_energy() const;        ///< sum m_A |v_A|^2 / 2
   double strain_energy() const;
   /// Since initialise_forces: kinetic energy + internal - loads - forces is constant to round-off.
   Work work() const;

@@ -140,7 +140,7 @@ TEST_F(HistoryFile, CarriesUnits) {
         Names{geometry_io::Units::cgs, "cgs", "s", "cm", "erg", "g cm/s", "g cm^2/s"},
         Names{geometry_io::Units::mm_g_ms, "mm-g-ms", "ms", "mm", "mJ", "g mm/ms", "g mm^2/ms"}}) {
     io::History history({1.0, base()}, expected.units, model.probes);
-    history.record(falling_block(model));
+    history.record(io::measure(falling_block(model), model.probes));
     const auto unit = [&](const char* series) { return read_attribute(history.path(), series, "unit"); };
     EXPECT_EQ(read_attribute(history.path(), "/", "units"), expected.system);
     EXPECT_EQ(unit("time"), expected.time);
@@ -319,7 +319,8 @@ TEST_F(HistoryFile, IsThatOfOneSolid) {
   {
     io::History history(one, geometry_io::Units::si, {});
     EXPECT_THAT([&] { io::History(two, geometry_io::Units::si, {}); }, refused);
-    history.record(falling_block(io::parse_model_file(kFalling, "falling.yaml")));  // has its name now
+    history.record(
+        io::measure(falling_block(io::parse_model_file(kFalling, "falling.yaml")), {}));  // has its name now
     EXPECT_THAT([&] { io::History(two, geometry_io::Units::si, {}); }, refused);
     EXPECT_THAT([&] { io::History::resume(two, geometry_io::Units::si, {}, 0.0); }, refused);
   }

@@ -20,6 +20,7 @@ class StandardLinearSolid final : public structure::IsotropicElastic {
       : IsotropicElastic("StandardLinearSolid", youngs_modulus, poissons_ratio, density), g_(g), tau_(tau) {}
 
   const char* law() const override { return "standard_linear_solid"; }
+  std::vector<double> further_constants() const override { return {g_, tau_}; }
   Matrix3 stress(const Matrix3& H, const double* state) const override {
     return hooke(strain(H) - (1.0 - g_) * Stored(state));
   }
