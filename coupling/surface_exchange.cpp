@@ -30,8 +30,6 @@ SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver)
     : comm_(comm), solver_(solver), map_(solver.surface().map.on(solver.nodes())) {
   int ranks = 1;
   MPI_Comm_size(comm_, &ranks);
-  MPI_Type_contiguous(sizeof(ContactForce), MPI_BYTE, &contact_);
-  MPI_Type_commit(&contact_);
   all_counts_.resize(ranks);
   counts_.resize(ranks);
   offset_.resize(ranks);
@@ -76,8 +74,12 @@ void SurfaceExchange::gather(const std::vector<ContactForce>& local) {
   if (total == 0) return;
   std::copy(all_counts_.begin(), all_counts_.end(), counts_.begin());
   std::partial_sum(counts_.begin(), counts_.end() - 1, offset_.begin() + 1);
-  MPI_Allgatherv(local.data(), static_cast<int>(mine), contact_, contacts_.data(), counts_.data(),
-                 offset_.data(), contact_, comm_);
+  MPI_Datatype contact;  // counted as one, so that int reaches far; made here, as MPI may end before we do
+  MPI_Type_contiguous(sizeof(ContactForce), MPI_BYTE, &contact);
+  MPI_Type_commit(&contact);
+  MPI_Allgatherv(local.data(), static_cast<int>(mine), contact, contacts_.data(), counts_.data(),
+                 offset_.data(), contact, comm_);
+  MPI_Type_free(&contact);
 }
 
 }  // namespace coupling

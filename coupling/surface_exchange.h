@@ -26,9 +26,6 @@ class SurfaceExchange {
  public:
   /// The solver must outlive the exchange.
   SurfaceExchange(MPI_Comm comm, StructureSolver& solver);
-  ~SurfaceExchange() { MPI_Type_free(&contact_); }
-  SurfaceExchange(const SurfaceExchange&) = delete;
-  SurfaceExchange& operator=(const SurfaceExchange&) = delete;
 
   /// Brings positions and velocities of the surface's control points to this rank; call after every change of
   /// the solver's state.
@@ -48,7 +45,6 @@ class SurfaceExchange {
   MPI_Comm comm_;
   StructureSolver& solver_;
   SurfaceMap map_;  ///< from the nodes that this rank holds
-  MPI_Datatype contact_;
   NodalVectors positions_, velocities_;
   NodalVectors surface_forces_, nodal_forces_;
   std::vector<ContactForce> contacts_;    ///< of all ranks
