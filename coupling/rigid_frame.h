@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "search/box_tree.h"
+#include "search/box.h"
 
 namespace coupling {
 

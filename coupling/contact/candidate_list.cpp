@@ -10,11 +10,7 @@ namespace contact {
 using nurbs::Vector3;
 
 void CandidateList::set_surface(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points) {
-  std::vector<search::Box> boxes;
-  boxes.reserve(surface.element_count());
-  for (int p = 0; p < surface.patch_count(); ++p)
-    search::add_element_boxes(surface.patch(p), surface.control_points_of(p, control_points), boxes);
-  tree_.build(boxes);
+  tree_.build(surface, control_points);
   control_points_at_build_ = control_points;
 }
 

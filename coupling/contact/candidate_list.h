@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Which particles may touch the wall until the next rebuild, and which surface elements they may touch.
-// Source: Gao & Feng (2019), section 4.1; control-point boxes and a tree in place of their CGRID.
+// Source: Gao & Feng (2019), section 4.1; control-point boxes and trees in place of their CGRID.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 #include "coupling/rigid_frame.h"
 #include "nurbs/assert.h"
 #include "nurbs/multi_patch.h"
-#include "search/box_tree.h"
+#include "search/multi_patch_tree.h"
 
 namespace contact {
 
@@ -63,7 +63,7 @@ class CandidateList {
   std::vector<ImageElements> image_elements_;
   std::vector<int> elements_;
   std::vector<nurbs::Vector3> images_;
-  search::BoxTree tree_;
+  search::MultiPatchTree tree_;
   nurbs::NodalVectors control_points_at_build_;
   coupling::RigidFrame frame_at_build_;
 };

@@ -41,6 +41,10 @@ class BoxUnits {
     const double moved = (scale_ * distance + 3.0 * kHalfUlp * point.far) * (1.0 + 8.0 * kHalfUlp);
     return static_cast<float>(moved * moved);
   }
+  /// What it is below even where the distance is exactly this.
+  float limit_with(const Point& point, double distance) const {
+    return std::nextafter(limit(point, distance), std::numeric_limits<float>::infinity());
+  }
 
   static constexpr double kHalfUlp = 0x1p-24;  ///< of single precision, relative
 

@@ -8,7 +8,7 @@
 
 #include <vector>
 
-#include "search/box_tree.h"
+#include "search/box.h"
 #include "search/names.h"
 
 namespace search {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "nurbs/bezier_element.h"
-#include "search/box_tree.h"
+#include "search/box.h"
 #include "search/brent.h"
 #include "search/simplex.h"
 

@@ -19,8 +19,8 @@ Foot closest_point_simplex_brent(const Space<2>& space, const NodalVectors& cont
                                  const Parameter<2>& guess, bool warm);
 
 /// Nearest of the feet found from the centres of the given elements (cold search on candidates of a
-/// BoxTree); the first that is `not_converged` is returned at once, since the nearest may be missing then.
-/// Throws std::invalid_argument if there are no elements.
+/// SurfaceTree); the first that is `not_converged` is returned at once, since the nearest may be missing
+/// then. Throws std::invalid_argument if there are no elements.
 Foot closest_point_simplex_brent_on_elements(const Space<2>& space, const NodalVectors& control_points,
                                              const Vector3& d, const int* elements, int element_count);
 

@@ -15,7 +15,7 @@
 #include <memory>
 #include <vector>
 
-#include "search/box_tree.h"
+#include "search/box.h"
 #include "search/element_descent.h"
 #include "search/foot.h"
 #include "search/local_reach.h"
@@ -82,7 +82,8 @@ class SurfaceProjector {
   /// Global minimum, warm: the tree proves that nothing is nearer than the minimum reached from `guess`.
   Foot nearest(const Vector3& d, const Parameter<2>& guess) const;
   /// Minimum over candidate elements.  The candidates must include all elements nearer than the result, as
-  /// those of BoxTree::query do whose reach is not smaller.  Throws std::invalid_argument if there are none.
+  /// those of SurfaceTree::query do whose reach is not smaller.  Throws std::invalid_argument if there are
+  /// none.
   Foot cold_on(const Vector3& d, const int* elements, int count) const;
   /// All local minima nearer than `reach`, each once, nearest first.  Of minima that are not isolated (d on
   /// the axis of a tube) there are some.

@@ -2,6 +2,8 @@
 #include "search/surface_tree.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace search {
@@ -33,7 +35,7 @@ SurfaceTree::SurfaceTree(const Space<2>& space)
   } while (count[0] * count[1] > 1);
 }
 
-void SurfaceTree::refit(const NodalVectors& control_points) {
+void SurfaceTree::refit(const Eigen::Ref<const NodalVectors>& control_points) {
   units_.set(control_points.rowwise().minCoeff(), control_points.rowwise().maxCoeff());
   fit_elements(control_points);
   for (size_t level = 1; level < levels_.size(); ++level) {
@@ -56,7 +58,7 @@ void SurfaceTree::refit(const NodalVectors& control_points) {
 }
 
 // A box over (p+1) x (q+1) control points is one over q+1 boxes of p+1 in a row.
-void SurfaceTree::fit_elements(const NodalVectors& control_points) {
+void SurfaceTree::fit_elements(const Eigen::Ref<const NodalVectors>& control_points) {
   const int p = degree_[0], q = degree_[1], n = elements_[0];
   std::vector<Bounds> rows(static_cast<size_t>(n) * (q + 1));  // of the last q+1 rows, row j at j % (q+1)
   std::vector<Bounds> points(control_points_0_);
@@ -80,6 +82,27 @@ void SurfaceTree::fit_elements(const NodalVectors& control_points) {
       level.children[e0 / 4 + level.count[0] * (e1 / 4)].set(
           e0 % 4 + 4 * (e1 % 4), units_.in_units(box.low.head<3>()), units_.in_units(box.high.head<3>()));
     }
+  }
+}
+
+void SurfaceTree::query(const Vector3& d, double reach, int first, std::vector<int>& out) const {
+  const Point at = point(d);
+  if (!std::isfinite(at.far)) return;
+  const auto old_size = static_cast<std::ptrdiff_t>(out.size());
+  add_near(root(), at, units_.limit_with(at, reach), first, out);
+  std::sort(out.begin() + old_size, out.end());
+}
+
+void SurfaceTree::add_near(const ElementBlock& block, const Point& point, float limit, int first,
+                           std::vector<int>& out) const {
+  const unsigned near = below(near2(block, point), limit);
+  for (int k = 0; near >> k != 0; ++k) {
+    if ((near >> k & 1) == 0) continue;
+    const ElementBlock child = this->child(block, k);
+    if (child.level == 0)
+      out.push_back(first + child.at[0] + elements_[0] * child.at[1]);
+    else
+      add_near(child, point, limit, first, out);
   }
 }
 

@@ -39,7 +39,7 @@ class SurfaceTree {
   explicit SurfaceTree(const Space<2>& space);
 
   /// New coordinates (3 x n).
-  void refit(const NodalVectors& control_points);
+  void refit(const Eigen::Ref<const NodalVectors>& control_points);
 
   /// The block that holds all elements; its level is at least 1.
   ElementBlock root() const { return {static_cast<int>(levels_.size()), {0, 0}}; }
@@ -54,6 +54,9 @@ class SurfaceTree {
     }
     return range;
   }
+  /// Adds `first` + the numbers, in rising order, of all elements whose boxes are not farther than `reach`
+  /// from `d`, and of some that are farther by no more than round-off in single precision.
+  void query(const Vector3& d, double reach, int first, std::vector<int>& out) const;
   /// Length of the diagonal of the box around all control points.
   double size() const { return units_.size(); }
 
@@ -85,7 +88,9 @@ class SurfaceTree {
     const Level& level = levels_[block.level - 1];
     return level.children[block.at[0] + level.count[0] * block.at[1]];
   }
-  void fit_elements(const NodalVectors& control_points);
+  void fit_elements(const Eigen::Ref<const NodalVectors>& control_points);
+  void add_near(const ElementBlock& block, const Point& point, float limit, int first,
+                std::vector<int>& out) const;
 
   int elements_[2], degree_[2], control_points_0_;
   std::vector<int> first_[2];  // control point of each element, per direction

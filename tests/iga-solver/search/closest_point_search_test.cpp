@@ -8,7 +8,7 @@
 #include "feet.h"
 #include "nurbs/refinement.h"
 #include "nurbs/shapes.h"
-#include "search/box_tree.h"
+#include "search/surface_tree.h"
 
 namespace search {
 namespace {
@@ -126,15 +126,13 @@ TEST(ClosestPointSearch, Poles) {
   }
 }
 
-// The candidates of a box tree are enough: the same foot as with all elements, for points within reach.
-TEST(ClosestPointSearch, CandidatesOfABoxTree) {
+// The candidates of a tree are enough: the same foot as with all elements, for points within reach.
+TEST(ClosestPointSearch, CandidatesOfATree) {
   shapes::Random random(14);
   const Surface hills =
       shapes::random_hills(random, {KnotVector::uniform(2, 12), KnotVector::uniform(2, 9)}, 0.2, true);
-  std::vector<Box> boxes;
-  add_element_boxes(hills.space, hills.control_points, boxes);
-  BoxTree tree;
-  tree.build(boxes);
+  SurfaceTree tree(hills.space);
+  tree.refit(hills.control_points);
   SurfaceProjector projector(hills.space);
   projector.set_control_points(hills.control_points);
   std::vector<int> candidates;
@@ -146,7 +144,7 @@ TEST(ClosestPointSearch, CandidatesOfABoxTree) {
     if (p.distance > reach) continue;
     ++within_reach;
     candidates.clear();
-    tree.query(d, reach, candidates);
+    tree.query(d, reach, 0, candidates);
     ASSERT_FALSE(candidates.empty());
     const Foot q = projector.cold_on(d, candidates.data(), static_cast<int>(candidates.size()));
     EXPECT_NEAR(q.distance, p.distance, 1e-14);

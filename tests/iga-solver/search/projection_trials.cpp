@@ -16,7 +16,7 @@
 
 #include "distance_bound.h"
 #include "feet.h"
-#include "search/box_tree.h"
+#include "search/surface_tree.h"
 #include "trial_surfaces.h"
 
 namespace search {
@@ -29,15 +29,13 @@ constexpr double kTolerance = 1e-9;  // of distances, relative
 
 // A projector that owns its surface.
 struct Projector {
-  explicit Projector(Surface given) : surface(std::move(given)), search(surface.space) {
+  explicit Projector(Surface given) : surface(std::move(given)), search(surface.space), tree(surface.space) {
     search.set_control_points(surface.control_points);
-    std::vector<Box> boxes;
-    add_element_boxes(surface.space, surface.control_points, boxes);
-    tree.build(boxes);
+    tree.refit(surface.control_points);
   }
   Surface surface;
   SurfaceProjector search;
-  BoxTree tree;
+  SurfaceTree tree;
 };
 
 Surface transformed(const Surface& surface, double scale, const Vector3& shift) {
@@ -80,7 +78,7 @@ class Trial {
   std::string try_cold_on(const Vector3& d) const {
     const double nearest = as_given_.search.cold(d).distance;
     std::vector<int> candidates;
-    as_given_.tree.query(d, 1.2 * nearest + 0.1 * trial_.element, candidates);
+    as_given_.tree.query(d, 1.2 * nearest + 0.1 * trial_.element, 0, candidates);
     const Foot p = as_given_.search.cold_on(d, candidates.data(), static_cast<int>(candidates.size()));
     if (std::string wrong = inconsistent(d, p); !wrong.empty()) return wrong;
     if (std::abs(p.distance - nearest) > kTolerance * nearest + judge_.round_off())

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "nurbs/shapes.h"
-#include "search/box_tree.h"
+#include "search/box.h"
 
 namespace search {
 namespace {
