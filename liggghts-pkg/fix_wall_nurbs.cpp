@@ -91,13 +91,19 @@ int FixWallNurbs::setmask() {
 int FixWallNurbs::modify_param(int narg, char** arg) { return modify_drive(lmp, id, narg, arg); }
 
 void FixWallNurbs::post_create() {
-  or_fail([&] { memory_.create(dnum_); });
+  or_fail([&] {
+    memory_.create(dnum_);
+    restart_.reserve(origin(), output_.get());
+  });
   fix_wallforce_ = memory_.force();
   restart_.note_walls_in_file(style);
 }
 
 void FixWallNurbs::pre_delete(bool unfixflag) {
-  if (unfixflag) memory_.remove();
+  if (unfixflag) {
+    memory_.remove();
+    restart_.remove();
+  }
   store_force_ = false;  // what the base class would delete is gone
   FixWallGran::pre_delete(unfixflag);
 }

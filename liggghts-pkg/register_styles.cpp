@@ -10,6 +10,7 @@
 
 #include "error.h"
 #include "fix_wall_nurbs.h"
+#include "fix_wall_nurbs_state.h"
 #include "modify.h"
 
 #if defined(SUPERQUADRIC_ACTIVE_FLAG) || defined(NONSPHERICAL_ACTIVE_FLAG) || defined(CONVEX_ACTIVE_FLAG)
@@ -56,6 +57,7 @@ Fix* make_fix(LAMMPS* lmp, int narg, char** arg) {
 const std::pair<const char*, FixCreator> kFixStyles[] = {
     {"wall/nurbs", &make_fix<LAMMPS_NS::FixWallNurbs>},
     {"wall/gran/nurbs", &make_fix<LAMMPS_NS::FixWallNurbs>},  // what LIGGGHTS calls it in its own messages
+    {"wall/nurbs/state", &make_fix<LAMMPS_NS::FixWallNurbsState>},
 };
 
 }  // namespace

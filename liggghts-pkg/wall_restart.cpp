@@ -3,33 +3,31 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <stdexcept>
-
-#include "coupling/all_or_none.h"
 #include "lammps.h"
 #include "modify.h"
 #include "update.h"
 
 namespace liggghts_pkg {
 
-void WallRestart::write(std::FILE* file, const WallState::Origin& origin, const WallOutput* output) const {
+std::vector<double> WallRestart::packed(const WallState::Origin& origin, const WallOutput* output) const {
   const std::vector<double> fields =
       output ? output->save(lmp_->update->get_cur_time()) : std::vector<double>();
-  const std::vector<double> all = pack({structure_.save(), fields, origin});
-  const int bytes = restart_bytes(all.size());
-  coupling::on_first_rank(lmp_->world, [&] {
-    if (std::fwrite(&bytes, sizeof(int), 1, file) != 1 ||
-        std::fwrite(all.data(), sizeof(double), all.size(), file) != all.size() || std::fflush(file) != 0)
-      throw std::runtime_error(fmt::format(
-          "cannot write its {} bytes to the restart file: {}; make room, or write the file elsewhere", bytes,
-          std::strerror(errno)));
-  });
+  return pack({structure_.save(), fields, origin});
+}
+
+void WallRestart::reserve(const WallState::Origin& origin, const WallOutput* output) {
+  blocks_.reserve(packed(origin, output).size());
+}
+
+void WallRestart::write(std::FILE* file, const WallState::Origin& origin, const WallOutput* output) {
+  write_block(lmp_->world, file, blocks_.split(packed(origin, output)));
 }
 
 void WallRestart::read(const char* buffer, const WallState::Origin& origin, WallOutput* output) {
-  const WallState state = unpack_wall_state(buffer);
+  const std::vector<double> joined = blocks_.joined(buffer);
+  const WallState state =
+      joined.empty() ? unpack_wall_state(buffer)
+                     : unpack_wall_state(reinterpret_cast<const char*>(joined.data()), joined.size());
   if (state.origin)
     check_origin(*state.origin, origin, file_);
   else

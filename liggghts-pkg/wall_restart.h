@@ -9,13 +9,11 @@
 #include <vector>
 
 #include "coupling/structure_solver.h"
+#include "lammps.h"
+#include "state_blocks.h"
 #include "wall_messages.h"
 #include "wall_output.h"
 #include "wall_state.h"
-
-namespace LAMMPS_NS {
-class LAMMPS;
-}
 
 namespace liggghts_pkg {
 
@@ -24,10 +22,18 @@ class WallRestart {
   /// `file`: of the wall, for messages.
   WallRestart(LAMMPS_NS::LAMMPS* lmp, const std::string& id, const std::string& file,
               coupling::StructureSolver& structure)
-      : lmp_(lmp), id_(id), file_(file), structure_(structure), messages_(lmp, id) {}
+      : lmp_(lmp),
+        id_(id),
+        file_(file),
+        structure_(structure),
+        messages_(lmp, id),
+        blocks_(*lmp->modify, id) {}
 
   /// Collective.  Throws std::exception on every rank if the file cannot be written.
-  void write(std::FILE* file, const WallState::Origin& origin, const WallOutput* output) const;
+  void write(std::FILE* file, const WallState::Origin& origin, const WallOutput* output);
+  /// Makes room for it, which LIGGGHTS wants to know beforehand.
+  void reserve(const WallState::Origin& origin, const WallOutput* output);
+  void remove() { blocks_.remove(); }
   /// Of the bytes that LIGGGHTS read.  Throws std::exception if they belong to something else.
   void read(const char* buffer, const WallState::Origin& origin, WallOutput* output);
 
@@ -37,10 +43,13 @@ class WallRestart {
   void warn_of_state_not_taken();
 
  private:
+  std::vector<double> packed(const WallState::Origin& origin, const WallOutput* output) const;
+
   LAMMPS_NS::LAMMPS* lmp_;
   std::string id_, file_;
   coupling::StructureSolver& structure_;
   WallMessages messages_;
+  StateBlocks blocks_;
   bool taken_ = false;
   std::vector<std::string> walls_in_file_;  // until the first run
 };

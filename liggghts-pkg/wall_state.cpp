@@ -12,11 +12,10 @@ namespace liggghts_pkg {
 namespace {
 
 constexpr double kVersion = 2.0;
-constexpr std::size_t kMostBytes = std::numeric_limits<int>::max();
 
 class PartReader {
  public:
-  explicit PartReader(const char* bytes) : next_(bytes) {}
+  PartReader(const char* bytes, std::size_t numbers) : next_(bytes), left_(numbers) {}
 
   double peek() const {
     double number;
@@ -35,7 +34,7 @@ class PartReader {
 
  private:
   const char* next_;
-  std::size_t left_ = kMostBytes / sizeof(double);  // at most: LIGGGHTS does not tell
+  std::size_t left_;  // numbers, at most
 };
 
 }  // namespace
@@ -53,8 +52,8 @@ std::vector<double> pack(const WallState& state) {
   return all;
 }
 
-WallState unpack_wall_state(const char* bytes) {
-  PartReader reader(bytes);
+WallState unpack_wall_state(const char* bytes, std::size_t numbers) {
+  PartReader reader(bytes, numbers);
   const double version = reader.peek() < 0.0 ? -reader.peek() : 1.0;
   if (version > kVersion)
     throw std::invalid_argument(
@@ -93,15 +92,6 @@ void check_origin(const WallState::Origin& saved, const WallState::Origin& now, 
         fmt::format("the restart file holds up to {0} contacts of a particle, expected at most {1} with "
                     "'contacts {1}'; use 'contacts {0}'",
                     saved.contacts, now.contacts));
-}
-
-int restart_bytes(std::size_t numbers) {
-  if (numbers > kMostBytes / sizeof(double))
-    throw std::invalid_argument(fmt::format(
-        "the wall's state has {} bytes, but LIGGGHTS' restart files hold at most {} of a fix; use "
-        "a coarser mesh, or no restart files",
-        numbers * sizeof(double), kMostBytes));
-  return static_cast<int>(numbers * sizeof(double));
 }
 
 }  // namespace liggghts_pkg

@@ -3,6 +3,7 @@
 // length and its numbers.  Files of older versions begin with the first part and hold two of them.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,9 @@
 #include "coupling/fingerprint.h"
 
 namespace liggghts_pkg {
+
+/// LIGGGHTS does not tell how many numbers it read, but counts their bytes by an int (state_blocks.h).
+constexpr std::size_t kMostInOneBlock = 0x7fffffff / sizeof(double);
 
 struct WallState {
   std::vector<double> structure;  ///< StructureSolver::save
@@ -24,16 +28,12 @@ struct WallState {
 };
 
 std::vector<double> pack(const WallState& state);
-/// Of the bytes that LIGGGHTS read, whose number it does not tell.  Throws std::invalid_argument if a newer
-/// version wrote them, or if they are damaged.
-WallState unpack_wall_state(const char* bytes);
+/// Of the bytes that LIGGGHTS read, `numbers` at most.  Throws std::invalid_argument if a newer version wrote
+/// them, or if they are damaged.
+WallState unpack_wall_state(const char* bytes, std::size_t numbers = kMostInOneBlock);
 
 /// Throws std::invalid_argument unless the state was saved by a wall like this one: what differs, and the way
 /// out.  `file`: of this wall, for the message.
 void check_origin(const WallState::Origin& saved, const WallState::Origin& now, const std::string& file);
-
-/// Bytes of so many numbers as LIGGGHTS counts them.  Throws std::invalid_argument if there are more than an
-/// int holds.
-int restart_bytes(std::size_t numbers);
 
 }  // namespace liggghts_pkg

@@ -73,12 +73,12 @@ class Restart(unittest.TestCase):
         cls.of_floor, cls.floor = cls.written(RIGID)
 
     @staticmethod
-    def written(words: str) -> tuple[bytes, decks.Run]:
-        """A restart file, and the run that wrote it."""
+    def written(words: str, ranks: int = 1, **settings: str) -> tuple[bytes, decks.Run]:
+        """A restart file, and the run that wrote it, with settings of the environment."""
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "contact"
             deck = writer(words).replace("write_restart contact", f"write_restart {path}")
-            run = decks.good(deck, files={"block.yaml": BLOCK, "floor.yaml": FLOOR})
+            run = decks.good(deck, files={"block.yaml": BLOCK, "floor.yaml": FLOOR}, ranks=ranks, environment=settings)
             return path.read_bytes(), run
 
     def read(self, deck: str, restart: bytes, ranks: int = 1, **files: str) -> decks.Run:
@@ -121,6 +121,18 @@ class Restart(unittest.TestCase):
         self.assertEqual(self.warnings(run), [])
         floor = RIGID.replace("floor.yaml", "other.yaml")
         self.check_continues(self.read(reader(floor), self.of_floor, other=FLOOR), self.floor)
+
+    def test_a_state_larger_than_what_a_fix_may_leave(self):
+        """LIGGGHTS counts a fix's bytes by an int; here a block is 1 kB, and the solid's state has some tens of them."""
+        for ranks in (1, 2):
+            restart, run = self.written(STRUCTURE, ranks, LIGGGHTS_NURBS_RESTART_BLOCK="125")
+            self.assertGreater(restart.count(b"wall/nurbs/state\0"), 10)
+            self.check_continues(self.read(reader(), restart, ranks), run)
+            again = reader() + "write_restart again\nunfix plate\n"
+            self.assertEqual(self.read(again, restart, ranks).code, 0)
+        self.check_refused(self.read(reader(wall=(6e9, 0.3)), restart, block=bob.block(youngs_modulus=6e9)), "material: E")
+        cut = restart.replace(b"state7_plate", b"state0_plate")
+        self.check_refused(self.read(reader(), cut), "damaged")
 
     def test_a_file_of_an_older_version_is_read_with_a_warning(self):
         for words, restart, whole in ((STRUCTURE, self.of_solid, self.solid), (RIGID, self.of_floor, self.floor)):

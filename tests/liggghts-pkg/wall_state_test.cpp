@@ -88,15 +88,4 @@ TEST(WallState, FitsIntoItsContactMemory) {
   EXPECT_EQ(refusal(other, origin()), "") << "there is room for more";
 }
 
-TEST(WallState, ThatLiggghtsCannotCountIsRefused) {
-  constexpr std::size_t kMost = std::numeric_limits<int>::max() / sizeof(double);
-  EXPECT_EQ(liggghts_pkg::restart_bytes(kMost), static_cast<int>(kMost * sizeof(double)));
-  try {
-    liggghts_pkg::restart_bytes(kMost + 1);
-    FAIL() << "expected std::invalid_argument";
-  } catch (const std::invalid_argument& problem) {
-    EXPECT_THAT(problem.what(), AllOf(HasSubstr("2147483648 bytes"), HasSubstr("coarser mesh")));
-  }
-}
-
 }  // namespace
