@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "balls.h"
 #include "coupling/contact/contact_totals.h"
@@ -144,6 +145,66 @@ TEST(ContactLoop, FollowsAWallThatMoves) {
     EXPECT_LT((scene.spring.seen[0].wall_velocity - Vector3(0, 0, kSpeed)).norm(), 1e-14);
   }
   EXPECT_EQ(first, 200);
+}
+
+/// A sheet whose control points rise at a speed: to contact, a body that deforms.
+class RisingSheet final : public coupling::StructureSolver {
+ public:
+  RisingSheet(const nurbs::Surface& sheet, double speed)
+      : surface_{nurbs::join({sheet}).topology,
+                 coupling::SurfaceMap::identity(sheet.control_points.cols()),
+                 {0}},
+        positions_(sheet.control_points),
+        velocities_(Vector3(0, 0, speed).replicate(1, positions_.cols())),
+        nodes_(positions_.cols()) {
+    std::iota(nodes_.begin(), nodes_.end(), 0);
+  }
+  const coupling::ContactSurface& surface() const override { return surface_; }
+  const std::vector<coupling::NodeId>& nodes() const override { return nodes_; }
+  const coupling::NodalVectors& positions() const override { return positions_; }
+  const coupling::NodalVectors& velocities() const override { return velocities_; }
+  void begin_step() override { positions_ += dt_ * velocities_; }
+  void set_time_step(double dt) override { dt_ = dt; }
+  bool moves() const override { return true; }
+  // What contact does not ask for:
+  void initialise_forces(const coupling::NodalVectors&) override {}
+  void end_step(const coupling::NodalVectors&) override {}
+  double stable_time_step() const override { return 1.0; }
+  Eigen::VectorXd control_node_mass() const override { return {}; }
+  double kinetic_energy() const override { return 0.0; }
+  double strain_energy() const override { return 0.0; }
+  Vector3 linear_momentum() const override { return Vector3::Zero(); }
+  Vector3 angular_momentum(const Vector3&) const override { return Vector3::Zero(); }
+  std::optional<coupling::SurfaceMaterial> material() const override { return std::nullopt; }
+  std::vector<coupling::Probe> probes() const override { return {}; }
+  std::vector<double> save() const override { return {}; }
+  void load(const std::vector<double>&) override {}
+  coupling::Fingerprint fingerprint() const override { return {}; }
+
+ private:
+  coupling::ContactSurface surface_;
+  coupling::NodalVectors positions_, velocities_;
+  std::vector<coupling::NodeId> nodes_;
+  double dt_ = 0.0;
+};
+
+// A ball at rest is left alone, but not while the surface may have come to it; its force is spread to the
+// control points.
+TEST(ContactLoop, FollowsASurfaceThatDeforms) {
+  constexpr double kStep = 0.01, kSpeed = 0.47;
+  RisingSheet sheet(floor(), kSpeed);
+  Balls balls;
+  balls.add({0.1, 0.2, 1.0}, kRadius);
+  BallsOnWall scene(sheet, balls, 0.0, kStep);
+  for (int step = 1; step <= 130; ++step) {
+    scene.step();
+    const double overlap = kRadius - (1.0 - kSpeed * kStep * step);
+    ASSERT_EQ(scene.loop.contacts().size(), overlap >= 0.0 ? 1u : 0u) << step;
+    ASSERT_EQ(scene.loop.forces_on_body().size(), scene.loop.contacts().size());
+    if (scene.loop.contacts().empty()) continue;
+    EXPECT_NEAR(scene.loop.contacts()[0].overlap, overlap, 1e-13);
+    EXPECT_LT((scene.spring.seen[0].wall_velocity - Vector3(0, 0, kSpeed)).norm(), 1e-13);
+  }
 }
 
 // The wall feels the opposite of what the balls feel, at the feet, and gives the power that its motion has.
