@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "nurbs/processor.h"
 #include "search/power_element.h"
 #include "search/power_kernel.h"
 
@@ -40,16 +41,7 @@ class ElementStore {
     return {row(index)};
   }
   /// Has the processor fetch an element's numbers.
-  void prefetch(const Element& element) const {
-    for (int line = 0; line < lines_per_row_; ++line) __builtin_prefetch(element.row + 8 * line);
-  }
-  /// The same where many elements are asked for at once, and the requests themselves are waited for: every
-  /// fourth line of long rows; those between come with them as a rule.
-  void prefetch_some(const Element& element) const {
-    const int every = lines_per_row_ > 4 ? 4 : 1;
-    for (int line = 0; line < lines_per_row_; line += every) __builtin_prefetch(element.row + 8 * line);
-  }
-  int lines_per_row() const { return lines_per_row_; }
+  void prefetch(const Element& element) const { nurbs::prefetch(element.row, lines_per_row_); }
   /// Homogeneous control points (w (P - origin), w), or (P - origin, 0) of a polynomial patch.
   void homogeneous_points(const int (&e)[2], Vector4* out) const;
   ElementNet net(int e0, int e1) const {

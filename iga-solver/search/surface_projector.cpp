@@ -170,7 +170,7 @@ void SurfaceProjector::warm_batch(const Vector3* d, Foot* const* feet, int count
         e[k][i] = place.e, batch.s[i][k] = place.s;
       }
       const ElementStore::Element element = elements_.element(e[k]);
-      elements_.prefetch_some(element);
+      elements_.prefetch(element);
       moved[k] = d[first + k] - foot.image;
       batch.element[k] = element.row, batch.d[k] = moved[k].data();
     }
