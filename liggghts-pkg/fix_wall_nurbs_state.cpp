@@ -4,8 +4,8 @@
 #include <exception>
 
 #include "error.h"
-#include "state_blocks.h"
 #include "wall_messages.h"
+#include "wall_state.h"
 
 using namespace LAMMPS_NS;
 

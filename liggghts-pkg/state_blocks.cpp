@@ -4,12 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
 
-#include "coupling/all_or_none.h"
 #include "coupling/fingerprint.h"
 #include "fix_wall_nurbs_state.h"
 #include "modify.h"
@@ -33,18 +31,6 @@ std::size_t block_size() {
 }
 
 }  // namespace
-
-void write_block(MPI_Comm world, std::FILE* file, const std::vector<double>& numbers) {
-  const int bytes = static_cast<int>(numbers.size() * sizeof(double));
-  coupling::on_first_rank(world, [&] {
-    if (std::fwrite(&bytes, sizeof(int), 1, file) != 1 ||
-        std::fwrite(numbers.data(), sizeof(double), numbers.size(), file) != numbers.size() ||
-        std::fflush(file) != 0)
-      throw std::runtime_error(fmt::format(
-          "cannot write its {} bytes to the restart file: {}; make room, or write the file elsewhere", bytes,
-          std::strerror(errno)));
-  });
-}
 
 StateBlocks::StateBlocks(LAMMPS_NS::Modify& modify, const std::string& wall_id)
     : modify_(modify), wall_id_(wall_id), block_size_(block_size()) {}

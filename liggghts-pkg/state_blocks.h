@@ -4,10 +4,7 @@
 #ifndef LMP_STATE_BLOCKS_H
 #define LMP_STATE_BLOCKS_H
 
-#include <mpi.h>
-
 #include <cstddef>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -17,10 +14,6 @@ class Modify;
 }  // namespace LAMMPS_NS
 
 namespace liggghts_pkg {
-
-/// Writes what LIGGGHTS gives back to one fix: its bytes as an int, then the numbers.  Collective; throws
-/// std::runtime_error on every rank if rank 0 cannot.
-void write_block(MPI_Comm world, std::FILE* file, const std::vector<double>& numbers);
 
 class StateBlocks {
  public:

@@ -3,9 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstring>
 #include <limits>
 #include <stdexcept>
+
+#include "coupling/all_or_none.h"
 
 namespace liggghts_pkg {
 
@@ -92,6 +95,18 @@ void check_origin(const WallState::Origin& saved, const WallState::Origin& now, 
         fmt::format("the restart file holds up to {0} contacts of a particle, expected at most {1} with "
                     "'contacts {1}'; use 'contacts {0}'",
                     saved.contacts, now.contacts));
+}
+
+void write_block(MPI_Comm world, std::FILE* file, const std::vector<double>& numbers) {
+  const int bytes = static_cast<int>(numbers.size() * sizeof(double));
+  coupling::on_first_rank(world, [&] {
+    if (std::fwrite(&bytes, sizeof(int), 1, file) != 1 ||
+        std::fwrite(numbers.data(), sizeof(double), numbers.size(), file) != numbers.size() ||
+        std::fflush(file) != 0)
+      throw std::runtime_error(fmt::format(
+          "cannot write its {} bytes to the restart file: {}; make room, or write the file elsewhere", bytes,
+          std::strerror(errno)));
+  });
 }
 
 }  // namespace liggghts_pkg

@@ -3,7 +3,10 @@
 // length and its numbers.  Files of older versions begin with the first part and hold two of them.
 #pragma once
 
+#include <mpi.h>
+
 #include <cstddef>
+#include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
@@ -35,5 +38,9 @@ WallState unpack_wall_state(const char* bytes, std::size_t numbers = kMostInOneB
 /// Throws std::invalid_argument unless the state was saved by a wall like this one: what differs, and the way
 /// out.  `file`: of this wall, for the message.
 void check_origin(const WallState::Origin& saved, const WallState::Origin& now, const std::string& file);
+
+/// Writes what LIGGGHTS gives back to one fix: its bytes as an int, then the numbers.  Collective; throws
+/// std::runtime_error on every rank if rank 0 cannot.
+void write_block(MPI_Comm world, std::FILE* file, const std::vector<double>& numbers);
 
 }  // namespace liggghts_pkg
