@@ -8,15 +8,6 @@ namespace liggghts_pkg {
 using contact::Contact;
 using nurbs::Vector3;
 
-namespace {
-
-// Of numbers just written one by one: a load of several at once would wait for all stores.
-void copy_number_by_number(const volatile double* from, Vector3& to) {
-  to[0] = from[0], to[1] = from[1], to[2] = from[2];
-}
-
-}  // namespace
-
 // The models add to the particle's force; a force of zero before shows what they add.
 void LiggghtsContactModel::evaluate(Contact* contacts, int count) {
   for (Contact* contact = contacts; contact < contacts + count; ++contact) {
@@ -25,8 +16,8 @@ void LiggghtsContactModel::evaluate(Contact* contacts, int count) {
     f.setZero();
     torque.setZero();
     compute(*contact);
-    copy_number_by_number(f.data(), contact->force);
-    copy_number_by_number(torque.data(), contact->torque);
+    contact->force = f;
+    contact->torque = torque;
     f = f_before;
     torque = torque_before;
   }

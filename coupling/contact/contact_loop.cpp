@@ -122,7 +122,6 @@ inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo
   for (; candidate < static_cast<int>(candidates.size()) && count < kBlock; ++candidate) {
     const int i = candidates[candidate].particle;
     if (!particles.meets_wall(i)) continue;
-    // In place: to copy a struct just written in parts waits for all stores.
     ContactTracker::Query& query = queries[count];
     query.centre = wall_.to_frame(particles.centre(i));
     query.touch_reach = particles.radius[i] * step.touch_factor;
