@@ -106,7 +106,6 @@ std::vector<KnotVector> read_mesh(const YamlMap& map, int dim) {
 }
 
 Shape read_box(const YamlMap& map) {
-  map.allow_only({"origin", "size", "elements", "breaks", "degree"});
   const std::vector<KnotVector> knots = read_mesh(map, 3);
   const Vector3 origin = map.vector3("origin"), size = map.vector3("size");
   return blame(map, "size", "", [&] { return nurbs::box(origin, size, {knots[0], knots[1], knots[2]}); });
@@ -127,7 +126,6 @@ Strip read_strip(const YamlMap& map) {
 }
 
 Shape read_rolled_plate(const YamlMap& map) {
-  map.allow_only({"origin", "width", "strips", "elements", "degree"});
   const std::vector<int> degrees = read_degrees(map, 3), elements = map.integers("elements", 1, kMaxElements);
   expect_count(map, "elements", elements.size(), 2);
   std::vector<Strip> strips;
@@ -147,7 +145,6 @@ Shape read_rolled_plate(const YamlMap& map) {
 }
 
 Shape read_plane(const YamlMap& map) {
-  map.allow_only({"origin", "edges", "elements", "breaks", "degree"});
   const std::vector<KnotVector> knots = read_mesh(map, 2);
   const Vector3 origin = map.vector3("origin");
   const std::vector<std::vector<double>> edges = map.table("edges");
@@ -203,14 +200,12 @@ Frame read_frame(const YamlMap& map, const std::string& origin, const Vector3& a
 }
 
 Shape read_cylinder(const YamlMap& map) {
-  map.allow_only({"origin", "axis", "reference", "radius", "length", "angle", "elements", "degree"});
   const RoundMesh mesh = read_round_mesh(map, 2);
   return cylinder(read_frame(map, "origin", map.vector3("axis")), map.number("radius", positive()),
                   map.number("length", positive()), read_turn(map, "angle", mesh, 0), mesh.knots(1));
 }
 
 Shape read_cone(const YamlMap& map) {
-  map.allow_only({"origin", "axis", "reference", "radii", "length", "angle", "elements", "degree"});
   const RoundMesh mesh = read_round_mesh(map, 2);
   const Frame place = read_frame(map, "origin", map.vector3("axis"));
   const std::vector<double> radii = map.numbers("radii");
@@ -223,7 +218,6 @@ Shape read_cone(const YamlMap& map) {
 }
 
 Shape read_sphere(const YamlMap& map) {
-  map.allow_only({"centre", "axis", "reference", "radius", "latitude", "longitude", "elements", "degree"});
   const RoundMesh mesh = read_round_mesh(map, 2);
   const Frame place =
       read_frame(map, "centre", map.has("axis") ? map.vector3("axis") : Vector3(Vector3::UnitZ()));
@@ -234,8 +228,6 @@ Shape read_sphere(const YamlMap& map) {
 }
 
 Shape read_torus(const YamlMap& map) {
-  map.allow_only(
-      {"centre", "axis", "reference", "radius", "tube_radius", "angle", "tube_angle", "elements", "degree"});
   const RoundMesh mesh = read_round_mesh(map, 2);
   const Frame place = read_frame(map, "centre", map.vector3("axis"));
   const double radius = map.number("radius", positive()), tube = map.number("tube_radius", positive());
@@ -244,8 +236,6 @@ Shape read_torus(const YamlMap& map) {
 }
 
 Shape read_tube(const YamlMap& map) {
-  map.allow_only({"origin", "axis", "reference", "inner_radius", "outer_radius", "length", "angle",
-                  "elements", "degree"});
   const RoundMesh mesh = read_round_mesh(map, 3);
   const Frame place = read_frame(map, "origin", map.vector3("axis"));
   const double inner = map.number("inner_radius", positive()), outer = map.number("outer_radius", positive());
@@ -301,20 +291,35 @@ std::vector<Shape> read_patches(const YamlMap& geometry) {
   return patches;
 }
 
+/// A word under `geometry`, the keys under it, and their reader.
 struct ShapeKey {
   const char* key;
+  std::vector<std::string> keys;
   Shape (*read)(const YamlMap&);
 };
 
-// Deck word -> shape.
-constexpr ShapeKey kShapes[] = {
-    {"box", read_box},     {"rolled_plate", read_rolled_plate},
-    {"plane", read_plane}, {"cylinder", read_cylinder},
-    {"cone", read_cone},   {"sphere", read_sphere},
-    {"torus", read_torus}, {"tube", read_tube},
-};
+const std::vector<ShapeKey>& shape_table() {
+  static const std::vector<std::string> kRound = {"axis", "reference", "elements", "degree"};
+  const auto round = [](std::vector<std::string> keys) {
+    keys.insert(keys.end(), kRound.begin(), kRound.end());
+    return keys;
+  };
+  static const std::vector<ShapeKey> kShapes = {
+      {"box", {"origin", "size", "elements", "breaks", "degree"}, read_box},
+      {"rolled_plate", {"origin", "width", "strips", "elements", "degree"}, read_rolled_plate},
+      {"plane", {"origin", "edges", "elements", "breaks", "degree"}, read_plane},
+      {"cylinder", round({"origin", "radius", "length", "angle"}), read_cylinder},
+      {"cone", round({"origin", "radii", "length", "angle"}), read_cone},
+      {"sphere", round({"centre", "radius", "longitude", "latitude"}), read_sphere},
+      {"torus", round({"centre", "radius", "tube_radius", "angle", "tube_angle"}), read_torus},
+      {"tube", round({"origin", "inner_radius", "outer_radius", "length", "angle"}), read_tube},
+  };
+  return kShapes;
+}
+
 Shape read_sized(const ShapeKey& shape, const YamlMap& map) {
   try {
+    map.allow_only(shape.keys);
     return shape.read(map);
   } catch (const std::bad_alloc&) {
     const std::string key = mesh_key(map);
@@ -326,12 +331,18 @@ Shape read_sized(const ShapeKey& shape, const YamlMap& map) {
 
 std::vector<std::string> all_keys() {
   std::vector<std::string> keys;
-  for (const ShapeKey& shape : kShapes) keys.emplace_back(shape.key);
+  for (const ShapeKey& shape : shape_table()) keys.emplace_back(shape.key);
   keys.insert(keys.end(), {"patches", "file"});
   return keys;
 }
 
 }  // namespace
+
+std::vector<ShapeWords> shape_words() {
+  std::vector<ShapeWords> words;
+  for (const ShapeKey& shape : shape_table()) words.push_back({shape.key, shape.keys});
+  return words;
+}
 
 std::vector<Shape> read_shapes(const YamlMap& geometry) {
   const std::vector<std::string> known = all_keys();
@@ -340,7 +351,7 @@ std::vector<Shape> read_shapes(const YamlMap& geometry) {
   if (given != 1)
     geometry.fail("geometry",
                   fmt::format("{} geometries given, expected one of: {}", given, fmt::join(known, ", ")));
-  for (const ShapeKey& shape : kShapes)
+  for (const ShapeKey& shape : shape_table())
     if (geometry.has(shape.key)) return {read_sized(shape, geometry.map(shape.key))};
   return read_patches(geometry);
 }

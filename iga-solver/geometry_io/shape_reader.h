@@ -2,12 +2,20 @@
 // The value of a model file's key `geometry`.  Its keys are listed in geometry_file.h.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "geometry_io/named_surface.h"
 #include "geometry_io/yaml_map.h"
 
 namespace geometry_io {
+
+/// The words of shapes and the keys of each.
+struct ShapeWords {
+  std::string word;
+  std::vector<std::string> keys;
+};
+std::vector<ShapeWords> shape_words();
 
 /// Patches of one shape, or those listed under `patches`; one at least.  Throws InputError, with file and
 /// line, what was given and what was expected.

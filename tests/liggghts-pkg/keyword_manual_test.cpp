@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "contact_laws.h"
+#include "geometry_io/shape_reader.h"
 #include "model_words.h"
 #include "motion_words.h"
 #include "output_words.h"
@@ -91,6 +92,21 @@ TEST(Manual, ShowsNoOtherWords) {
   EXPECT_EQ(changes.size(), 7u);
   for (const auto& shown : {verbs, changes})
     for (const std::string& word : shown) EXPECT_THAT(words, Contains(word));
+}
+
+// A shape is a row of the manual's table; keys that all round shapes have may stand below it.
+TEST(Manual, ShowsEveryShapeWithItsKeys) {
+  const std::string text = page("fix_wall_nurbs.md");
+  const std::string shapes = text.substr(text.find("**Shapes**"));
+  for (const geometry_io::ShapeWords& shape : geometry_io::shape_words()) {
+    const auto row = found(shapes, "\n\\| `" + shape.word + "`[^|]*\\|([^|]*)\\|");
+    ASSERT_EQ(row.size(), 1u) << shape.word;
+    for (const std::string& key : found(row[0], "`([a-z_]+)")) EXPECT_THAT(shape.keys, Contains(key));
+    for (const std::string& key : shape.keys) {
+      const bool is_of_all = key == "elements" || key == "degree" || key == "reference";
+      EXPECT_TRUE(shows(code(is_of_all ? shapes : row[0]), key)) << shape.word << ": " << key;
+    }
+  }
 }
 
 }  // namespace
