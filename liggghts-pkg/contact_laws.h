@@ -142,7 +142,7 @@ struct ThorntonLaw {
     const double a_max = std::sqrt(c.r * d_max), F_max = S_y * (d_max - d_y / 3.);
     if (c.d == d_max) return {F_max / d_max, S_y, a_max};
     const double rebound = 3. * F_max / (4. * c.E * a_max);  // d_max - d_p
-    const double elastic = std::max(c.d - (d_max - rebound), 0.0);
+    const double left = std::max(d_max - rebound, 0.0), elastic = std::max(c.d - left, 0.0);
     return hertz(c.E, a_max * std::sqrt(elastic / rebound), elastic > 0.0 ? elastic / c.d : 0.0);
   }
 

@@ -16,6 +16,7 @@
 #include "global_properties.h"
 #include "law_properties.h"
 #include "neighbor.h"
+#include "update.h"
 
 namespace liggghts_pkg {
 
@@ -114,10 +115,16 @@ class LawNormalModel final : public LIGGGHTS::ContactModels::NormalModelBase {
     const LawContact seen = {r, contact.deltan, E_[contact.itype][contact.jtype],
                              values_.of_types(contact.itype, contact.jtype)};
     double* const history = contact.contact_history + history_offset_;
+    if (kHistoryCount > 0 && began_in_this_step(contact)) std::fill_n(history, kHistoryCount, 0.0);
     std::array<double, kHistoryCount> next;
     const LawForce law = Law::evaluate(seen, history, next.data());
     if (contact.computeflag && contact.shearupdate) std::copy(next.begin(), next.end(), history);
     return law;
+  }
+
+  // A pair that came apart by more than the distance at which LIGGGHTS looks at it has not been told so.
+  bool began_in_this_step(const IntersectData& contact) const {
+    return !contact.is_wall && contact.deltan + contact.vn * update->dt <= 0.0;
   }
 
   static void apply(const IntersectData& contact, ForceData& on_i, ForceData& on_j) {

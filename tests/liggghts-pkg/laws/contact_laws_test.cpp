@@ -91,6 +91,19 @@ TEST(ContactLaws, ForceHasNoJumpsAndPushes) {
   });
 }
 
+// A step that ends where the overlap does, whatever has been before: round-off of the memory is no overlap.
+TEST(ContactLaws, HaveNoForceWithoutOverlap) {
+  liggghts_pkg::for_each_law([](auto law) {
+    for (int k = 0; k < 2000; ++k) {
+      Contact<decltype(law)> contact;
+      contact.at(0.1 * kDeepest * (1.0 + 1e-11 * k));  // from where yielding begins
+      const LawForce answer = contact.at(0.0);
+      ASSERT_EQ(answer.secant * 0.0, 0.0) << law.word << " after step " << k;
+      ASSERT_TRUE(std::isfinite(answer.tangent) && std::isfinite(answer.contact_radius)) << law.word;
+    }
+  });
+}
+
 TEST(ContactLaws, MemoryDependsOnThePathAlone) {
   liggghts_pkg::for_each_law([](auto law) {
     Contact<decltype(law)> contact;

@@ -92,6 +92,18 @@ class Reloading(unittest.TestCase):
                 self.assertGreater(first.max(), 0.9 * (PAIR if name == "pair" else PLANE).loading(3e-6))
                 self.assertLess(abs(second - first).max(), 1e-6 * first.max())
 
+    def test_a_pair_that_comes_far_apart_in_one_step_is_new(self):
+        """Eight steps to a period: the balls are never seen apart by less than LIGGGHTS' 1 % of their radii."""
+        common = dict(yield_pressure=(P_Y, 1e30), dt=DT, velocity=(0, 0, 0), overlap=20e-6)
+        pair = contact_deck.two_balls(f"model {PLASTIC}", **common)
+        drive = f"fix drive one move wiggle 100e-6 0 0 {8 * DT!r} units box"
+        table = decks.good(pair.replace("fix integrate all nve/sphere", drive) + "run 20\n", files=FILES).table
+        overlap = RADIUS + OTHER - (table["x2"] - table["x1"])
+        first, second = table["fx2"][1:4], table["fx2"][9:12]
+        self.assertLess(overlap[5:8].max(), -0.01 * (RADIUS + OTHER))
+        self.assertGreater(first.max(), 0.0)
+        np.testing.assert_allclose(second, first, rtol=1e-9)
+
     def test_forces_between_runs_are_looked_at_without_being_remembered(self):
         deck = contact_deck.ball_on_plane(
             f"model {PLASTIC}", yield_pressure=(P_Y, 1e30), dt=DT, velocity=(0, 0, 0), overlap=1e-6
