@@ -125,6 +125,7 @@ bool OutputTimes::take(const structure::ExplicitSolver& solver) {
   if (last_) next_time_ = std::max(next_time_, next_after(*last_ + 0.5 * solver.time_step()));
   if (reached < next_time_ || (last_ && solver.time() <= *last_)) return false;
   next_time_ = next_after(reached);
+  last_ = solver.time();  // a next run begins with it, perhaps with a longer step
   return true;
 }
 

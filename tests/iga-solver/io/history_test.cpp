@@ -128,6 +128,19 @@ TEST_F(HistoryFile, BeginsAtAnyTime) {
   EXPECT_NEAR(time[2], 120 * kStep, 1e-12);
 }
 
+// A next run that begins with a longer step asks for the row again that is there.
+TEST_F(HistoryFile, HasNoRowTwiceWhereTheStepGrows) {
+  const io::ModelFile model = io::parse_model_file(kFalling, "falling.yaml");
+  structure::ExplicitSolver solver = falling_block(model);
+  io::History history({kStep, base()}, model.geometry.units, model.probes);
+  run(solver, history, 5);
+  solver.set_time_step(3 * kStep);
+  run(solver, history, 2);
+  const std::vector<double> time = read_series(history.path(), "time");
+  ASSERT_EQ(time.size(), 8u);
+  for (std::size_t row = 1; row < time.size(); ++row) EXPECT_GT(time[row], time[row - 1]);
+}
+
 // An erg is 1 g cm^2/s^2; 1 g mm^2/ms^2 = 1e-3 kg (1e-3 m)^2 / (1e-3 s)^2 = 1 mJ.
 TEST_F(HistoryFile, CarriesUnits) {
   struct Names {
