@@ -40,7 +40,7 @@ SurfaceMap SurfaceMap::on(const std::vector<NodeId>& nodes) const {
     }
   Matrix S(S_.rows(), static_cast<NodeId>(nodes.size()));
   S.setFromTriplets(entries.begin(), entries.end());
-  return SurfaceMap(std::move(S));
+  return SurfaceMap(S);
 }
 
 void SurfaceMap::to_surface(const NodalVectors& nodal, NodalVectors& surface) const {

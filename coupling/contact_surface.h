@@ -24,7 +24,7 @@ class SurfaceMap {
   using Matrix = Eigen::SparseMatrix<double, Eigen::RowMajor, NodeId>;
 
   /// S is n_control_points x n_nodes [-]; columns are node ids.
-  explicit SurfaceMap(Matrix S) : S_(std::move(S)) {}
+  explicit SurfaceMap(const Matrix& S) : S_(S) {}
   /// The control points are the nodes.
   static SurfaceMap identity(NodeId nodes);
   /// Control point i is node[i].

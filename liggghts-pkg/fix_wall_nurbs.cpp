@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <new>
 #include <stdexcept>
 
 #include "atom.h"
@@ -66,6 +67,8 @@ template <class Action>
 void FixWallNurbs::or_fail(Action action) const {
   try {
     action();
+  } catch (const std::bad_alloc&) {
+    messages_.fail_on_this_rank("out of memory");  // the others may have more
   } catch (const std::exception& problem) {
     messages_.fail(problem.what());
   }
@@ -77,6 +80,8 @@ void FixWallNurbs::in_step(Action action) const {
   or_fail([&] {
     try {
       action();
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& problem) {
       throw std::runtime_error(
           fmt::format("'{}': step {}: {}", options_.file, update->ntimestep, problem.what()));
@@ -186,7 +191,9 @@ void FixWallNurbs::post_force(int vflag) {
   columns_.contacts_are_new();
   size_local_rows = columns_.local_row_count();
   array_local = columns_.local_rows();
-  nodal_forces_ = structure_.needs_forces() ? &exchange_.export_add(loop_.forces_on_body()) : &no_forces_;
+  nodal_forces_ = &no_forces_;
+  if (structure_.needs_forces())
+    in_step([&] { nodal_forces_ = &exchange_.export_add(loop_.forces_on_body()); });
 }
 
 void FixWallNurbs::post_force_primitive(int) {

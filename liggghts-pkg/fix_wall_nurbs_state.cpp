@@ -3,6 +3,7 @@
 
 #include <exception>
 
+#include "coupling/fingerprint.h"
 #include "error.h"
 #include "wall_messages.h"
 #include "wall_state.h"
@@ -27,5 +28,6 @@ void FixWallNurbsState::write_restart(FILE* file) {
 
 void FixWallNurbsState::restart(char* buffer) {
   const auto* const numbers = reinterpret_cast<const double*>(buffer);
-  block.assign(numbers + 1, numbers + 1 + static_cast<std::size_t>(numbers[0]));
+  const std::size_t size = coupling::saved_size(numbers[0], liggghts_pkg::kMostInOneBlock);
+  block.assign(numbers + 1, numbers + 1 + size);
 }

@@ -16,7 +16,8 @@ std::vector<double> WallRestart::packed(const WallState::Origin& origin, const W
 }
 
 void WallRestart::reserve(const WallState::Origin& origin, const WallOutput* output) {
-  blocks_.reserve(packed(origin, output).size());
+  constexpr std::size_t kMayGrowBy = 1000;  // motions that `fix_modify` adds to a rigid wall
+  blocks_.reserve(packed(origin, output).size() + kMayGrowBy);
 }
 
 void WallRestart::write(std::FILE* file, const WallState::Origin& origin, const WallOutput* output) {

@@ -4,7 +4,8 @@
 // contacts with a slot of the particle's memory, the contact model answers a batch of them at a time, and its
 // answers are added to the particles.  Method: Gao & Feng (2019), section 4.
 //
-// A time step of a particle code, in this order:
+// Before the first step wall().import() and build_list(); then a time step of a particle code is, in this
+// order:
 //   structure.begin_step(), particles drift
 //   wall().import();  if (wall_motion() > skin / 2 or the particles' own list is due) build_list()
 //   step();  nodal forces = exchange.export_add(forces_on_body())
@@ -88,7 +89,7 @@ class ContactLoop {
   void step(const ParticleView& particles, const StepInfo& step, ContactModel& model,
             ContactObserver* observer = nullptr);
 
-  /// Of the last step, those with a force; this rank's.
+  /// Of the last step, those that touch or have a force; this rank's.
   const std::vector<WallContact>& contacts() const { return contacts_; }
   /// The same for SurfaceExchange::export_add, in the wall's frame; empty if the structure needs no forces.
   const std::vector<coupling::ContactForce>& forces_on_body() const { return forces_on_body_; }

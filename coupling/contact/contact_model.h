@@ -36,7 +36,7 @@ class ContactModel {
   virtual void evaluate(Contact* contacts, int count) = 0;
 };
 
-/// Hears of contacts that have a force, after they have it.
+/// Hears of contacts that touch or have a force, after they have it.
 class ContactObserver {
  public:
   virtual ~ContactObserver() = default;

@@ -7,7 +7,6 @@
 
 namespace contact {
 
-using nurbs::SurfacePoint;
 using nurbs::Vector3;
 using search::Foot;
 using search::FootStatus;

@@ -73,8 +73,8 @@ class ExplicitSolver {
   std::vector<Id> node_ids() const;
 
   /// The whole body's time, displacements, velocities and accelerations in the order of node ids, and what
-  /// the material remembers in the order of element ids, to continue to the last bit, cut in the same way or
-  /// in another.  Collective.
+  /// the material remembers in the order of element ids, to continue in parts cut in any way, to the last bit
+  /// if cut in the same.  Collective.
   std::vector<double> save() const;
   /// Takes what is of the part.  Throws std::invalid_argument if the size does not fit.  Collective.
   void load(const std::vector<double>& state);

@@ -12,8 +12,9 @@ namespace structure {
 
 /// [energy]
 struct Work {
-  double internal =
-      0.0;  ///< done against internal forces: the change of strain energy, up to the error of the step
+  /// Done against internal forces: the change of strain energy and what the material has dissipated, up to
+  /// the error of the step.
+  double internal = 0.0;
   double loads = 0.0;   ///< of the external loads
   double forces = 0.0;  ///< of somebody's forces (contact)
 };
@@ -34,9 +35,9 @@ class CompensatedSum {
 
 class WorkLedger {
  public:
-  using Values = Eigen::Ref<const nurbs::NodalVectors>;
-
-  /// dt/2 and twice the mean velocity v + v' of a half kick; fixed dofs have v = v' = 0.
+  /// dt/2 and twice the mean velocity v + v' of a half kick; fixed dofs have v = v' = 0.  Nodal arrays, or
+  /// whole columns of them.
+  template <class Values>
   void half_kick(double half_step, const Values& v_sum, const Values& f_int, const Values& f_ext,
                  const Values& F) {
     const double factor = 0.5 * half_step;
