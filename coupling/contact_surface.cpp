@@ -17,7 +17,7 @@ SurfaceMap SurfaceMap::selection(const std::vector<NodeId>& node, NodeId nodes) 
     NURBS_ASSERT(0 <= node[i] && node[i] < nodes, i, node[i], nodes);
     S.insert(i, node[i]) = 1.0;
   }
-  S.makeCompressed();
+  if (S.rows() > 0) S.makeCompressed();  // Eigen reads beyond the rows of a matrix without
   return SurfaceMap(S);
 }
 
@@ -39,7 +39,7 @@ SurfaceMap SurfaceMap::on(const std::vector<NodeId>& nodes) const {
       entries.emplace_back(row, held - nodes.begin(), entry.value());
     }
   Matrix S(S_.rows(), static_cast<NodeId>(nodes.size()));
-  S.setFromTriplets(entries.begin(), entries.end());
+  if (!entries.empty()) S.setFromTriplets(entries.begin(), entries.end());
   return SurfaceMap(S);
 }
 
