@@ -8,10 +8,14 @@
 #pragma once
 
 #include "nurbs/max_degree.h"
+#include "nurbs/simd_level.h"
 #include "search/descent_limits.h"
-#include "search/simd_level.h"
 
 namespace search {
+
+using nurbs::available;
+using nurbs::simd_level;
+using nurbs::SimdLevel;
 
 /// phi = |S - d|^2 / 2 at one local point, with derivatives by s.  Symmetric matrices as (00, 01, 11).
 struct DistanceJet {

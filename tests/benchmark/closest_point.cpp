@@ -18,8 +18,8 @@
 namespace benchmarks {
 namespace {
 
+using nurbs::SimdLevel;
 using nurbs::Vector3;
-using search::SimdLevel;
 
 /// Instruction set that our code was compiled for, but for the kernels chosen at run time.
 #if defined(__AVX512F__)
@@ -139,12 +139,12 @@ void add_batch(Case& c, const std::string& name, const search::SurfaceProjector&
 /// The warm search with every instruction set that this machine has.
 void add_levels(Case& c) {
   for (const SimdLevel level : {SimdLevel::portable, SimdLevel::avx2, SimdLevel::avx512}) {
-    if (!search::available(level)) continue;
+    if (!nurbs::available(level)) continue;
     c.levels.push_back(std::make_unique<search::SurfaceProjector>(c.surface.space, level));
     const search::SurfaceProjector& ours = *c.levels.back();
     c.levels.back()->set_control_points(c.surface.control_points);
-    add_warm(c, std::string("warm/") + search::name(level), ours);
-    add_batch(c, std::string("batch/") + search::name(level), ours);
+    add_warm(c, std::string("warm/") + nurbs::name(level), ours);
+    add_batch(c, std::string("batch/") + nurbs::name(level), ours);
   }
 }
 
@@ -239,7 +239,7 @@ void add_steps(Case& c) {
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
   benchmark::AddCustomContext("compiled_for", benchmarks::kCompiledFor);
-  benchmark::AddCustomContext("dispatched_to", search::name(search::simd_level()));
+  benchmark::AddCustomContext("dispatched_to", nurbs::name(nurbs::simd_level()));
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   std::vector<std::unique_ptr<benchmarks::Case>> cases;
   for (int n : {31, 124})

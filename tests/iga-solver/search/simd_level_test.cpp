@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // All instruction sets of this machine find the same feet, one point at a time or several.
-#include "search/simd_level.h"
+#include "nurbs/simd_level.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

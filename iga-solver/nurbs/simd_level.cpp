@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "search/simd_level.h"
+#include "nurbs/simd_level.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace search {
+namespace nurbs {
 
 namespace {
 constexpr SimdLevel kHighestFirst[] = {SimdLevel::avx512, SimdLevel::avx2, SimdLevel::portable};
@@ -41,4 +41,4 @@ SimdLevel simd_level() {
       fmt::format("LIGGGHTS_NURBS_SIMD is \"{}\", expected portable, avx2 or avx512", wanted));
 }
 
-}  // namespace search
+}  // namespace nurbs

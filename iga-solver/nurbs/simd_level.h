@@ -2,7 +2,7 @@
 // Instruction sets that kernels are compiled for, and which of them is used on this machine.
 #pragma once
 
-namespace search {
+namespace nurbs {
 
 enum class SimdLevel {
   portable,  ///< what the compiler assumes anyway: on x86-64 SSE2, 2 numbers per word
@@ -17,4 +17,4 @@ bool available(SimdLevel level);
 /// avx2, avx512).  Throws std::invalid_argument for other names and for one that is not available.
 SimdLevel simd_level();
 
-}  // namespace search
+}  // namespace nurbs
