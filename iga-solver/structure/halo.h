@@ -7,9 +7,11 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "nurbs/types.h"
+#include "structure/exact_sum.h"
 
 namespace structure {
 
@@ -19,6 +21,10 @@ using Id = std::int64_t;
 /// This one is of a body in one piece: nothing to tell.
 class Halo {
  public:
+  /// Sums over nodes go run by run of columns: plain sums within a run, exact ones of the runs.  Runs that do
+  /// not depend on how the body is cut make sums that do not, to the last bit.  `runs`: first columns, rising
+  /// from 0, of the nodes that the part owns; without them they are one run.
+  explicit Halo(std::vector<Eigen::Index> runs = {}) : runs_(std::move(runs)) {}
   virtual ~Halo() = default;
 
   /// How many of the `held` nodes the part owns.
@@ -29,8 +35,8 @@ class Halo {
   virtual void sum_to_owners(nurbs::NodalVectors& /*values*/) const {}
   /// Copies the owners' columns to all ghosts.
   virtual void owners_to_ghosts(nurbs::NodalVectors& /*values*/) const {}
-  /// Each of `count` numbers summed over the parts; the same to the last bit on all of them.
-  virtual void sum(double* /*values*/, std::size_t /*count*/) const {}
+  /// Each of `count` sums goes on over all parts.
+  virtual void sum(ExactSum* /*sums*/, std::size_t /*count*/) const {}
   /// The largest number of all parts; not a number if one is none.
   virtual double largest(double value) const { return value; }
   /// Rows of equally many numbers, one per id, from all parts in the order of the ids; complete on all parts.
@@ -38,13 +44,28 @@ class Halo {
     return rows;
   }
 
+  /// Of one number from each part.
   double sum(double value) const {
-    sum(&value, 1);
-    return value;
+    ExactSum all;
+    all.add(value);
+    sum(&all, 1);
+    return all.value();
   }
-  nurbs::Vector3 sum(nurbs::Vector3 value) const {
-    sum(value.data(), 3);
-    return value;
+  /// Adds what `run(first, count)` gives for each run of columns that the part owns, of `held` ones.
+  template <class Run>
+  void add_own(Eigen::Index held, ExactSum& sum, Run run) const {
+    const Eigen::Index end = owned(held);
+    if (runs_.empty()) return sum.add(run(Eigen::Index(0), end));
+    for (std::size_t k = 0; k < runs_.size(); ++k)
+      sum.add(run(runs_[k], (k + 1 < runs_.size() ? runs_[k + 1] : end) - runs_[k]));
+  }
+  /// The same, summed over all parts.
+  template <class Run>
+  double sum_over_nodes(Eigen::Index held, Run run) const {
+    ExactSum all;
+    add_own(held, all, run);
+    sum(&all, 1);
+    return all.value();
   }
   /// Whether it is so on any part.
   bool any(bool here) const { return largest(here ? 1.0 : 0.0) > 0.0; }
@@ -52,8 +73,13 @@ class Halo {
   auto own(const nurbs::NodalVectors& values) const { return values.leftCols(owned(values.cols())); }
   /// Sum over the nodes of all parts of a . b.
   double dot(const nurbs::NodalVectors& a, const nurbs::NodalVectors& b) const {
-    return sum(own(a).cwiseProduct(own(b)).sum());
+    return sum_over_nodes(a.cols(), [&](Eigen::Index first, Eigen::Index count) {
+      return a.middleCols(first, count).cwiseProduct(b.middleCols(first, count)).sum();
+    });
   }
+
+ private:
+  std::vector<Eigen::Index> runs_;
 };
 
 /// Per held node the sum of what all parts give for it (masses).

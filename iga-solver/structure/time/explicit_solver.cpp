@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -70,7 +71,7 @@ void ExplicitSolver::half_kick() {
   v_sum_ = v_;
   v_ += 0.5 * dt_ * a_;
   v_sum_ += v_;
-  ledger_.half_kick(0.5 * dt_, halo_->own(v_sum_), halo_->own(f_int_), halo_->own(f_ext_), halo_->own(F_));
+  ledger_.half_kick(*halo_, 0.5 * dt_, v_sum_, f_int_, f_ext_, F_);
 }
 
 void ExplicitSolver::begin_step() {
@@ -97,7 +98,7 @@ void ExplicitSolver::end_step(const NodalVectors& F) {
 
 void ExplicitSolver::start_energy_budget() {
   constexpr double kNegligibleStrain = 1e-9;
-  const double kick = 0.125 * dt_ * dt_ * halo_->sum(nodal_sum(a_));
+  const double kick = 0.125 * dt_ * dt_ * nodal_sum(a_);
   budget_.emplace(kinetic_energy() + strain_energy() + kick, body_->material().youngs_modulus() *
                                                                  halo_->sum(body_->volume()) *
                                                                  kNegligibleStrain * kNegligibleStrain);
@@ -129,35 +130,47 @@ double ExplicitSolver::stable_time_step() const {
 }
 
 double ExplicitSolver::power(const NodalVectors& F) const {
-  return halo_->sum((halo_->own(f_ext_) + halo_->own(F)).cwiseProduct(halo_->own(v_)).sum());
+  return halo_->sum_over_nodes(F.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    const auto f = f_ext_.middleCols(first, count) + F.middleCols(first, count);
+    return f.cwiseProduct(v_.middleCols(first, count)).sum();
+  });
 }
 
 double ExplicitSolver::nodal_sum(const NodalVectors& q) const {
-  return halo_->own(q).colwise().squaredNorm().dot(mass_->nodal_mass().head(halo_->owned(q.cols())));
+  return halo_->sum_over_nodes(q.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    const auto squares = q.middleCols(first, count).colwise().squaredNorm().transpose();
+    return squares.cwiseProduct(mass_->nodal_mass().segment(first, count)).sum();
+  });
 }
 
 double ExplicitSolver::largest_displacement() const { return halo_->largest(u_.colwise().norm().maxCoeff()); }
 
-double ExplicitSolver::kinetic_energy() const { return 0.5 * halo_->sum(nodal_sum(v_)); }
+double ExplicitSolver::kinetic_energy() const { return 0.5 * nodal_sum(v_); }
 
 double ExplicitSolver::strain_energy() const { return halo_->sum(body_->strain_energy(u_)); }
 
-Work ExplicitSolver::work() const {
-  const Work own = ledger_.work();
-  return {halo_->sum(own.internal), halo_->sum(own.loads), halo_->sum(own.forces)};
-}
+Work ExplicitSolver::work() const { return ledger_.work(*halo_); }
 
 double ExplicitSolver::load_work() const { return halo_->dot(f_ext_, u_); }
 
+Vector3 ExplicitSolver::sum_of_own(const std::function<Vector3(Eigen::Index node)>& value) const {
+  std::array<ExactSum, 3> sums;
+  for (Eigen::Index A = 0; A < halo_->owned(v_.cols()); ++A) {
+    const Vector3 term = value(A);
+    for (int i = 0; i < 3; ++i) sums[i].add(term[i]);
+  }
+  halo_->sum(sums.data(), sums.size());
+  return {sums[0].value(), sums[1].value(), sums[2].value()};
+}
+
 Vector3 ExplicitSolver::linear_momentum() const {
-  return halo_->sum(Vector3(halo_->own(v_) * mass_->nodal_mass().head(halo_->owned(v_.cols()))));
+  return sum_of_own([&](Eigen::Index A) { return Vector3(mass_->nodal_mass()[A] * v_.col(A)); });
 }
 
 Vector3 ExplicitSolver::angular_momentum(const Vector3& about) const {
-  Vector3 L = Vector3::Zero();
-  for (Eigen::Index A = 0; A < halo_->owned(x_.cols()); ++A)
-    L += (x_.col(A) - about).cross(mass_->nodal_mass()[A] * Vector3(v_.col(A)));
-  return halo_->sum(L);
+  return sum_of_own([&](Eigen::Index A) {
+    return Vector3((x_.col(A) - about).cross(mass_->nodal_mass()[A] * Vector3(v_.col(A))));
+  });
 }
 
 std::vector<Id> ExplicitSolver::node_ids() const {

@@ -6,6 +6,7 @@
 // results then belong to one time level.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -84,8 +85,10 @@ class ExplicitSolver {
   /// From the part's share of f_int_, f_ext_ and F.
   void update_accelerations(const NodalVectors& F);
   double power(const NodalVectors& F) const;
-  /// Sum of m_A |q_A|^2 over the nodes that the part owns.
+  /// Sum of m_A |q_A|^2 over all nodes.
   double nodal_sum(const NodalVectors& q) const;
+  /// Over the nodes of all parts.
+  Vector3 sum_of_own(const std::function<Vector3(Eigen::Index node)>& value) const;
   void start_energy_budget();
   void check_divergence(const NodalVectors& F) const;
   void half_kick();

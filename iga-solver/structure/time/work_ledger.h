@@ -4,9 +4,9 @@
 // whatever the forces and the step: what is left over is energy that a force brought in unseen.
 #pragma once
 
-#include <cmath>
+#include <array>
 
-#include "nurbs/types.h"
+#include "structure/halo.h"
 
 namespace structure {
 
@@ -19,36 +19,29 @@ struct Work {
   double forces = 0.0;  ///< of somebody's forces (contact)
 };
 
-/// A sum that keeps its round-off, for millions of terms (Neumaier 1974, Z. angew. Math. Mech. 54, 39).
-class CompensatedSum {
- public:
-  void add(double term) {
-    const double sum = sum_ + term;
-    lost_ += std::abs(sum_) >= std::abs(term) ? (sum_ - sum) + term : (term - sum) + sum_;
-    sum_ = sum;
-  }
-  double value() const { return sum_ + lost_; }
-
- private:
-  double sum_ = 0.0, lost_ = 0.0;
-};
-
 class WorkLedger {
  public:
-  /// dt/2 and twice the mean velocity v + v' of a half kick; fixed dofs have v = v' = 0.  Nodal arrays, or
-  /// whole columns of them.
-  template <class Values>
-  void half_kick(double half_step, const Values& v_sum, const Values& f_int, const Values& f_ext,
-                 const Values& F) {
-    const double factor = 0.5 * half_step;
-    internal_.add(factor * f_int.cwiseProduct(v_sum).sum());
-    loads_.add(factor * f_ext.cwiseProduct(v_sum).sum());
-    forces_.add(factor * F.cwiseProduct(v_sum).sum());
+  /// A half kick over dt/2, with twice the mean velocity, v + v'; nodal arrays (3 x held).  Fixed dofs have
+  /// v = v' = 0.
+  void half_kick(const Halo& halo, double half_step, const nurbs::NodalVectors& v_sum,
+                 const nurbs::NodalVectors& f_int, const nurbs::NodalVectors& f_ext,
+                 const nurbs::NodalVectors& F) {
+    const nurbs::NodalVectors* const forces[] = {&f_int, &f_ext, &F};
+    for (int i = 0; i < 3; ++i)
+      halo.add_own(v_sum.cols(), sums_[i], [&](Eigen::Index first, Eigen::Index count) {
+        return 0.5 * half_step *
+               forces[i]->middleCols(first, count).cwiseProduct(v_sum.middleCols(first, count)).sum();
+      });
   }
-  Work work() const { return {internal_.value(), loads_.value(), forces_.value()}; }
+  /// Of all parts; collective.
+  Work work(const Halo& halo) const {
+    std::array<ExactSum, 3> all = sums_;
+    halo.sum(all.data(), all.size());
+    return {all[0].value(), all[1].value(), all[2].value()};
+  }
 
  private:
-  CompensatedSum internal_, loads_, forces_;
+  std::array<ExactSum, 3> sums_;  // internal, loads, forces
 };
 
 }  // namespace structure

@@ -75,10 +75,12 @@ class TwoPartHalo final : public structure::Halo {
     const NodalVectors theirs = swapped(values);
     if (part_ == 0) values.rightCols(kShared) = theirs;
   }
-  void sum(double* values, std::size_t count) const override {
-    const std::vector<double> theirs = place_.swap(part_, {values, values + count});
-    for (std::size_t i = 0; i < count; ++i)
-      values[i] = part_ == 0 ? values[i] + theirs[i] : theirs[i] + values[i];
+  void sum(structure::ExactSum* sums, std::size_t count) const override {
+    for (std::size_t i = 0; i < count; ++i) {
+      auto& words = sums[i].words();
+      const std::vector<double> theirs = place_.swap(part_, {words.begin(), words.end()});  // below 2^53
+      for (std::size_t k = 0; k < words.size(); ++k) words[k] += static_cast<std::int64_t>(theirs[k]);
+    }
   }
   double largest(double value) const override {
     const double theirs = place_.swap(part_, {value}).front();
