@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Times the internal force of a plate and whole time steps, beside products by the assembled stiffness
+// matrix, and what the machine can do at most.  Names are WHAT/METHOD/LAW/BODY/pDEGREE; one iteration is one
+// evaluation.  Counters: dofs; bytes and flops of one evaluation (cost.h); `error`, the largest difference
+// from the force by the independently assembled stiffness matrix, over the largest force.
+//   benchmark_internal_force [--small] [Google Benchmark options]     --small: few elements, to check results
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <memory>
+
+#include "bodies.h"
+#include "cost.h"
+#include "cpu_seconds.h"
+#include "huge_pages.h"
+#include "machine_kernels.h"
+#include "nurbs/simd_level.h"
+#include "volumes.h"
+
+namespace benchmarks {
+namespace {
+
+using nurbs::NodalVectors;
+
+struct Sizes {
+  std::array<int, 3> elements = {31, 31, 8};
+  std::size_t numbers_read = std::size_t(15) << 20;  // 120 MB
+  std::size_t rounds = 100000;                       // of multiplications with addition
+};
+
+double material_flops(const std::string& law) {
+  return law == "linear_elastic" ? MaterialFlops::kLinear : MaterialFlops::kSaintVenantKirchhoff;
+}
+
+/// A body, displacements, and the forces that belong to them.
+struct Case {
+  Case(const std::string& name, const Sizes& sizes, int degree)
+      : label("/" + name + "/p" + std::to_string(degree)),
+        volume(make_volume(name, sizes.elements, degree)),
+        u(random_displacements(volume.space.control_point_count(), 1e-6)),
+        blocks(assemble_stiffness(volume, degree + 1, kLambda, kMu)),
+        expected(3, u.cols()) {
+    machine_kernels().multiply(blocks.view(), u.data(), expected.data());
+  }
+  int dofs() const { return static_cast<int>(u.size()); }
+
+  std::string label;
+  nurbs::Volume volume;
+  NodalVectors u;
+  BlockMatrix blocks;
+  NodalVectors expected;  // K u
+};
+
+using Force = std::function<void(const NodalVectors& u, NodalVectors& f)>;
+
+/// `force` is made when it is first timed, and kept.  Linear ones are compared with K u.
+void add_force(const Case& c, const std::string& name, bool linear, Cost cost, std::function<Force()> make) {
+  auto force = std::make_shared<Force>();
+  benchmark::RegisterBenchmark((name + c.label).c_str(), [=, &c](benchmark::State& state) {
+    if (!*force) *force = make();
+    NodalVectors f(3, c.u.cols());
+    for (auto _ : state) {
+      (*force)(c.u, f);
+      benchmark::DoNotOptimize(f.data());
+    }
+    state.counters["dofs"] = c.dofs();
+    state.counters["bytes"] = cost.bytes;
+    state.counters["flops"] = cost.flops;
+    if (linear)
+      state.counters["error"] = (f - c.expected).cwiseAbs().maxCoeff() / c.expected.cwiseAbs().maxCoeff();
+  })->Unit(benchmark::kMillisecond);
+}
+
+Cost cost_of(const std::string&, const Case& c, const std::string& law) {
+  const nurbs::Space<3>& space = c.volume.space;
+  return plain_cost(space, space.functions_per_element(), material_flops(law));
+}
+
+void add_bodies(const Case& c) {
+  for (const std::string& method : methods())
+    for (const std::string law : {"linear_elastic", "saint_venant_kirchhoff"})
+      add_force(c, "force/" + method + "/" + law, law == "linear_elastic", cost_of(method, c, law),
+                [&c, method, law] {
+                  const std::shared_ptr<structure::Body> body = make_body(method, c.volume, law);
+                  return [body](const NodalVectors& u, NodalVectors& f) { body->internal_force(u, f); };
+                });
+}
+
+/// Products by the assembled matrix: as many numbers for all bodies, so the plate's are timed.
+void add_matrices(const Case& c) {
+  const auto csr = std::make_shared<const CsrMatrix>(to_csr(c.blocks));
+  const Cost block = block_cost(c.volume.space, c.blocks);
+  add_force(c, "force/csr/linear_elastic", true, csr_cost(c.volume.space, *csr), [csr] {
+    return [csr](const NodalVectors& u, NodalVectors& f) {
+      Eigen::Map<Eigen::VectorXd>(f.data(), f.size()).noalias() =
+          *csr * Eigen::Map<const Eigen::VectorXd>(u.data(), u.size());
+    };
+  });
+  add_force(c, "force/blocks/linear_elastic", true, block, [&c] {
+    return [&c](const NodalVectors& u, NodalVectors& f) {
+      machine_kernels().multiply(c.blocks.view(), u.data(), f.data());
+    };
+  });
+  add_force(c, "force/blocks_huge_pages/linear_elastic", true, block, [&c] {
+    const auto columns = in_huge_pages(c.blocks.column.data(), c.blocks.column.size());
+    const auto values = in_huge_pages(c.blocks.values.data(), c.blocks.values.size());
+    return [=, &c](const NodalVectors& u, NodalVectors& f) {
+      const BlockRows rows = c.blocks.view();
+      machine_kernels().multiply({rows.rows, rows.begin, columns->data(), values->data()}, u.data(),
+                                 f.data());
+    };
+  });
+}
+
+/// A step and a force alone take turns, so that whatever else the machine does hits both; the counter
+/// `over_force` is the ratio of their times.
+void add_step(const Case& c, const std::string& method, int layers) {
+  auto solver = std::make_shared<std::unique_ptr<structure::ExplicitSolver>>();
+  const std::string name = "step/" + method + "/linear_elastic" + c.label;
+  benchmark::RegisterBenchmark(
+      name.c_str(),
+      [=, &c](benchmark::State& state) {
+        const NodalVectors none = NodalVectors::Zero(3, c.u.cols());
+        NodalVectors f = none;
+        if (!*solver) *solver = ringing(make_body(method, c.volume, "linear_elastic"), layers);
+        double force = 0.0, step = 0.0;
+        for (auto _ : state) {
+          force += cpu_seconds([&] { (*solver)->body().internal_force((*solver)->displacements(), f); });
+          const double once = cpu_seconds([&] { (*solver)->begin_step(), (*solver)->end_step(none); });
+          state.SetIterationTime(once);
+          step += once;
+        }
+        state.counters["dofs"] = c.dofs();
+        state.counters["over_force"] = step / force;
+      })
+      ->Unit(benchmark::kMillisecond)
+      ->UseManualTime();
+}
+
+template <class Numbers>
+void add_read(const std::string& name, std::size_t count) {
+  auto numbers = std::make_shared<Numbers>();
+  benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+    numbers->resize(count, 1.0);
+    for (auto _ : state) benchmark::DoNotOptimize(machine_kernels().read(numbers->data(), count));
+    state.counters["bytes"] = 8.0 * static_cast<double>(count);
+  })->Unit(benchmark::kMillisecond);
+}
+
+void add_probes(const Sizes& sizes) {
+  add_read<std::vector<double>>("probe/read", sizes.numbers_read);
+  add_read<LongVector<double>>("probe/read_huge_pages", sizes.numbers_read);
+  benchmark::RegisterBenchmark("probe/multiply_add", [sizes](benchmark::State& state) {
+    for (auto _ : state) benchmark::DoNotOptimize(machine_kernels().multiply_add(sizes.rounds, 0.5, 1.0));
+    state.counters["flops"] = machine_kernels().flops_per_round * static_cast<double>(sizes.rounds);
+  })->Unit(benchmark::kMillisecond);
+}
+
+/// Whether `--small` is given; takes it from the arguments.
+bool take_small(int& argc, char** argv) {
+  char** const end =
+      std::remove_if(argv + 1, argv + argc, [](char* word) { return !std::strcmp(word, "--small"); });
+  const bool found = end != argv + argc;
+  argc = static_cast<int>(end - argv);
+  return found;
+}
+
+}  // namespace
+}  // namespace benchmarks
+
+int main(int argc, char** argv) {
+  using namespace benchmarks;
+  Sizes sizes;
+  if (take_small(argc, argv)) sizes = {{5, 4, 3}, std::size_t(1) << 16, 100};
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  benchmark::AddCustomContext("dispatched_to", nurbs::name(nurbs::simd_level()));
+  add_probes(sizes);
+  std::vector<std::unique_ptr<Case>> cases;
+  for (int degree : {2, 3})
+    for (const char* name : {"plate", "distorted", "rational"}) {
+      Case& c = *cases.emplace_back(std::make_unique<Case>(name, sizes, degree));
+      add_bodies(c);
+      if (c.label.find("plate") != std::string::npos) {
+        add_matrices(c);
+        for (const std::string& method : methods()) add_step(c, method, sizes.elements[2]);
+      } else {
+        c.blocks = {};  // only K u is needed
+      }
+    }
+  benchmark::RunSpecifiedBenchmarks();
+}
