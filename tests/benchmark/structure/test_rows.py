@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Rows and verdicts of large solids, of ranks and of the deck ball_plate."""
+
+import unittest
+
+import ball_plate
+import large_report
+import ranks
+
+
+def by_name(rows):
+    return {row.quantity: row for row in rows}
+
+
+class LargeSolids(unittest.TestCase):
+    SEEN = {"method": "auto", "body": "distorted", "elements": 1_000_000, "dofs": 3_000_000}
+    SEEN |= {"solid_bytes": 6e8, "solver_bytes": 3e8, "peak_bytes": 1e9}
+    SEEN |= {"set_up": 4.0, "stable_step": 7.0, "force": 0.3, "step": 0.33}
+
+    def test_per_dof_and_per_element(self):
+        rows = by_name(large_report.rows(self.SEEN))
+        self.assertAlmostEqual(rows["solid_bytes_per_dof"].value, 200.0)
+        self.assertAlmostEqual(rows["set_up_per_element"].value, 4.0)
+        self.assertAlmostEqual(rows["force_time_per_dof"].value, 100.0)
+        self.assertAlmostEqual(rows["step_over_force"].value, 1.1)
+
+    def test_verdicts_of_a_million_elements(self):
+        rows = by_name(large_report.rows(self.SEEN))
+        verdicts = {name: row.passes for name, row in rows.items() if row.passes is not None}
+        expected = dict(solid_memory=True, set_up=True, set_up_with_stable_step=False, step_over_force=True)
+        self.assertEqual(verdicts, expected)
+
+    def test_fewer_elements_and_the_plain_loop_have_none(self):
+        for changed in ({"elements": 8000}, {"method": "plain"}):
+            rows = by_name(large_report.rows({**self.SEEN, **changed, "stable_step": None}))
+            self.assertEqual([row.passes for row in rows.values()], [None] * len(rows))
+
+
+class Ranks(unittest.TestCase):
+    def counted(self, cpu, inside, messages):
+        return dict(cpu=cpu, inside_mpi=inside, messages=messages, collectives=0, bytes=0, peak_bytes=cpu * 1e6)
+
+    def test_a_step_is_the_difference_of_two_runs_on_the_busiest_rank(self):
+        few = [self.counted(10.0, 1.0, 5), self.counted(10.0, 1.0, 5)]
+        many = [self.counted(13.0, 2.0, 105), self.counted(13.0, 3.5, 305)]
+        step = ranks.per_step(few, many)
+        self.assertAlmostEqual(step.work, 2.0 / 100)  # 3 s more, of which one inside MPI
+        self.assertAlmostEqual(step.messages, 3.0)
+        self.assertEqual(step.memory, 13e6)
+
+    def test_speedup_and_memory_of_two(self):
+        def step(work, memory):
+            return ranks.Step(work, 0, 0, 0, memory)
+
+        for two, verdicts in ((step(1.0, 55.0), (True, True)), (step(1.01, 56.0), (False, False))):
+            found = by_name(ranks.report({1: step(1.8, 100.0), 2: two}, {1: step(1.0, 1.0)}))
+            seen = tuple(found[name].passes for name in ("speedup", "memory_of_a_rank_over_one"))
+            self.assertEqual(seen, verdicts)
+
+    def test_elements_of_a_larger_plate_are_as_large(self):
+        self.assertIn("size: [0.61, 0.61, 0.0501], elements: [31, 31, 8]", ranks.model(ranks.PLATE))
+        self.assertIn("size: [1.22, 0.61, 0.0501], elements: [62, 31, 8]", ranks.model((62, 31, 8)))
+
+
+class BallPlate(unittest.TestCase):
+    def test_verdicts(self):
+        for auto, verdicts in ((3.0, (True, True)), (3.1, (False, False))):
+            rows = by_name(ball_plate.rows({"auto": auto, "plain": 21.0}))
+            self.assertEqual((rows["auto_time"].passes, rows["speedup_over_plain"].passes), verdicts)
+
+
+if __name__ == "__main__":
+    unittest.main()
