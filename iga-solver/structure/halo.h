@@ -6,17 +6,14 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "nurbs/types.h"
 #include "structure/exact_sum.h"
+#include "structure/id.h"
 
 namespace structure {
-
-/// A node or an element of the whole body, counted from 0: the same however it is cut.
-using Id = std::int64_t;
 
 /// This one is of a body in one piece: nothing to tell.
 class Halo {

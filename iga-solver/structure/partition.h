@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A patch cut into parts for ranks: whole boxes to each, every control node owned by one.  Boxes are ranges
+// of knot spans on a grid that does not depend on the ranks; each adds its forces as one share, and shares of
+// a node are added in the order of boxes, from zero, by whoever owns it: the sum is the same to the last bit
+// on any number of ranks.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "nurbs/patch.h"
+#include "structure/id.h"
+
+namespace structure {
+
+/// Per direction the knot spans where a patch is cut into boxes, its first and its last border included.
+/// Boxes have numbers as elements have, the first direction fastest.
+using BoxCuts = std::array<std::vector<int>, 3>;
+
+/// What a part has in common with another one: columns of the part's arrays, in an order that both know.
+struct Neighbour {
+  int part;
+  std::vector<int> own;         ///< nodes that the part owns and the other holds
+  std::vector<int> ghosts;      ///< nodes that the part holds and the other owns
+  std::vector<int> shares_out;  ///< the part's shares of those ghosts
+  std::vector<int> shares_in;   ///< where the other's shares of `own` go
+};
+
+/// A node that the part owns and whose shares are added at the end: columns [first, end) of force arrays, in
+/// the order of boxes.
+struct SharedNode {
+  int column, first, end;
+};
+
+/// Arrays of a part have a column for each node of its boxes: those that it owns, then ghosts, each in the
+/// order of ids.  Arrays of forces have further columns, one for each share that must be told apart.
+struct Part {
+  std::vector<int> boxes;  ///< in the order in which they are integrated: those with ghosts first
+  int border_boxes = 0;    ///< how many of them have ghosts; their shares may travel while others are worked
+  std::vector<Id> nodes;   ///< per column
+  int owned = 0;           ///< how many of `nodes`
+  int force_columns = 0;   ///< nodes and shares
+  std::vector<Eigen::Index>
+      runs;  ///< first columns of runs of owned nodes that no cut divides (Halo::add_own)
+  std::vector<SharedNode> shared;
+  std::vector<Neighbour> neighbours;  ///< in the order of parts
+  /// Per box of `boxes`, its nodes with the first direction fastest: their columns in arrays of nodes, and
+  /// where the box adds its forces.
+  std::vector<std::vector<int>> gather, scatter;
+
+  int held() const { return static_cast<int>(nodes.size()); }
+};
+
+/// Adds up the shares of the nodes that the part owns, in the order of boxes.
+void add_shares(const Part& part, nurbs::NodalVectors& forces);
+
+class Partition {
+ public:
+  /// Throws std::invalid_argument if a piece between two cuts has fewer spans than the degree.
+  Partition(const nurbs::Space<3>& space, const BoxCuts& cuts, int parts);
+
+  int box_count() const { return static_cast<int>(part_.size()); }
+  int part_of(int box) const { return part_[box]; }
+  /// Boxes that hold a node, rising, eight at most.
+  struct Boxes {
+    int count = 0;
+    std::array<int, 8> box;
+  };
+  Boxes boxes_of(Id node) const;
+  /// A node belongs to the part of the first of its boxes.
+  int owner(Id node) const { return part_[boxes_of(node).box[0]]; }
+  /// Of a box, the first direction fastest.
+  std::vector<Id> nodes_of(int box) const;
+  /// Everything that part p of them knows.  Takes time and memory in proportion to what it holds.
+  Part part(int p) const;
+
+ private:
+  /// One direction: nodes [first, end) of each piece, and for each node the first and last piece with it.
+  struct Axis {
+    std::vector<int> spans, first, end, low, high;
+  };
+  static Axis axis(const nurbs::KnotVector& knots, const std::vector<int>& cuts);
+  using Range = std::array<std::array<int, 2>, 3>;
+  void divide(const Range& boxes, int first_part, int parts);
+  int piece_count(int d) const { return static_cast<int>(axes_[d].spans.size()); }
+  int box(int i, int j, int k) const { return i + piece_count(0) * (j + piece_count(1) * k); }
+  bool has_ghosts(int box) const;
+
+  std::array<Axis, 3> axes_;
+  std::array<int, 3> nodes_;  // per direction
+  std::vector<int> part_;     // per box
+};
+
+}  // namespace structure
