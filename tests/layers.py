@@ -19,7 +19,7 @@ from source_tree import (
 
 LIGGGHTS_HEADERS = {path.name for path in Path("/usr/include/liggghts").glob("*.h")}
 KERNEL = "iga-solver/nurbs"
-SOLVER = [f"iga-solver/{room}" for room in ("nurbs", "search", "geometry_io", "vtk", "structure", "io")]
+SOLVER = [f"iga-solver/{room}" for room in ("nurbs", "search", "geometry_io", "vtk", "structure", "parallel", "io")]
 # folder of targets -> those that it may link, directly or not
 MAY_LINK = {
     "iga-solver/nurbs": [],
@@ -27,6 +27,7 @@ MAY_LINK = {
     "iga-solver/geometry_io": [KERNEL],
     "iga-solver/vtk": [KERNEL, "iga-solver/geometry_io"],
     "iga-solver/structure": [KERNEL],
+    "iga-solver/parallel": [KERNEL, "iga-solver/structure"],
     "iga-solver/io": [KERNEL, "iga-solver/geometry_io", "iga-solver/structure"],
     "iga-solver/app": SOLVER,
     "coupling": SOLVER,
@@ -34,7 +35,7 @@ MAY_LINK = {
 }
 # targets that a rigid wall needs, and what they must not have
 RIGID = ("coupling", "coupling_contact")
-STRUCTURAL = ("iga-solver/structure", "iga-solver/io")
+STRUCTURAL = ("iga-solver/structure", "iga-solver/parallel", "iga-solver/io")
 # header of a library -> what links it
 LIBRARIES = {
     r"mpi\.h": "MPI::MPI_C",

@@ -24,12 +24,21 @@ class Halo {
   explicit Halo(std::vector<Eigen::Index> runs = {}) : runs_(std::move(runs)) {}
   virtual ~Halo() = default;
 
-  /// How many of the `held` nodes the part owns.
-  virtual Eigen::Index owned(Eigen::Index held) const { return held; }
-  virtual Id node_id(Eigen::Index held) const { return held; }
+  /// How many of the columns of an array are nodes that the part owns.
+  virtual Eigen::Index owned(Eigen::Index columns) const { return columns; }
+  virtual Id node_id(Eigen::Index column) const { return column; }
   virtual Id element_id(Eigen::Index held) const { return held; }
-  /// Adds to each owner's column of a nodal array (3 x held) what other parts have at their ghosts of it.
-  virtual void sum_to_owners(nurbs::NodalVectors& /*values*/) const {}
+  /// How many of the columns of an array are nodes.  What several boxes add to a node at a cut may stand in
+  /// columns of its own behind them, until it is summed: they have no mass, do not move, and feel nothing.
+  virtual Eigen::Index held(Eigen::Index columns) const { return columns; }
+  /// Adds to each owner's column of a nodal array what other parts have at their ghosts of it.
+  void sum_to_owners(nurbs::NodalVectors& values) const {
+    begin_sum(values);
+    finish_sum(values);
+  }
+  /// The same in two steps: after the first, what is not shared may still be worked out.
+  virtual void begin_sum(const nurbs::NodalVectors& /*values*/) const {}
+  virtual void finish_sum(nurbs::NodalVectors& /*values*/) const {}
   /// Copies the owners' columns to all ghosts.
   virtual void owners_to_ghosts(nurbs::NodalVectors& /*values*/) const {}
   /// Each of `count` sums goes on over all parts.
@@ -48,19 +57,19 @@ class Halo {
     sum(&all, 1);
     return all.value();
   }
-  /// Adds what `run(first, count)` gives for each run of columns that the part owns, of `held` ones.
+  /// Adds what `run(first, count)` gives for each run of columns that the part owns, of an array's.
   template <class Run>
-  void add_own(Eigen::Index held, ExactSum& sum, Run run) const {
-    const Eigen::Index end = owned(held);
+  void add_own(Eigen::Index columns, ExactSum& sum, Run run) const {
+    const Eigen::Index end = owned(columns);
     if (runs_.empty()) return sum.add(run(Eigen::Index(0), end));
     for (std::size_t k = 0; k < runs_.size(); ++k)
       sum.add(run(runs_[k], (k + 1 < runs_.size() ? runs_[k + 1] : end) - runs_[k]));
   }
   /// The same, summed over all parts.
   template <class Run>
-  double sum_over_nodes(Eigen::Index held, Run run) const {
+  double sum_over_nodes(Eigen::Index columns, Run run) const {
     ExactSum all;
-    add_own(held, all, run);
+    add_own(columns, all, run);
     sum(&all, 1);
     return all.value();
   }
@@ -84,6 +93,8 @@ inline Eigen::VectorXd whole(const Halo& halo, const Eigen::VectorXd& share) {
   nurbs::NodalVectors values = nurbs::Vector3::Ones() * share.transpose();
   halo.sum_to_owners(values);
   halo.owners_to_ghosts(values);
+  const Eigen::Index held = halo.held(values.cols());
+  values.rightCols(values.cols() - held).setOnes();  // a mass for columns that nothing moves
   return values.row(0);
 }
 

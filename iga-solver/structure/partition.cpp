@@ -20,6 +20,7 @@ Partition::Axis Partition::axis(const nurbs::KnotVector& knots, const std::vecto
       throw std::invalid_argument(fmt::format(
           "Partition: a box of {} knot spans, expected at least {}: the degree", spans, knots.degree()));
     axis.spans.push_back(spans);
+    axis.first_span.push_back(cuts[piece]);
     axis.first.push_back(knots.span_of_element(cuts[piece]) - knots.degree());
     axis.end.push_back(knots.span_of_element(cuts[piece + 1] - 1) + 1);
     for (int node = axis.first.back(); node < axis.end.back(); ++node) {
@@ -34,6 +35,7 @@ Partition::Partition(const nurbs::Space<3>& space, const BoxCuts& cuts, int part
   for (int d = 0; d < 3; ++d) {
     axes_[d] = axis(space.knots(d), cuts[d]);
     nodes_[d] = space.control_point_count(d);
+    elements_[d] = space.knots(d).element_count();
   }
   part_.resize(std::size_t(piece_count(0)) * piece_count(1) * piece_count(2));
   divide({{{0, piece_count(0)}, {0, piece_count(1)}, {0, piece_count(2)}}}, 0, parts);
@@ -81,15 +83,39 @@ Partition::Boxes Partition::boxes_of(Id node) const {
   return boxes;
 }
 
+namespace {
+
+/// Numbers of a brick from `first` to `end`, of a grid of n per direction, the first direction fastest.
+std::vector<Id> numbers(const std::array<int, 3>& first, const std::array<int, 3>& end,
+                        const std::array<int, 3>& n) {
+  std::vector<Id> numbers;
+  for (int k = first[2]; k < end[2]; ++k)
+    for (int j = first[1]; j < end[1]; ++j)
+      for (int i = first[0]; i < end[0]; ++i) numbers.push_back(i + n[0] * (j + Id(n[1]) * k));
+  return numbers;
+}
+
+}  // namespace
+
+std::array<int, 3> Partition::pieces_of(int box) const {
+  return {box % piece_count(0), box / piece_count(0) % piece_count(1), box / piece_count(0) / piece_count(1)};
+}
+
 std::vector<Id> Partition::nodes_of(int box) const {
-  const int a = box % piece_count(0), b = box / piece_count(0) % piece_count(1),
-            c = box / piece_count(0) / piece_count(1);
-  const auto& [x, y, z] = axes_;
-  std::vector<Id> nodes;
-  for (int k = z.first[c]; k < z.end[c]; ++k)
-    for (int j = y.first[b]; j < y.end[b]; ++j)
-      for (int i = x.first[a]; i < x.end[a]; ++i) nodes.push_back(i + nodes_[0] * (j + Id(nodes_[1]) * k));
-  return nodes;
+  const std::array<int, 3> piece = pieces_of(box);
+  std::array<int, 3> first, end;
+  for (int d = 0; d < 3; ++d) first[d] = axes_[d].first[piece[d]], end[d] = axes_[d].end[piece[d]];
+  return numbers(first, end, nodes_);
+}
+
+std::vector<Id> Partition::elements_of(int box) const {
+  const std::array<int, 3> piece = pieces_of(box);
+  std::array<int, 3> first, end;
+  for (int d = 0; d < 3; ++d) {
+    first[d] = axes_[d].first_span[piece[d]];
+    end[d] = first[d] + axes_[d].spans[piece[d]];
+  }
+  return numbers(first, end, elements_);
 }
 
 bool Partition::has_ghosts(int box) const {
@@ -124,9 +150,13 @@ class PartBuilder {
     has_ghosts_ = &has_ghosts;
     take_nodes();
     for (int column = 0; column < part_.held(); ++column) take_shares(column);
-    part_.force_columns = part_.held() + static_cast<int>(shares_.size());
+    part_.columns = part_.held() + static_cast<int>(shares_.size());
     for (auto& [other, neighbour] : neighbours_) part_.neighbours.push_back(std::move(neighbour));
-    for (const int box : part_.boxes) take_tables(box);
+    for (const int box : part_.boxes) {
+      const std::vector<Id> elements = partition_.elements_of(box);
+      part_.elements.insert(part_.elements.end(), elements.begin(), elements.end());
+      take_tables(box);
+    }
     return std::move(part_);
   }
 
@@ -224,6 +254,7 @@ void add_shares(const Part& part, nurbs::NodalVectors& forces) {
     for (int share = node.first; share < node.end; ++share) sum += forces.col(share);
     forces.col(node.column) = sum;
   }
+  forces.rightCols(part.columns - part.held()).setZero();
 }
 
 Part Partition::part(int p) const {

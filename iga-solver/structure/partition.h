@@ -27,32 +27,33 @@ struct Neighbour {
   std::vector<int> shares_in;   ///< where the other's shares of `own` go
 };
 
-/// A node that the part owns and whose shares are added at the end: columns [first, end) of force arrays, in
-/// the order of boxes.
+/// A node that the part owns and whose shares are added at the end: columns [first, end), in the order of
+/// boxes.
 struct SharedNode {
   int column, first, end;
 };
 
-/// Arrays of a part have a column for each node of its boxes: those that it owns, then ghosts, each in the
-/// order of ids.  Arrays of forces have further columns, one for each share that must be told apart.
+/// Arrays of a part have a column for each node that it owns, then for its ghosts, each in the order of ids;
+/// then for shares that wait to be added, zero but in forces (Halo::held).
 struct Part {
   std::vector<int> boxes;  ///< in the order in which they are integrated: those with ghosts first
-  int border_boxes = 0;    ///< how many of them have ghosts; their shares may travel while others are worked
-  std::vector<Id> nodes;   ///< per column
-  int owned = 0;           ///< how many of `nodes`
-  int force_columns = 0;   ///< nodes and shares
+  int border_boxes = 0;    ///< how many have ghosts: their shares may travel while the others are worked out
+  std::vector<Id> elements;  ///< of these boxes, box after box, the first direction fastest
+  std::vector<Id> nodes;     ///< that the part holds, per column
+  int owned = 0;             ///< how many of them
+  int columns = 0;           ///< of nodes and shares
   std::vector<Eigen::Index>
       runs;  ///< first columns of runs of owned nodes that no cut divides (Halo::add_own)
   std::vector<SharedNode> shared;
   std::vector<Neighbour> neighbours;  ///< in the order of parts
-  /// Per box of `boxes`, its nodes with the first direction fastest: their columns in arrays of nodes, and
-  /// where the box adds its forces.
+  /// Per box of `boxes`, its nodes with the first direction fastest: their columns, and those where the box
+  /// adds its forces.
   std::vector<std::vector<int>> gather, scatter;
 
   int held() const { return static_cast<int>(nodes.size()); }
 };
 
-/// Adds up the shares of the nodes that the part owns, in the order of boxes.
+/// Adds up the shares of the nodes that the part owns, in the order of boxes; leaves zero where shares were.
 void add_shares(const Part& part, nurbs::NodalVectors& forces);
 
 class Partition {
@@ -72,24 +73,26 @@ class Partition {
   int owner(Id node) const { return part_[boxes_of(node).box[0]]; }
   /// Of a box, the first direction fastest.
   std::vector<Id> nodes_of(int box) const;
+  std::vector<Id> elements_of(int box) const;
   /// Everything that part p of them knows.  Takes time and memory in proportion to what it holds.
   Part part(int p) const;
 
  private:
   /// One direction: nodes [first, end) of each piece, and for each node the first and last piece with it.
   struct Axis {
-    std::vector<int> spans, first, end, low, high;
+    std::vector<int> spans, first_span, first, end, low, high;
   };
   static Axis axis(const nurbs::KnotVector& knots, const std::vector<int>& cuts);
   using Range = std::array<std::array<int, 2>, 3>;
   void divide(const Range& boxes, int first_part, int parts);
   int piece_count(int d) const { return static_cast<int>(axes_[d].spans.size()); }
   int box(int i, int j, int k) const { return i + piece_count(0) * (j + piece_count(1) * k); }
+  std::array<int, 3> pieces_of(int box) const;
   bool has_ghosts(int box) const;
 
   std::array<Axis, 3> axes_;
-  std::array<int, 3> nodes_;  // per direction
-  std::vector<int> part_;     // per box
+  std::array<int, 3> nodes_, elements_;  // per direction
+  std::vector<int> part_;                // per box
 };
 
 }  // namespace structure

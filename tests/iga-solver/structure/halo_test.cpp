@@ -67,7 +67,7 @@ class TwoPartHalo final : public structure::Halo {
   Eigen::Index owned(Eigen::Index held) const override { return part_ == 0 ? held - kShared : held; }
   structure::Id node_id(Eigen::Index held) const override { return held + part_ * kNodesBelow; }
   structure::Id element_id(Eigen::Index held) const override { return held + part_ * kElementsBelow; }
-  void sum_to_owners(NodalVectors& values) const override {
+  void finish_sum(NodalVectors& values) const override {
     const NodalVectors theirs = swapped(values);
     if (part_ == 1) values.leftCols(kShared) += theirs;
   }

@@ -69,7 +69,7 @@ TEST(Partition, SharesAddUpAsInOnePieceToTheLastBit) {
     const std::vector<Part> parts = all_parts(Partition(c.space, c.cuts, count), count);
     std::vector<NodalVectors> f;
     for (const Part& part : parts) {
-      f.push_back(NodalVectors::Zero(3, part.force_columns));
+      f.push_back(NodalVectors::Zero(3, part.columns));
       for (std::size_t b = 0; b < part.boxes.size(); ++b) {
         const NodalVectors share = box_forces(part.boxes[b], part.scatter[b].size());
         for (std::size_t a = 0; a < part.scatter[b].size(); ++a)
@@ -117,6 +117,17 @@ TEST(Partition, TablesLeadToTheNodesOfTheBox) {
     for (std::size_t b = 0; b < part.boxes.size(); ++b)
       EXPECT_EQ(ids(part, part.gather[b]), partition.nodes_of(part.boxes[b]));
   }
+}
+
+TEST(Partition, EveryElementIsInOnePart) {
+  const Case c;
+  std::vector<Id> elements;
+  for (const Part& part : all_parts(Partition(c.space, c.cuts, 3), 3))
+    elements.insert(elements.end(), part.elements.begin(), part.elements.end());
+  std::sort(elements.begin(), elements.end());
+  std::vector<Id> all(c.space.element_count());
+  std::iota(all.begin(), all.end(), Id(0));
+  EXPECT_EQ(elements, all);
 }
 
 /// First ids and sizes of runs.
