@@ -36,7 +36,7 @@ class Timing:
     dofs: float = 1.0
     bytes: float | None = None
     flops: float | None = None
-    error: float | None = None  # over the largest force, beside the product by the assembled matrix
+    error: float | None = None  # over the largest force, beside the one integrated on its own
     over_force: float | None = None  # of a step: its time over that of the force alone, which took turns
 
     @property

@@ -130,7 +130,7 @@ def main() -> None:
     parser.add_argument("--most", type=int, default=8, choices=GRIDS, help="ranks of the weak scaling")
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
-    bench = Bench(args.program, args.census)
+    bench = Bench(str(Path(args.program).resolve()), str(Path(args.census).resolve()))
     texts = {("strong", ranks): model(PLATE) for ranks in (1, 2)}
     for ranks, (nx, ny) in GRIDS.items():
         if ranks <= args.most:

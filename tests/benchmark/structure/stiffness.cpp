@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "stiffness.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 
-#include "nurbs/gauss_legendre.h"
+#include "gauss_loop.h"
 
 namespace benchmarks {
 
-using Eigen::Matrix3d;
 using Eigen::MatrixXd;
 using nurbs::KnotVector;
 
@@ -47,51 +44,6 @@ BlockMatrix pattern(const nurbs::Space<3>& space) {
   return K;
 }
 
-/// dR/dX of one element at its Gauss points.
-struct Gradients {
-  MatrixXd along[3];   ///< [function][point] [1/length]
-  Eigen::VectorXd wJ;  ///< [point] [length^3]
-  std::vector<int> nodes;
-};
-
-/// Those of one point, in column `q`.
-void evaluate_point(const nurbs::Volume& volume, int element, const nurbs::Parameter<3>& xi, double weight,
-                    int q, Gradients& out) {
-  nurbs::RationalBasis<3> basis;
-  nurbs::evaluate_on_element(volume.space, element, xi, 1, basis);
-  const auto dR = [&](int d) { return Eigen::Map<const Eigen::VectorXd>(basis.dR[d], basis.count); };
-  Matrix3d J = Matrix3d::Zero();
-  for (int a = 0; a < basis.count; ++a)
-    for (int d = 0; d < 3; ++d)
-      J.col(d) += volume.control_points.col(basis.control_point[a]) * basis.dR[d][a];
-  const Matrix3d inverse = J.inverse();
-  for (int i = 0; i < 3; ++i)
-    out.along[i].col(q) = inverse(0, i) * dR(0) + inverse(1, i) * dR(1) + inverse(2, i) * dR(2);
-  out.wJ[q] = weight * J.determinant();
-  out.nodes.assign(basis.control_point, basis.control_point + basis.count);
-}
-
-Gradients gradients(const nurbs::Volume& volume, int element, int points) {
-  const nurbs::Indices<3> span = volume.space.element_indices(element);
-  nurbs::QuadratureRule rule[3];
-  for (int d = 0; d < 3; ++d) {
-    const std::vector<double>& breaks = volume.space.knots(d).breaks();
-    rule[d] = nurbs::gauss_legendre(points, breaks[span[d]], breaks[span[d] + 1]);
-  }
-  const int all = points * points * points;
-  Gradients result;
-  for (MatrixXd& G : result.along) G.resize(volume.space.functions_per_element(), all);
-  result.wJ.resize(all);
-  for (int q = 0; q < all; ++q) {
-    const int at[3] = {q % points, q / points % points, q / points / points};
-    nurbs::Parameter<3> xi;
-    double weight = 1.0;
-    for (int d = 0; d < 3; ++d) xi[d] = rule[d].points[at[d]], weight *= rule[d].weights[at[d]];
-    evaluate_point(volume, element, xi, weight, q, result);
-  }
-  return result;
-}
-
 void add_element(const Gradients& G, double lambda, double mu, BlockMatrix& K) {
   MatrixXd M[3][3];  // M[i][j](A, B) = integral of dR_A/dX_i dR_B/dX_j
   for (int i = 0; i < 3; ++i) {
@@ -115,10 +67,10 @@ void add_element(const Gradients& G, double lambda, double mu, BlockMatrix& K) {
 
 }  // namespace
 
-BlockMatrix assemble_stiffness(const nurbs::Volume& volume, int points, double lambda, double mu) {
+BlockMatrix assemble_stiffness(const nurbs::Volume& volume, double lambda, double mu) {
   BlockMatrix K = pattern(volume.space);
   for (int e = 0; e < volume.space.element_count(); ++e)
-    add_element(gradients(volume, e, points), lambda, mu, K);
+    add_element(gradients(volume, e, Rule::full), lambda, mu, K);
   return K;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The stiffness matrix of a linear elastic body, integrated on its own (nothing of structure::Solid is in
-// it): what matrix-free forces are checked against, and the peers that multiply by it.
+// The stiffness matrix of a linear elastic body, assembled: the peers multiply by it.
 //   K_AB = integral of lambda dR_A (x) dR_B + mu (dR_B (x) dR_A + (dR_A . dR_B) I),  dR = dR/dX
 // Source: Hughes, The Finite Element Method (2000), eq. 2.8.5, in index form instead of B^T D B.
 #pragma once
@@ -26,8 +25,8 @@ struct BlockMatrix {
   std::size_t blocks() const { return column.size(); }
 };
 
-/// `points` Gauss points per direction and element; Lame constants [stress].
-BlockMatrix assemble_stiffness(const nurbs::Volume& volume, int points, double lambda, double mu);
+/// By gauss_loop.h, p + 1 points per direction and element; Lame constants [stress].
+BlockMatrix assemble_stiffness(const nurbs::Volume& volume, double lambda, double mu);
 
 using CsrMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor, int>;
 /// The same numbers in Eigen's format.
