@@ -131,13 +131,15 @@ Fingerprint IgaStructure::fingerprint() const {
   std::vector<std::string> faces;
   for (const structure::SkinPiece& piece : skin_) faces.emplace_back(name_of(piece));
   const auto geometry = [&](const auto& patches) { return geometry_part(patches, body.reference()); };
-  return {std::visit(geometry, body.patches()),
-          word_part("surface", fmt::format("{}", fmt::join(faces, ", "))),
-          word_part("law of the material", material.law()),
-          material_part(material),
-          {"supports",
-           fmt::format("{} fixed degrees of freedom", fixed.size()),
-           {static_cast<double>(fixed.size()), checksum({fixed.begin(), fixed.end()})}}};
+  Fingerprint fingerprint{std::visit(geometry, body.patches()),
+                          word_part("surface", fmt::format("{}", fmt::join(faces, ", "))),
+                          word_part("law of the material", material.law()),
+                          material_part(material),
+                          {"supports",
+                           fmt::format("{} fixed degrees of freedom", fixed.size()),
+                           {static_cast<double>(fixed.size()), checksum({fixed.begin(), fixed.end()})}}};
+  if (!body.discretisation().empty()) fingerprint.push_back(word_part("quadrature", body.discretisation()));
+  return fingerprint;
 }
 
 }  // namespace coupling

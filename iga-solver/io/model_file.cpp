@@ -6,7 +6,6 @@
 #include "geometry_io/file_kind.h"
 #include "structure/conditions/loads.h"
 #include "structure/material/laws.h"
-#include "structure/solid/solid.h"
 
 namespace io {
 
@@ -92,18 +91,30 @@ TimeSpan read_time(const YamlMap& map) {
   return time;
 }
 
+/// A word, by the reader that knows all of them.
+template <class Value>
+Value read_word(const YamlMap& map, const std::string& key, Value (*from_name)(const std::string&)) {
+  try {
+    return from_name(map.word(key));
+  } catch (const std::invalid_argument& error) {
+    map.fail(key, error.what());
+  }
+}
+
+structure::Integration read_integration(const YamlMap& map) {
+  map.allow_only({"quadrature", "method"});
+  structure::Integration integration;
+  if (map.has("quadrature"))
+    integration.quadrature = read_word(map, "quadrature", structure::quadrature_from_name);
+  if (map.has("method"))
+    integration.method = read_word(map, "method", structure::integration_method_from_name);
+  return integration;
+}
+
 ModelFile read_required(const YamlMap& document, const geometry_io::ReadFile& read) {
-  ModelFile model{document.file(),
-                  document.line_of("geometry"),
+  ModelFile model{document.file(), document.line_of("geometry"),
                   geometry_io::read_geometry(document, geometry_io::geometry_opener(read)),
-                  read_material(document.map("material")),
-                  {},
-                  {},
-                  {},
-                  {},
-                  {},
-                  Vector3::Zero(),
-                  {}};
+                  read_material(document.map("material"))};
   const std::vector<geometry_io::Shape>& patches = model.geometry.patches;
   if (patches.size() != 1)
     document.fail("geometry",
@@ -124,8 +135,9 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   };
   const YamlMap document = YamlMap::parse(text, file);
   document.allow_only({"units", "geometry", "material", "boundary", "surfaces", "probes", "output", "loads",
-                       "initial", "time"});
+                       "initial", "time", "integration"});
   ModelFile model = read_required(document, read_and_note);
+  if (document.has("integration")) model.integration = read_integration(document.map("integration"));
   if (document.has("boundary"))
     for (const YamlMap& entry : document.list_of_maps("boundary"))
       model.boundary.push_back(read_fixed_faces(entry));
@@ -159,8 +171,8 @@ structure::ExplicitSolver build_solver(const ModelFile& model) {
     for (nurbs::Face face : fixed.faces)
       supports.fix(structure::nodes_on(volume.space, {face}), fixed.directions);
   try {
-    structure::ExplicitSolver solver(std::make_unique<structure::Solid>(volume, model.material),
-                                     std::move(supports));
+    structure::ExplicitSolver solver(
+        std::make_unique<structure::Solid>(volume, model.material, model.integration), std::move(supports));
     structure::NodalVectors f_ext =
         structure::gravity_load(solver.body(), model.gravity.value_or(Vector3::Zero()));
     for (const FaceTraction& traction : model.tractions)

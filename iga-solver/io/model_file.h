@@ -12,6 +12,7 @@
 
 #include "geometry_io/geometry_io.h"
 #include "structure/conditions/probe.h"
+#include "structure/solid/solid.h"
 #include "structure/time/explicit_solver.h"
 
 namespace io {
@@ -47,13 +48,14 @@ struct ModelFile {
   int geometry_line;
   geometry_io::GeometryFile geometry;  ///< holds one patch, a Volume
   std::shared_ptr<const structure::Material> material;
-  std::vector<FixedFaces> boundary;
-  std::vector<structure::Probe> probes;  ///< in the order of the file
-  std::optional<HistoryOutput> output;
-  std::optional<Vector3> gravity;  ///< [length/time^2]
-  std::vector<FaceTraction> tractions;
+  structure::Integration integration = {};
+  std::vector<FixedFaces> boundary = {};
+  std::vector<structure::Probe> probes = {};  ///< in the order of the file
+  std::optional<HistoryOutput> output = {};
+  std::optional<Vector3> gravity = {};  ///< [length/time^2]
+  std::vector<FaceTraction> tractions = {};
   Vector3 initial_velocity = Vector3::Zero();  ///< [length/time], uniform
-  std::optional<TimeSpan> time;
+  std::optional<TimeSpan> time = {};
 
   const nurbs::Volume& volume() const { return std::get<nurbs::Volume>(geometry.patches.front()); }
 };

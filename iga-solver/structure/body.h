@@ -37,6 +37,8 @@ class Body {
   virtual nurbs::BoundarySurface skin(const SkinPiece& piece) const = 0;
   virtual double volume() const = 0;  ///< [length^3]
   virtual const Material& material() const = 0;
+  /// Choices that a saved state depends on, beside patches and material, in words; empty for the usual ones.
+  virtual std::string discretisation() const { return {}; }
   /// Row sums of the consistent mass matrix, integral of density R_A [mass], one per node, all > 0.
   virtual const Eigen::VectorXd& row_sum_mass() const = 0;
 

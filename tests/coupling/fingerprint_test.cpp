@@ -11,8 +11,7 @@
 #include "nurbs/primitives.h"
 #include "standard_linear_solid.h"
 #include "structure/conditions/loads.h"
-#include "structure/material/linear_elastic.h"
-#include "structure/material/saint_venant_kirchhoff.h"
+#include "structure/material/laws.h"
 #include "structure/solid/solid.h"
 #include "wavy_surface.h"
 

@@ -8,7 +8,7 @@
 #include "coupling/force_distribution.h"
 #include "coupling/iga_structure.h"
 #include "nurbs/primitives.h"
-#include "structure/material/linear_elastic.h"
+#include "structure/material/laws.h"
 #include "structure/solid/solid.h"
 
 namespace {

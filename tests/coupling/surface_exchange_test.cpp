@@ -15,7 +15,7 @@
 #include "geometry_io/yaml_map.h"
 #include "late_surface.h"
 #include "nurbs/primitives.h"
-#include "structure/material/linear_elastic.h"
+#include "structure/material/laws.h"
 #include "structure/solid/solid.h"
 #include "wavy_surface.h"
 

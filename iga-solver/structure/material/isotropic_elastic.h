@@ -11,6 +11,8 @@ class IsotropicElastic : public Material {
   double density() const final { return density_; }
   double youngs_modulus() const final { return E_; }
   double poissons_ratio() const final { return nu_; }
+  double lambda() const { return lambda_; }  ///< Lame constants [Pa]
+  double mu() const { return mu_; }
 
  protected:
   /// E [Pa], nu [-], density [kg/m^3].  Throws std::invalid_argument, naming the law, unless E > 0,
@@ -26,7 +28,7 @@ class IsotropicElastic : public Material {
 
  private:
   double E_, nu_, density_;
-  double lambda_, mu_;  // Lame constants [Pa]
+  double lambda_, mu_;
 };
 
 }  // namespace structure

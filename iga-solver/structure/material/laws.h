@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The laws that model files may name.  A law is a class behind Material, in this file or in one of its own,
-// and a row of the table below: its word, the constants that it takes, and how it is made of them.  The rest
-// (keys, messages, fingerprints of restart files, the time step) is the same for all.
+// The laws that model files may name: word, constants, and how a law is made of them.  An elastic law of two
+// constants is a struct in a file of its own and its name in law_list.h; any other is a class behind Material
+// and a row here.  The rest (keys, messages, fingerprints of restart files, the time step) is the same for
+// all.
 #pragma once
 
 #include <limits>
 #include <memory>
 #include <vector>
 
-#include "structure/material/linear_elastic.h"
-#include "structure/material/saint_venant_kirchhoff.h"
+#include "structure/material/elastic_material.h"
+#include "structure/material/law_list.h"
 
 namespace structure {
 
@@ -26,19 +27,25 @@ struct MaterialLaw {
   std::shared_ptr<const Material> (*make)(const std::vector<double>& constants);
 };
 
+using LinearElastic = ElasticMaterial<LinearElasticLaw>;
+using SaintVenantKirchhoff = ElasticMaterial<SaintVenantKirchhoffLaw>;
+
 template <class Law>
-std::shared_ptr<const Material> isotropic(const std::vector<double>& constants) {
-  return std::make_shared<Law>(constants[0], constants[1], constants[2]);
+MaterialLaw elastic_law() {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  return {Law::kWord,
+          {{"youngs_modulus", 0.0, kInfinity}, {"poissons_ratio", -1.0, 0.5}, {"density", 0.0, kInfinity}},
+          [](const std::vector<double>& constants) -> std::shared_ptr<const Material> {
+            return std::make_shared<ElasticMaterial<Law>>(constants[0], constants[1], constants[2]);
+          }};
+}
+template <class... Laws>
+std::vector<MaterialLaw> elastic_laws(LawList<Laws...>) {
+  return {elastic_law<Laws>()...};
 }
 
 inline const std::vector<MaterialLaw>& material_laws() {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  static const std::vector<MaterialConstant> kIsotropic = {
-      {"youngs_modulus", 0.0, kInfinity}, {"poissons_ratio", -1.0, 0.5}, {"density", 0.0, kInfinity}};
-  static const std::vector<MaterialLaw> kLaws = {
-      {"linear_elastic", kIsotropic, isotropic<LinearElastic>},
-      {"saint_venant_kirchhoff", kIsotropic, isotropic<SaintVenantKirchhoff>},
-  };
+  static const std::vector<MaterialLaw> kLaws = elastic_laws(ElasticLaws{});
   return kLaws;
 }
 

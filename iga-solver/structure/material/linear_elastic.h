@@ -3,22 +3,21 @@
 // Source: Gao & Feng (2019), eq. 17 (there in Voigt notation).
 #pragma once
 
-#include "structure/material/isotropic_elastic.h"
+#include "structure/material/tensor.h"
 
 namespace structure {
 
-class LinearElastic final : public IsotropicElastic {
- public:
-  /// Arguments and errors as IsotropicElastic.
-  LinearElastic(double youngs_modulus, double poissons_ratio, double density)
-      : IsotropicElastic("LinearElastic", youngs_modulus, poissons_ratio, density) {}
+struct LinearElasticLaw {
+  static constexpr const char* kWord = "linear_elastic";
+  double lambda, mu;  // Lame constants [Pa]
 
-  const char* law() const override { return "linear_elastic"; }
-  Matrix3 stress(const Matrix3& H, const double* /*state*/) const override {
-    return hooke(0.5 * (H + H.transpose()));
+  template <class Number>
+  [[gnu::always_inline]] Tensor<Number> stress(const Tensor<Number>& H) const {
+    return hooke(lambda, mu, symmetric_part(H));
   }
-  double energy_density(const Matrix3& H, const double* state) const override {
-    return 0.5 * stress(H, state).cwiseProduct(H).sum();
+  template <class Number>
+  [[gnu::always_inline]] Number energy_density(const Tensor<Number>& H) const {
+    return 0.5 * double_dot(stress(H), H);
   }
 };
 

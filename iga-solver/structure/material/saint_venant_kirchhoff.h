@@ -5,29 +5,40 @@
 // Source: Bonet & Wood (2008), Nonlinear Continuum Mechanics for Finite Element Analysis, eqs. 6.28-6.29.
 #pragma once
 
-#include "structure/material/isotropic_elastic.h"
+#include "structure/material/tensor.h"
 
 namespace structure {
 
-class SaintVenantKirchhoff final : public IsotropicElastic {
- public:
-  /// Arguments and errors as IsotropicElastic.
-  SaintVenantKirchhoff(double youngs_modulus, double poissons_ratio, double density)
-      : IsotropicElastic("SaintVenantKirchhoff", youngs_modulus, poissons_ratio, density) {}
+struct SaintVenantKirchhoffLaw {
+  static constexpr const char* kWord = "saint_venant_kirchhoff";
+  double lambda, mu;  // Lame constants [Pa]
 
-  const char* law() const override { return "saint_venant_kirchhoff"; }
-  Matrix3 stress(const Matrix3& H, const double* /*state*/) const override {
-    const Matrix3 S = hooke(green_lagrange(H));
-    return S + H * S;
+  template <class Number>
+  [[gnu::always_inline]] Tensor<Number> stress(const Tensor<Number>& H) const {
+    const Tensor<Number> S = hooke(lambda, mu, green_lagrange(H));
+    Tensor<Number> P = S;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) P(i, j) += H(i, 0) * S(0, j) + H(i, 1) * S(1, j) + H(i, 2) * S(2, j);
+    return P;
   }
-  double energy_density(const Matrix3& H, const double* /*state*/) const override {
-    const Matrix3 E = green_lagrange(H);
-    return 0.5 * hooke(E).cwiseProduct(E).sum();
+  template <class Number>
+  [[gnu::always_inline]] Number energy_density(const Tensor<Number>& H) const {
+    const Tensor<Number> E = green_lagrange(H);
+    return 0.5 * double_dot(hooke(lambda, mu, E), E);
   }
 
  private:
   // From H, not from F: no digits are lost where strains are small.
-  static Matrix3 green_lagrange(const Matrix3& H) { return 0.5 * (H + H.transpose() + H.transpose() * H); }
+  template <class Number>
+  [[gnu::always_inline]] static Tensor<Number> green_lagrange(const Tensor<Number>& H) {
+    Tensor<Number> E = symmetric_part(H);
+    for (int i = 0; i < 3; ++i)
+      for (int j = i; j < 3; ++j) {
+        E(i, j) += 0.5 * (H(0, i) * H(0, j) + H(1, i) * H(1, j) + H(2, i) * H(2, j));
+        E(j, i) = E(i, j);
+      }
+    return E;
+  }
 };
 
 }  // namespace structure

@@ -48,9 +48,9 @@ void element_force(const Material& material, const ElementGeometry& element, con
   for (int q = 0; q < element.points; ++q) {
     const double* dR_dX = element.dR_dX + 3 * n * q;
     const Matrix3 H = displacement_gradient(u, dR_dX, n);
-    if (memory.next)
-      material.evolve(H, memory.dt, memory.state + q * remembered, memory.next + q * remembered);
-    add_force(element.wJ[q] * material.stress(H, held + q * remembered), dR_dX, n, f);
+    const int slot = remembered * element.slot[q];
+    if (memory.next) material.evolve(H, memory.dt, memory.state + slot, memory.next + slot);
+    add_force(element.wJ[q] * material.stress(H, held + slot), dR_dX, n, f);
   }
 }
 
@@ -73,7 +73,7 @@ double element_energy(const Material& material, const ElementGeometry& element, 
   double energy = 0.0;
   for (int q = 0; q < element.points; ++q)
     energy += element.wJ[q] * material.energy_density(displacement_gradient(u, element.dR_dX + 3 * n * q, n),
-                                                      state + q * remembered);
+                                                      state + remembered * element.slot[q]);
   return energy;
 }
 

@@ -18,11 +18,12 @@ constexpr int padded(int functions) { return (functions + 3) / 4 * 4; }
 struct ElementGeometry {
   const double* dR_dX;  ///< [point][direction][padded functions] [1/length]
   const double* wJ;     ///< [point] quadrature weight times |dX/dxi| [length^3]
+  const int* slot;      ///< [point]: its place in the memory
   int points;
   int padded;
 };
 
-/// What the points of one element remember, [point][Material::state_size()].
+/// What the points of one element remember, [slot][Material::state_size()].
 struct ElementMemory {
   const double* state = nullptr;
   double* next = nullptr;  ///< of a time step: where the memory at its end goes; null: held at `state`

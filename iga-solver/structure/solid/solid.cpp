@@ -6,132 +6,187 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <stdexcept>
 
 #include "nurbs/assert.h"
-#include "nurbs/gauss_legendre.h"
 #include "nurbs/memory.h"
+#include "structure/solid/element_loop.h"
+#include "structure/sweep/affine_map.h"
+#include "structure/sweep/patch_sweep.h"
 
 namespace structure {
 
 namespace {
 
-constexpr int kMaxElementValues = 3 * padded(nurbs::RationalBasis<3>::kMaxFunctions);
+constexpr const char* kMethods[] = {"auto", "affine", "stored", "recomputed", "elements"};
 
-/// dX/dxi from reference control points: J(i, d) = sum_A X_A,i dR_A/dxi_d.
-Matrix3 jacobian(const nurbs::RationalBasis<3>& basis, const NodalVectors& X) {
+GeometryMode geometry_mode(IntegrationMethod method) {
+  return method == IntegrationMethod::affine   ? GeometryMode::affine
+         : method == IntegrationMethod::stored ? GeometryMode::stored
+                                               : GeometryMode::recomputed;
+}
+
+/// dX/dxi and du/dxi alike: J(i, d) = sum_A q_A,i dR_A/dxi_d.
+Matrix3 parameter_gradient(const nurbs::RationalBasis<3>& basis, const NodalVectors& q) {
   Matrix3 J = Matrix3::Zero();
   for (int a = 0; a < basis.count; ++a)
-    for (int d = 0; d < 3; ++d) J.col(d) += basis.dR[d][a] * X.col(basis.control_point[a]);
+    for (int d = 0; d < 3; ++d) J.col(d) += basis.dR[d][a] * q.col(basis.control_point[a]);
   return J;
-}
-
-/// Gauss points of one direction in one span.
-nurbs::QuadratureRule rule_of(const nurbs::Space<3>& space, int direction, int span) {
-  const std::vector<double>& breaks = space.knots(direction).breaks();
-  return nurbs::gauss_legendre(space.degree(direction) + 1, breaks[span], breaks[span + 1]);
-}
-
-[[noreturn]] void throw_not_positive(double det_J, int element, const std::array<int, 3>& span) {
-  throw std::invalid_argument(fmt::format(
-      "Solid: Jacobian determinant {} in element {} (spans {}, {}, {} of xi, eta, zeta), expected > 0: "
-      "the patch is left-handed or folded there",
-      det_J, element, span[0], span[1], span[2]));
 }
 
 }  // namespace
 
-Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material)
-    : patch_(std::move(patch)), material_(std::move(material)) {
-  nurbs::check_patch(patch_);
-  const nurbs::Space<3>& space = patch_.space;
-  const std::size_t elements = space.element_count();
-  functions_ = points_ =
-      space.functions_per_element();  // degree + 1 points per direction: as many as functions
-  padded_ = padded(functions_);
-  remembered_ = std::size_t(points_) * material_->state_size();
-  nurbs::expect_memory(sizeof(double) * ((3.0 * points_ + 1.0) * padded_ + 2.0 * remembered_) * elements,
-                       fmt::format("a solid of {} elements of degrees {}, {}, {}", elements, space.degree(0),
-                                   space.degree(1), space.degree(2)));
-  nodes_.resize(elements * functions_);
-  dR_dX_.assign(elements * points_ * 3 * padded_, 0.0);
-  wJ_.resize(elements * points_);
-  element_mass_.assign(elements * padded_, 0.0);
-  row_sum_mass_ = Eigen::VectorXd::Zero(node_count());
-  force_kernel_ = force_kernel(padded_);
-  memory_.assign(elements * remembered_, 0.0);
+const char* name(IntegrationMethod method) { return kMethods[static_cast<int>(method)]; }
+
+IntegrationMethod integration_method_from_name(const std::string& word) {
+  for (int i = 0; i < 5; ++i)
+    if (word == kMethods[i]) return static_cast<IntegrationMethod>(i);
+  throw std::invalid_argument(
+      fmt::format("method is '{}', expected one of: {}", word, fmt::join(kMethods, ", ")));
+}
+
+Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration)
+    : patch_(std::make_unique<const nurbs::Volume>(std::move(patch))),
+      material_(std::move(material)),
+      integration_(integration),
+      boxes_(whole_patch(patch_->space)),
+      first_element_{0},
+      functions_(patch_->space.functions_per_element()),
+      padded_(padded(functions_)),
+      tabulate_(*patch_, integration.quadrature),
+      tabulate_fully_(*patch_, Quadrature::full) {
+  nurbs::check_patch(*patch_);
+  for (const PlacedBox& box : boxes_)
+    first_element_.push_back(first_element_.back() + box.spans.element_count());
+  choose_method();
+  integrate_mass();
+  if (integration_.method == IntegrationMethod::elements)
+    integrals_ = std::make_unique<ElementLoop>(*patch_, boxes_, *material_, integration_.quadrature);
+  else
+    integrals_ = std::make_unique<PatchSweep>(*patch_, boxes_, *material_, integration_.quadrature,
+                                              geometry_mode(integration_.method));
+  remembered_ = std::size_t(tabulate_.slots()) * material_->state_size();
+  nurbs::expect_memory(2.0 * sizeof(double) * remembered_ * element_count(),
+                       fmt::format("the memory of a solid of {} elements", element_count()));
+  memory_.assign(element_count() * remembered_, 0.0);
   next_memory_ = memory_;
-  for (int e = 0; e < space.element_count(); ++e) integrate_element(e);
 }
 
-void Solid::integrate_element(int element) {
-  const nurbs::Space<3>& space = patch_.space;
-  const std::array<int, 3> span = space.element_indices(element);
-  nurbs::QuadratureRule rule[3];
-  for (int d = 0; d < 3; ++d) rule[d] = rule_of(space, d, span[d]);
-  int* nodes = &nodes_[std::size_t(element) * functions_];
-  space.element_control_points(element, nodes);
-  int point = 0;
-  for (std::size_t k = 0; k < rule[2].points.size(); ++k)
-    for (std::size_t j = 0; j < rule[1].points.size(); ++j)
-      for (std::size_t i = 0; i < rule[0].points.size(); ++i)
-        integrate_point(element, point++, {rule[0].points[i], rule[1].points[j], rule[2].points[k]},
-                        rule[0].weights[i] * rule[1].weights[j] * rule[2].weights[k]);
-  for (int a = 0; a < functions_; ++a) row_sum_mass_[nodes[a]] += element_mass(element)[a];
+void Solid::choose_method() {
+  IntegrationMethod& method = integration_.method;
+  const bool can_sweep = PatchSweep::can_sweep(patch_->space);
+  if (method == IntegrationMethod::automatic)
+    method = !can_sweep                 ? IntegrationMethod::elements
+             : affine_jacobian(*patch_) ? IntegrationMethod::affine
+                                        : IntegrationMethod::recomputed;
+  if (method != IntegrationMethod::elements && !can_sweep)
+    throw std::invalid_argument(
+        fmt::format("Solid: method is '{}' and the degrees are {}, {}, {}, expected degrees {} to {} (or "
+                    "'auto', 'elements')",
+                    name(method), patch_->space.degree(0), patch_->space.degree(1), patch_->space.degree(2),
+                    kLowestSweptDegree, kHighestSweptDegree));
+  if (method == IntegrationMethod::affine && !affine_jacobian(*patch_))
+    throw std::invalid_argument(
+        "Solid: method is 'affine', expected 'auto', 'stored' or 'recomputed': the Jacobian of the patch is "
+        "not "
+        "the same everywhere");
 }
 
-void Solid::integrate_point(int element, int point, const nurbs::Parameter<3>& xi, double weight) {
-  nurbs::RationalBasis<3> basis;
-  nurbs::evaluate_on_element(patch_.space, element, xi, 1, basis);
-  const Matrix3 J = jacobian(basis, patch_.control_points);
-  const double det_J = J.determinant();
-  if (!(det_J > 0.0)) throw_not_positive(det_J, element, patch_.space.element_indices(element));
-
-  const std::size_t index = std::size_t(element) * points_ + point;
-  const double wJ = wJ_[index] = weight * det_J;
-  double* dR_dX = &dR_dX_[index * 3 * padded_];
-  double* mass = &element_mass_[std::size_t(element) * padded_];
-  const Matrix3 J_inverse_transposed = J.inverse().transpose();
-  for (int a = 0; a < functions_; ++a) {
-    const Vector3 gradient = J_inverse_transposed * Vector3(basis.dR[0][a], basis.dR[1][a], basis.dR[2][a]);
-    for (int d = 0; d < 3; ++d) dR_dX[d * padded_ + a] = gradient[d];
-    mass[a] += material_->density() * basis.R[a] * wJ;
+/// Row sums by full quadrature, which also looks for folds.
+void Solid::integrate_mass() {
+  row_sum_mass_ = Eigen::VectorXd::Zero(node_count());
+  double least_det = -1.0;  // not known
+  if (PatchSweep::can_sweep(patch_->space)) {
+    const PatchSweep sweep(*patch_, boxes_, *material_, Quadrature::full, GeometryMode::recomputed);
+    const PatchSweep::Volume volume = sweep.add_row_sums(row_sum_mass_);
+    volume_ = volume.volume;
+    least_det = volume.least_det;
   }
+  if (!(least_det > 0.0)) {  // degrees that are not swept, or a fold: found again, with its place
+    row_sum_mass_.setZero();
+    for (int e = 0; e < element_count(); ++e) {
+      const OneElement& element = one(e);
+      for (int a = 0; a < functions_; ++a) row_sum_mass_[element.columns[a]] += element.mass[a];
+    }
+    volume_ = row_sum_mass_.sum() / material_->density();
+    return;
+  }
+  row_sum_mass_ *= material_->density();
 }
 
-ElementGeometry Solid::geometry(int element) const {
-  NURBS_ASSERT(0 <= element && element < patch_.space.element_count(), element);
-  const std::size_t first_point = std::size_t(element) * points_;
-  return {&dR_dX_[first_point * 3 * padded_], &wJ_[first_point], points_, padded_};
+std::array<int, 3> Solid::spans_of(int element) const {
+  NURBS_ASSERT(0 <= element && element < element_count(), element, element_count());
+  const std::size_t b =
+      std::upper_bound(first_element_.begin(), first_element_.end(), element) - first_element_.begin() - 1;
+  const SpanBox& box = boxes_[b].spans;
+  return box.span(element - first_element_[b]);
+}
+
+const Solid::OneElement& Solid::one(int element) const {
+  if (one_.element == element) return one_;
+  one_.element = -1;  // until all is known
+  const int in_patch = patch_->space.element_index(spans_of(element));
+  one_.columns.resize(functions_);
+  patch_->space.element_control_points(in_patch, one_.columns.data());
+  tabulate_(in_patch, one_.tables);
+  one_.mass.assign(padded_, 0.0);
+  tabulate_fully_.add_row_sums(in_patch, one_.mass.data());
+  for (double& mass : one_.mass) mass *= material_->density();
+  one_.element = element;
+  return one_;
+}
+
+std::string Solid::discretisation() const {
+  return integration_.quadrature == Quadrature::full ? "" : name(integration_.quadrature);
 }
 
 nurbs::BoundarySurface Solid::skin(const SkinPiece& piece) const {
   if (piece.patch != 0)
     throw std::invalid_argument(fmt::format("Solid: skin of patch {}, expected 0: it has one", piece.patch));
-  return nurbs::boundary_surface(patch_.space, piece.face);
+  return nurbs::boundary_surface(patch_->space, piece.face);
 }
 
 std::string Solid::describe_element(int element) const {
-  const nurbs::Space<3>& space = patch_.space;
-  const std::array<int, 3> spans = space.element_indices(element);
+  const nurbs::Space<3>& space = patch_->space;
+  const std::array<int, 3> spans = spans_of(element);
+  const nurbs::Parameter<3> centre = space.element_centre(space.element_index(spans));
   return fmt::format("element {} (spans {}, {}, {} of xi, eta, zeta, undeformed about {})", element, spans[0],
-                     spans[1], spans[2],
-                     text(nurbs::interpolate(space, patch_.control_points, space.element_centre(element))));
+                     spans[1], spans[2], text(nurbs::interpolate(space, patch_->control_points, centre)));
 }
-
-double Solid::volume() const { return std::accumulate(wJ_.begin(), wJ_.end(), 0.0); }
 
 void Solid::gather(int element, const NodalVectors& nodal, double* values) const {
   NURBS_ASSERT(nodal.cols() == node_count(), nodal.cols(), node_count());
-  const int* nodes = element_nodes(element);
+  const std::vector<int>& columns = one(element).columns;
   for (int i = 0; i < 3; ++i) {
-    for (int a = 0; a < functions_; ++a) values[i * padded_ + a] = nodal(i, nodes[a]);
+    for (int a = 0; a < functions_; ++a) values[i * padded_ + a] = nodal(i, columns[a]);
     std::fill(values + i * padded_ + functions_, values + (i + 1) * padded_, 0.0);
   }
 }
 
-ElementMemory Solid::held_memory(int element) const { return {memory_.data() + element * remembered_}; }
+void Solid::element_force(int element, const double* u, double* f) const {
+  const double* const memory = memory_.data() + element * remembered_;
+  force_kernel(padded_)(*material_, one(element).tables.geometry(), {memory}, u, f);
+}
+
+const double* Solid::element_mass(int element) const { return one(element).mass.data(); }
+
+double Solid::smallest_volume_ratio(int element, const double* u) const {
+  return structure::smallest_volume_ratio(one(element).tables.geometry(), u);
+}
+
+void Solid::internal_force(const NodalVectors& u, NodalVectors& f) const {
+  NURBS_ASSERT(u.cols() == node_count() && f.cols() == node_count(), u.cols(), f.cols(), node_count());
+  integrals_->internal_force({memory_.data()}, u, f);
+}
+
+void Solid::evolve(const NodalVectors& u, double dt, NodalVectors& f) {
+  if (remembered_ == 0) return internal_force(u, f);
+  integrals_->internal_force({memory_.data(), next_memory_.data(), dt}, u, f);
+}
+
+double Solid::strain_energy(const NodalVectors& u) const {
+  return integrals_->strain_energy({memory_.data()}, u);
+}
 
 void Solid::set_memory(std::vector<double> memory) {
   if (memory.size() != memory_.size())
@@ -140,77 +195,24 @@ void Solid::set_memory(std::vector<double> memory) {
   memory_ = std::move(memory);
 }
 
-void Solid::element_force(int element, const double* u, double* f) const {
-  force_kernel_(*material_, geometry(element), held_memory(element), u, f);
-}
-
-double Solid::smallest_volume_ratio(int element, const double* u) const {
-  return structure::smallest_volume_ratio(geometry(element), u);
-}
-
-template <class ElementForce>
-void Solid::assemble(const NodalVectors& u, NodalVectors& f, ElementForce element_force) const {
-  NURBS_ASSERT(u.cols() == node_count() && f.cols() == node_count(), u.cols(), f.cols(), node_count());
-  double u_element[kMaxElementValues], f_element[kMaxElementValues];
-  f.setZero();
-  for (int e = 0; e < patch_.space.element_count(); ++e) {
-    gather(e, u, u_element);
-    element_force(e, u_element, f_element);
-    const int* nodes = element_nodes(e);
-    for (int a = 0; a < functions_; ++a)
-      for (int i = 0; i < 3; ++i) f(i, nodes[a]) += f_element[i * padded_ + a];
-  }
-}
-
-void Solid::internal_force(const NodalVectors& u, NodalVectors& f) const {
-  assemble(u, f, [this](int e, const double* u_e, double* f_e) { element_force(e, u_e, f_e); });
-}
-
-void Solid::evolve(const NodalVectors& u, double dt, NodalVectors& f) {
-  if (remembered_ == 0) return internal_force(u, f);
-  assemble(u, f, [&](int e, const double* u_e, double* f_e) {
-    ElementMemory memory = held_memory(e);
-    memory.next = next_memory_.data() + e * remembered_;
-    memory.dt = dt;
-    force_kernel_(*material_, geometry(e), memory, u_e, f_e);
-  });
-}
-
-double Solid::strain_energy(const NodalVectors& u) const {
-  double u_element[kMaxElementValues];
-  double energy = 0.0;
-  for (int e = 0; e < patch_.space.element_count(); ++e) {
-    gather(e, u, u_element);
-    energy += element_energy(*material_, geometry(e), held_memory(e).state, u_element);
-  }
-  return energy;
-}
-
 Matrix3 Solid::displacement_gradient(const NodalVectors& u, const nurbs::Parameter<3>& xi) const {
   nurbs::RationalBasis<3> basis;
-  nurbs::evaluate(patch_.space, xi, 1, basis);
-  return jacobian(basis, u) * jacobian(basis, patch_.control_points).inverse();
+  nurbs::evaluate(patch_->space, xi, 1, basis);
+  return parameter_gradient(basis, u) * parameter_gradient(basis, patch_->control_points).inverse();
+}
+
+/// Where the quadrature point that is nearest in parameters has its memory.
+std::size_t Solid::nearest_memory(const nurbs::Parameter<3>& xi) const {
+  const std::array<int, 3> span = patch_->space.element_indices(patch_->space.element_at(xi));
+  std::size_t b = 0;
+  while (!boxes_[b].spans.holds(span)) ++b;
+  const SpanBox& box = boxes_[b].spans;
+  const std::size_t element = first_element_[b] + box.element(span);
+  return element * remembered_ + std::size_t(tabulate_.nearest_slot(span, xi)) * material_->state_size();
 }
 
 Matrix3 Solid::stress(const NodalVectors& u, const nurbs::Parameter<3>& xi) const {
-  return material_->stress(displacement_gradient(u, xi),
-                           memory_.data() + nearest_point(xi) * material_->state_size());
-}
-
-/// Quadrature point, counted through all elements, that is nearest in parameters.
-std::size_t Solid::nearest_point(const nurbs::Parameter<3>& xi) const {
-  const nurbs::Space<3>& space = patch_.space;
-  const int element = space.element_at(xi);
-  const std::array<int, 3> span = space.element_indices(element);
-  std::size_t point = 0;
-  for (int d = 2; d >= 0; --d) {
-    const std::vector<double> points = rule_of(space, d, span[d]).points;
-    const auto nearest = std::min_element(points.begin(), points.end(), [&](double a, double b) {
-      return std::abs(a - xi[d]) < std::abs(b - xi[d]);
-    });
-    point = point * points.size() + (nearest - points.begin());
-  }
-  return std::size_t(element) * points_ + point;
+  return material_->stress(displacement_gradient(u, xi), memory_.data() + nearest_memory(xi));
 }
 
 }  // namespace structure

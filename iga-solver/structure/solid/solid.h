@@ -1,41 +1,65 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A deformable solid: one NURBS volume patch of one material, integrated with (p+1)^3 Gauss points per
-// element. Source: Hughes, Cottrell & Bazilevs (2005); Gao & Feng (2019), eqs. 16-19.
+// A deformable solid: one NURBS volume patch of one material.
+// Source: Hughes, Cottrell & Bazilevs (2005); Gao & Feng (2019), eqs. 16-19.
 #pragma once
 
 #include <Eigen/Core>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "nurbs/patch.h"
 #include "structure/body.h"
 #include "structure/material/material.h"
-#include "structure/solid/element_kernel.h"
+#include "structure/solid/box_grid.h"
+#include "structure/solid/element_tables.h"
+#include "structure/solid/integrals.h"
 
 namespace structure {
 
-/// Matrix-free: no stiffness is assembled; dR/dX at every quadrature point is stored.  Reference kernel: one
-/// plain loop over elements, in element order, so results are the same in every run.
+/// How integrals over a solid are worked out.
+enum class IntegrationMethod {
+  automatic,   ///< affine if the map is, else recomputed; elements for degrees that sweeps do not know
+  affine,      ///< sweeps with one Jacobian for all points
+  stored,      ///< sweeps with Jacobians from a table of 80 bytes per point (rational: 104)
+  recomputed,  ///< sweeps that work Jacobians out anew
+  elements     ///< the plain loop over elements, with a table of dR/dX: the reference
+};
+const char* name(IntegrationMethod method);
+/// Throws std::invalid_argument, naming all words, for another one.
+IntegrationMethod integration_method_from_name(const std::string& word);
+
+struct Integration {
+  Quadrature quadrature = Quadrature::full;  ///< of forces and energies; masses are integrated fully
+  IntegrationMethod method = IntegrationMethod::automatic;
+};
+
+/// Matrix-free: no stiffness is assembled.  The same sums in the same order in every run.  Elements are
+/// counted box after box (box_grid.h), those of a box with the first direction fastest.
 class Solid final : public Body {
  public:
-  /// The patch gives the reference configuration X.  Throws std::invalid_argument if the patch is not valid
-  /// or if the Jacobian determinant of some element is not positive (a left-handed or folded patch).
-  Solid(nurbs::Volume patch, std::shared_ptr<const Material> material);
+  /// The patch gives the reference configuration X.  Throws std::invalid_argument if the patch is not valid,
+  /// if the Jacobian determinant of some element is not positive (a left-handed or folded patch), or if the
+  /// integration is not for it.
+  Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration = {});
 
-  const nurbs::Volume& patch() const { return patch_; }
+  const nurbs::Volume& patch() const { return *patch_; }
+  const Integration& integration() const { return integration_; }  ///< the method that was chosen
+  double table_bytes() const { return integrals_->table_bytes(); }
   /// H = du/dX [-] at a parameter point.
   Matrix3 displacement_gradient(const NodalVectors& u, const nurbs::Parameter<3>& xi) const;
   /// First Piola-Kirchhoff stress [stress] at a parameter point; the Cauchy stress while strains are small.
   /// A law with memory takes that of the nearest quadrature point.
   Matrix3 stress(const NodalVectors& u, const nurbs::Parameter<3>& xi) const;
 
-  int node_count() const override { return patch_.space.control_point_count(); }
-  const NodalVectors& reference() const override { return patch_.control_points; }
-  PatchSpaces patches() const override { return std::vector{patch_.space}; }
+  int node_count() const override { return patch_->space.control_point_count(); }
+  const NodalVectors& reference() const override { return patch_->control_points; }
+  PatchSpaces patches() const override { return std::vector{patch_->space}; }
   /// Throws std::invalid_argument unless it is a face of patch 0.
   nurbs::BoundarySurface skin(const SkinPiece& piece) const override;
-  double volume() const override;
+  double volume() const override { return volume_; }
   const Material& material() const override { return *material_; }
+  std::string discretisation() const override;
   const Eigen::VectorXd& row_sum_mass() const override { return row_sum_mass_; }
 
   void internal_force(const NodalVectors& u, NodalVectors& f) const override;
@@ -45,37 +69,41 @@ class Solid final : public Body {
   void set_memory(std::vector<double> memory) override;
   double strain_energy(const NodalVectors& u) const override;
 
-  int element_count() const override { return patch_.space.element_count(); }
+  int element_count() const override { return first_element_.back(); }
   int padded_functions() const override { return padded_; }
   void gather(int element, const NodalVectors& nodal, double* values) const override;
   void element_force(int element, const double* u, double* f) const override;
-  const double* element_mass(int element) const override {
-    return &element_mass_[std::size_t(element) * padded_];
-  }
+  const double* element_mass(int element) const override;
   double smallest_volume_ratio(int element, const double* u) const override;
   std::string describe_element(int element) const override;
 
  private:
-  void integrate_element(int element);
-  void integrate_point(int element, int point, const nurbs::Parameter<3>& xi, double weight);
-  ElementGeometry geometry(int element) const;
-  ElementMemory held_memory(int element) const;
-  std::size_t nearest_point(const nurbs::Parameter<3>& xi) const;
-  template <class ElementForce>
-  void assemble(const NodalVectors& u, NodalVectors& f, ElementForce element_force) const;
-  const int* element_nodes(int element) const { return &nodes_[std::size_t(element) * functions_]; }
+  /// One element, worked out when it is asked for.
+  struct OneElement {
+    int element = -1;
+    std::vector<int> columns;
+    ElementTables tables;
+    std::vector<double> mass;  // [padded]
+  };
+  const OneElement& one(int element) const;
+  std::array<int, 3> spans_of(int element) const;
+  void choose_method();
+  void integrate_mass();
+  std::size_t nearest_memory(const nurbs::Parameter<3>& xi) const;
 
-  nurbs::Volume patch_;
+  std::unique_ptr<const nurbs::Volume> patch_;  // tables refer to it
   std::shared_ptr<const Material> material_;
-  int functions_, padded_, points_;           // per element
-  std::vector<int> nodes_;                    // [element][function]
-  std::vector<double> dR_dX_;                 // [element][point][direction][padded]
-  std::vector<double> wJ_;                    // [element][point]
-  std::vector<double> element_mass_;          // [element][padded]
+  Integration integration_;
+  std::vector<PlacedBox> boxes_;
+  std::vector<int> first_element_;  // of each box, and of one beyond
+  int functions_, padded_;          // per element
+  ElementTabulator tabulate_, tabulate_fully_;
+  std::unique_ptr<const Integrals> integrals_;
   std::size_t remembered_;                    // numbers per element
-  std::vector<double> memory_, next_memory_;  // [element][point][Material::state_size()]
+  std::vector<double> memory_, next_memory_;  // as PointMemory
   Eigen::VectorXd row_sum_mass_;
-  ForceKernel force_kernel_;
+  double volume_ = 0.0;
+  mutable OneElement one_;
 };
 
 }  // namespace structure

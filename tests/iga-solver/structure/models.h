@@ -9,7 +9,7 @@
 
 #include "nurbs/patch.h"
 #include "structure/conditions/supports.h"
-#include "structure/material/linear_elastic.h"
+#include "structure/material/laws.h"
 #include "structure/solid/solid.h"
 
 namespace models {

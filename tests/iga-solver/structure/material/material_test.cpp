@@ -11,7 +11,7 @@
 
 #include "models.h"
 #include "standard_linear_solid.h"
-#include "structure/material/saint_venant_kirchhoff.h"
+#include "structure/material/laws.h"
 
 namespace {
 

@@ -228,11 +228,12 @@ TEST(Solid, GathersZerosBeyondTheFunctions) {
 TEST(Solid, HasNoSmallestVolumeRatioWhereItIsNoNumber) {
   constexpr int kPadded = 4;
   const double u[3 * kPadded] = {}, wJ[2] = {1.0, 1.0};
+  const int slot[2] = {0, 1};
   for (const int point : {0, 1}) {
     double dR_dX[2 * 3 * kPadded] = {};
-    EXPECT_EQ(structure::smallest_volume_ratio({dR_dX, wJ, 2, kPadded}, u), 1.0);
+    EXPECT_EQ(structure::smallest_volume_ratio({dR_dX, wJ, slot, 2, kPadded}, u), 1.0);
     dR_dX[3 * kPadded * point] = std::nan("");
-    EXPECT_TRUE(std::isnan(structure::smallest_volume_ratio({dR_dX, wJ, 2, kPadded}, u))) << point;
+    EXPECT_TRUE(std::isnan(structure::smallest_volume_ratio({dR_dX, wJ, slot, 2, kPadded}, u))) << point;
   }
 }
 

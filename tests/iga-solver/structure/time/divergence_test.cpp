@@ -9,7 +9,7 @@
 
 #include "models.h"
 #include "structure/conditions/loads.h"
-#include "structure/material/saint_venant_kirchhoff.h"
+#include "structure/material/laws.h"
 #include "structure/time/explicit_solver.h"
 
 namespace {

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A law of two elastic constants behind the material seam.
+#pragma once
+
+#include "structure/material/isotropic_elastic.h"
+#include "structure/material/tensor.h"
+
+namespace structure {
+
+/// Law: a struct of lambda and mu with kWord, stress(H) and energy_density(H) for any kind of number.
+template <class Law>
+class ElasticMaterial final : public IsotropicElastic {
+ public:
+  /// Arguments and errors as IsotropicElastic.
+  ElasticMaterial(double youngs_modulus, double poissons_ratio, double density)
+      : IsotropicElastic(Law::kWord, youngs_modulus, poissons_ratio, density), law_{lambda(), mu()} {}
+
+  const Law& point_law() const { return law_; }
+
+  const char* law() const override { return Law::kWord; }
+  Matrix3 stress(const Matrix3& H, const double* /*state*/) const override {
+    const Tensor<double> P = law_.stress(tensor(H));
+    return (Matrix3() << P(0, 0), P(0, 1), P(0, 2), P(1, 0), P(1, 1), P(1, 2), P(2, 0), P(2, 1), P(2, 2))
+        .finished();
+  }
+  double energy_density(const Matrix3& H, const double* /*state*/) const override {
+    return law_.energy_density(tensor(H));
+  }
+
+ private:
+  static Tensor<double> tensor(const Matrix3& H) {
+    return {{{H(0, 0), H(0, 1), H(0, 2)}, {H(1, 0), H(1, 1), H(1, 2)}, {H(2, 0), H(2, 1), H(2, 2)}}};
+  }
+
+  Law law_;
+};
+
+}  // namespace structure

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/solid/box_grid.h"
+
+#include <algorithm>
+
+namespace structure {
+
+namespace {
+
+/// Where a direction is cut: first and last span included.
+std::vector<int> cuts(const nurbs::KnotVector& knots) {
+  const int spans = knots.element_count(), longest = std::max(kBoxSpans, 2 * knots.degree()),
+            pieces = (spans + longest - 1) / longest;
+  std::vector<int> cuts;
+  for (int i = 0; i <= pieces; ++i) cuts.push_back(static_cast<int>(static_cast<long>(spans) * i / pieces));
+  return cuts;
+}
+
+}  // namespace
+
+std::vector<SpanBox> box_grid(const nurbs::Space<3>& space) {
+  const std::vector<int> x = cuts(space.knots(0)), y = cuts(space.knots(1)), z = cuts(space.knots(2));
+  std::vector<SpanBox> boxes;
+  for (std::size_t k = 0; k + 1 < z.size(); ++k)
+    for (std::size_t j = 0; j + 1 < y.size(); ++j)
+      for (std::size_t i = 0; i + 1 < x.size(); ++i)
+        boxes.push_back({{x[i], y[j], z[k]}, {x[i + 1], y[j + 1], z[k + 1]}});
+  return boxes;
+}
+
+std::vector<int> box_nodes(const nurbs::Space<3>& space, const SpanBox& box) {
+  std::array<int, 3> first, last;
+  for (int d = 0; d < 3; ++d) {
+    const nurbs::KnotVector& knots = space.knots(d);
+    first[d] = knots.span_of_element(box.begin[d]) - knots.degree();
+    last[d] = knots.span_of_element(box.end[d] - 1);
+  }
+  std::vector<int> nodes;
+  for (int k = first[2]; k <= last[2]; ++k)
+    for (int j = first[1]; j <= last[1]; ++j)
+      for (int i = first[0]; i <= last[0]; ++i)
+        nodes.push_back(i + space.control_point_count(0) * (j + space.control_point_count(1) * k));
+  return nodes;
+}
+
+std::vector<PlacedBox> whole_patch(const nurbs::Space<3>& space) {
+  std::vector<PlacedBox> boxes;
+  for (const SpanBox& box : box_grid(space)) boxes.push_back({box, box_nodes(space, box)});
+  return boxes;
+}
+
+}  // namespace structure

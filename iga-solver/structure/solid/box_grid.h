@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A patch cut into boxes of knot spans, by the patch alone: whoever holds which of them, forces are added box
+// after box, in the order of their numbers.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "nurbs/patch.h"
+
+namespace structure {
+
+/// Knot spans begin <= span < end in each direction.
+struct SpanBox {
+  std::array<int, 3> begin, end;
+  int spans(int direction) const { return end[direction] - begin[direction]; }
+  int element_count() const { return spans(0) * spans(1) * spans(2); }
+  bool holds(const std::array<int, 3>& span) const {
+    for (int d = 0; d < 3; ++d)
+      if (span[d] < begin[d] || span[d] >= end[d]) return false;
+    return true;
+  }
+  /// Elements are counted with the first direction fastest.
+  int element(const std::array<int, 3>& span) const {
+    return span[0] - begin[0] + spans(0) * (span[1] - begin[1] + spans(1) * (span[2] - begin[2]));
+  }
+  std::array<int, 3> span(int element) const {
+    return {begin[0] + element % spans(0), begin[1] + element / spans(0) % spans(1),
+            begin[2] + element / (spans(0) * spans(1))};
+  }
+};
+
+/// Boxes, the first direction fastest.  A direction is cut into pieces of nearly equal numbers of spans, at
+/// most kBoxSpans, and no fewer than its degree: so a control point has elements in at most two boxes per
+/// direction.
+std::vector<SpanBox> box_grid(const nurbs::Space<3>& space);
+
+/// Long enough for whole words of numbers, short enough for the cache and for many ranks.
+constexpr int kBoxSpans = 32;
+
+/// Control points of the elements of a box, the first direction fastest.
+std::vector<int> box_nodes(const nurbs::Space<3>& space, const SpanBox& box);
+
+/// A box, and where the values of its control points stand in nodal arrays.
+struct PlacedBox {
+  SpanBox spans;
+  std::vector<int> nodes;  ///< control points of the patch, as box_nodes gives them
+  /// Columns that displacements are read from and forces are added to; empty: those of the control points.
+  std::vector<int> read_columns = {}, write_columns = {};
+
+  const std::vector<int>& read() const { return read_columns.empty() ? nodes : read_columns; }
+  const std::vector<int>& write() const { return write_columns.empty() ? nodes : write_columns; }
+};
+
+/// All boxes of a patch that is held whole.
+std::vector<PlacedBox> whole_patch(const nurbs::Space<3>& space);
+
+}  // namespace structure

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The plain way: one element after the other, dR/dX at every point from a table.  What all other ways are
+// held against, and the only one for degrees that are not swept.
+#pragma once
+
+#include <vector>
+
+#include "structure/solid/box_grid.h"
+#include "structure/solid/element_tables.h"
+#include "structure/solid/integrals.h"
+
+namespace structure {
+
+class ElementLoop final : public Integrals {
+ public:
+  /// Keeps a reference to the material.  Throws std::invalid_argument if the patch is left-handed or folded.
+  ElementLoop(const nurbs::Volume& patch, const std::vector<PlacedBox>& boxes, const Material& material,
+              Quadrature quadrature);
+
+  void internal_force(const PointMemory& memory, const nurbs::NodalVectors& u,
+                      nurbs::NodalVectors& f) const override;
+  double strain_energy(const PointMemory& memory, const nurbs::NodalVectors& u) const override;
+  double table_bytes() const override;
+
+ private:
+  struct Element {
+    std::vector<int> read, write;  // columns
+    ElementTables tables;
+  };
+  ElementMemory memory_of(std::size_t element, const PointMemory& memory) const;
+
+  const Material& material_;
+  std::size_t remembered_;  // numbers per element
+  ForceKernel force_kernel_;
+  std::vector<Element> elements_;
+};
+
+/// Columns of an element's control points, the first direction fastest, from those of its box.
+std::vector<int> element_columns(const nurbs::Space<3>& space, const SpanBox& box,
+                                 const std::vector<int>& columns, const std::array<int, 3>& span);
+
+}  // namespace structure

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/solid/quadrature.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace structure {
+
+namespace {
+
+constexpr const char* kNames[] = {"full", "reduced", "zou"};
+
+/// Whether functions are less than p - 1 times continuous at a break.
+bool is_rough(const nurbs::KnotVector& knots, int brk) {
+  const double at = knots.breaks()[brk];
+  return std::count(knots.knots().begin(), knots.knots().end(), at) > 1;
+}
+
+int points_of_span(const nurbs::KnotVector& knots, int span, Quadrature quadrature) {
+  const int p = knots.degree();
+  if (quadrature == Quadrature::full) return p + 1;
+  if (quadrature == Quadrature::reduced) return p;
+  return is_rough(knots, span) || is_rough(knots, span + 1) ? p : p - 1;
+}
+
+}  // namespace
+
+const char* name(Quadrature quadrature) { return kNames[static_cast<int>(quadrature)]; }
+
+Quadrature quadrature_from_name(const std::string& word) {
+  for (int i = 0; i < 3; ++i)
+    if (word == kNames[i]) return static_cast<Quadrature>(i);
+  throw std::invalid_argument(
+      fmt::format("quadrature is '{}', expected one of: {}", word, fmt::join(kNames, ", ")));
+}
+
+std::vector<nurbs::QuadratureRule> rules_of(const nurbs::KnotVector& knots, Quadrature quadrature) {
+  const int p = knots.degree();
+  if (quadrature == Quadrature::zou && p != 2 && p != 3)
+    throw std::invalid_argument(fmt::format(
+        "quadrature is 'zou' and a degree is {}, expected degrees 2 and 3 (or 'full', 'reduced')", p));
+  std::vector<nurbs::QuadratureRule> rules;
+  for (int span = 0; span < knots.element_count(); ++span)
+    rules.push_back(nurbs::gauss_legendre(points_of_span(knots, span, quadrature), knots.breaks()[span],
+                                          knots.breaks()[span + 1]));
+  return rules;
+}
+
+int points_per_element(const nurbs::Space<3>& space, Quadrature quadrature) {
+  int points = 1;
+  for (const nurbs::KnotVector& knots : space.knots()) {
+    int most = 0;
+    for (const nurbs::QuadratureRule& rule : rules_of(knots, quadrature))
+      most = std::max(most, static_cast<int>(rule.points.size()));
+    points *= most;
+  }
+  return points;
+}
+
+}  // namespace structure

@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/sweep/box_sweep.h"
+
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <limits>
+
+namespace structure {
+
+namespace {
+
+/// The direction whose spans fill words best, then the two others in cyclic order.
+std::array<int, 3> axes_of(const SpanBox& box, int lanes) {
+  int best = 0;
+  double most = 0.0;
+  for (int d = 0; d < 3; ++d) {
+    const int words = (box.spans(d) + lanes - 1) / lanes;
+    const double filled = static_cast<double>(box.spans(d)) / (words * lanes);
+    if (filled > most + 0.05) {
+      best = d;
+      most = filled;
+    }
+  }
+  return {best, (best + 1) % 3, (best + 2) % 3};
+}
+
+SpanRange range_of(const nurbs::Volume& patch, const SpanBox& box, int direction) {
+  return {patch.space.knots(direction), box.begin[direction], box.end[direction]};
+}
+
+/// The same numbers with x fastest, then y, then z, from the patch's order.
+std::vector<int> permuted(const std::vector<int>& columns, const std::array<int, 3>& count,
+                          const std::array<int, 3>& axes) {
+  std::array<int, 3> index;
+  std::vector<int> out;
+  out.reserve(columns.size());
+  for (int k = 0; k < count[axes[2]]; ++k)
+    for (int j = 0; j < count[axes[1]]; ++j)
+      for (int i = 0; i < count[axes[0]]; ++i) {
+        index[axes[0]] = i, index[axes[1]] = j, index[axes[2]] = k;
+        out.push_back(columns[index[0] + count[0] * (index[1] + std::size_t(count[1]) * index[2])]);
+      }
+  return out;
+}
+
+void grow(AlignedNumbers& numbers, std::size_t size) {
+  if (numbers.size() < size) numbers.resize(size, 0.0);
+}
+
+}  // namespace
+
+BoxSweep::BoxSweep(const nurbs::Volume& patch, const PlacedBox& box, std::size_t first_element,
+                   const SweepPlan& plan)
+    : axes_(axes_of(box.spans, line_kernel(kLowestSweptDegree, plan.level).lanes)),
+      rational_(patch.space.rational()),
+      x_(range_of(patch, box.spans, axes_[0]), plan.rules[axes_[0]],
+         line_kernel(kLowestSweptDegree, plan.level).lanes),
+      y_(range_of(patch, box.spans, axes_[1]), plan.rules[axes_[1]]),
+      z_(range_of(patch, box.spans, axes_[2]), plan.rules[axes_[2]]),
+      row_(x_.row()),
+      kernel_x_(&line_kernel(patch.space.degree(axes_[0]), plan.level)),
+      kernel_y_(&line_kernel(patch.space.degree(axes_[1]), plan.level)),
+      kernel_z_(&line_kernel(patch.space.degree(axes_[2]), plan.level)),
+      loops_(&point_loops(plan.mode, rational_, plan.level)),
+      geometry_loops_(&geometry_loops(rational_, plan.level)),
+      mode_(plan.mode) {
+  std::array<int, 3> controls;
+  for (int d = 0; d < 3; ++d) controls[d] = range_of(patch, box.spans, d).control_count();
+  nx_ = controls[axes_[0]], ny_ = controls[axes_[1]], nz_ = controls[axes_[2]];
+  plane_ = row_ * ny_;
+  field_ = plane_ * nz_;
+  nodes_ = permuted(box.nodes, controls, axes_);
+  if (!box.read_columns.empty()) read_ = permuted(box.read_columns, controls, axes_);
+  if (!box.write_columns.empty()) write_ = permuted(box.write_columns, controls, axes_);
+  if (rational_)
+    for (const int node : nodes_) weights_.push_back(patch.space.weight(node));
+  if (plan.J && mode_ == GeometryMode::affine) {
+    const Matrix3 K = plan.J->inverse();
+    for (int d = 0; d < 3; ++d)
+      for (int j = 0; j < 3; ++j) affine_.push_back(K(axes_[d], j));
+    affine_.push_back(plan.J->determinant());
+  }
+  place_memories(box.spans, first_element, plan);
+}
+
+void BoxSweep::place_memories(const SpanBox& box, std::size_t first_element, const SweepPlan& plan) {
+  std::size_t points[3], slots = 1;
+  for (int d = 0; d < 3; ++d) {
+    points[d] = 0;
+    for (const nurbs::QuadratureRule& rule : plan.rules[d])
+      points[d] = std::max(points[d], rule.points.size());
+    slots *= points[d];
+  }
+  const std::size_t size = plan.state_size;
+  const std::size_t elements[3] = {1, std::size_t(box.spans(0)), std::size_t(box.spans(0)) * box.spans(1)};
+  const std::size_t slot[3] = {1, points[0], points[0] * points[1]};
+  first_memory_ = first_element * slots * size;
+  for (int d = 0; d < 3; ++d) {
+    element_stride_[d] = elements[axes_[d]] * slots * size;
+    point_stride_[d] = slot[axes_[d]] * size;
+  }
+  const int lanes = kernel_x_->lanes;
+  for (int word = 0; word < x_.point_words(); ++word)
+    for (int lane = 0; lane < lanes; ++lane) {
+      const LaneBases::Place place = x_.place(word, lane);
+      offsets_.push_back(place.span * element_stride_[0] + place.point * point_stride_[0]);
+    }
+}
+
+void BoxSweep::reserve(SweepSpace& space) const {
+  const int most = rational_ ? 7 : 6;  // fields, of recomputed geometry
+  grow(space.nodes, most * field_);
+  grow(space.forces, 3 * field_);
+  grow(space.planes_in, 2 * most * plane_);
+  grow(space.planes_out, 6 * plane_);
+  grow(space.rows_in, std::size_t(y_.most_points()) * 3 * most * row_);
+  grow(space.rows_out, std::size_t(y_.most_points()) * 9 * row_);
+  grow(space.values, std::size_t(x_.point_words()) * 4 * most * kernel_x_->lanes);
+  grow(space.scratch, x_.scratch_size(most));
+}
+
+void BoxSweep::read(const NodalVectors& values, const std::vector<int>& columns, double* fields) const {
+  const int* column = columns.data();
+  const double* weight = weights_.data();
+  for (std::size_t start = 0; start < field_; start += row_)
+    for (int i = 0; i < nx_; ++i, ++column) {
+      const double* value = values.data() + 3 * std::size_t(*column);
+      const double w = rational_ ? *weight++ : 1.0;
+      for (int c = 0; c < 3; ++c) fields[c * field_ + start + i] = w * value[c];
+    }
+}
+
+void BoxSweep::read_geometry(const NodalVectors& X, double* fields) const {
+  read(X, nodes_, fields);
+  if (!rational_) return;
+  const double* weight = weights_.data();
+  for (std::size_t start = 3 * field_; start < 4 * field_; start += row_)
+    for (int i = 0; i < nx_; ++i) fields[start + i] = *weight++;
+}
+
+/// place: span and point in y, then in z.
+void BoxSweep::do_points(const std::array<int, 4>& place, Pass& pass, double* values) const {
+  const auto [y, y_point, z, z_point] = place;
+  PointRow row{values,     x_.point_words(), x_.weights(), y_.weight(y, y_point) * z_.weight(z, z_point),
+               pass.table, affine_.data(),   nullptr};
+  if (pass.table) pass.table += std::size_t(x_.point_words()) * table_numbers(rational_) * kernel_x_->lanes;
+  OutsideLaw outside;
+  if (pass.law && pass.law->inlined) row.law = pass.law->inlined;
+  if (pass.law && !pass.law->inlined) {
+    const PointMemory& memory = pass.law->memory;
+    const std::size_t first = first_memory_ + y * element_stride_[1] + y_point * point_stride_[1] +
+                              z * element_stride_[2] + z_point * point_stride_[2];
+    outside = pass.law->outside;
+    outside.state = memory.held ? memory.held + first : nullptr;
+    outside.next = memory.next ? memory.next + first : nullptr;
+    outside.dt = memory.dt;
+    outside.offset = offsets_.data();
+    row.law = &outside;
+  }
+  pass.loop(row, pass.sums);
+}
+
+void BoxSweep::sweep_plane(int z, int z_point, Pass& pass, SweepSpace& space) const {
+  const LaneBasis x = x_.basis(space.scratch.data());
+  const std::size_t stride = std::size_t(pass.fields_in) * (pass.with_value ? 4 : 3) * kernel_x_->lanes;
+  for (int span = 0; span < y_.spans(); ++span) {
+    const SpanBasis y = y_.at(span);
+    const std::size_t first = y_.first(span) * row_;
+    kernel_y_->to_rows(y, space.planes_in.data() + first, row_, plane_, pass.fields_in, space.rows_in.data());
+    for (int q = 0; q < y.points; ++q) {
+      kernel_x_->to_points(x, space.rows_in.data() + q * 3 * pass.fields_in * row_, pass.fields_in,
+                           pass.with_value, space.values.data());
+      do_points({span, q, z, z_point}, pass, space.values.data());
+      if (pass.fields_out > 0)
+        kernel_x_->from_points(x, space.values.data(), stride, pass.fields_out, pass.with_value,
+                               space.rows_out.data() + q * 3 * pass.fields_out * row_);
+    }
+    if (pass.fields_out > 0)
+      kernel_y_->from_rows(y, space.rows_out.data(), row_, plane_, pass.fields_out,
+                           space.planes_out.data() + first);
+  }
+}
+
+void BoxSweep::sweep(Pass& pass, SweepSpace& space) const {
+  std::fill_n(space.scratch.data(), x_.scratch_size(pass.fields_out), 0.0);  // other boxes' rows were longer
+  std::fill_n(space.forces.data(), pass.fields_out * field_, 0.0);
+  for (int z = 0; z < z_.spans(); ++z)
+    for (int q = 0; q < z_.at(z).points; ++q) {
+      const std::size_t first = z_.first(z) * plane_;
+      kernel_z_->to_plane(z_.point(z, q), space.nodes.data() + first, plane_, field_, pass.fields_in,
+                          space.planes_in.data());
+      std::fill_n(space.planes_out.data(), 2 * pass.fields_out * plane_, 0.0);
+      sweep_plane(z, q, pass, space);
+      kernel_z_->from_plane(z_.point(z, q), space.planes_out.data(), plane_, field_, pass.fields_out,
+                            space.forces.data() + first);
+    }
+}
+
+double BoxSweep::tabulate(const NodalVectors& X, SweepSpace& space) {
+  std::size_t rows = 1;
+  for (const SpanBases* bases : {&y_, &z_}) {
+    std::size_t points = 0;
+    for (int span = 0; span < bases->spans(); ++span) points += bases->at(span).points;
+    rows *= points;
+  }
+  table_.resize(rows * x_.point_words() * table_numbers(rational_) * kernel_x_->lanes);
+  read_geometry(X, space.nodes.data());
+  Pass pass{geometry_fields(), 0, rational_, geometry_loops_->tabulate, table_.data()};
+  sweep(pass, space);
+  return pass.sums.least_det;
+}
+
+void BoxSweep::add_forces(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
+                          NodalVectors& f, SweepSpace& space) const {
+  const bool recomputed = mode_ == GeometryMode::recomputed;
+  read(u, read_columns(), space.nodes.data());
+  if (recomputed) read_geometry(X, space.nodes.data() + 3 * field_);
+  LawAtPoints own = law;
+  Pass pass{3 + (recomputed ? geometry_fields() : 0),
+            3,
+            rational_,
+            loops_->stress[law.loop],
+            const_cast<double*>(table_.empty() ? nullptr : table_.data()),
+            &own};
+  sweep(pass, space);
+  const int* column = write_columns().data();
+  const double* weight = weights_.data();
+  for (std::size_t start = 0; start < field_; start += row_)
+    for (int i = 0; i < nx_; ++i, ++column) {
+      double* force = f.data() + 3 * std::size_t(*column);
+      const double w = rational_ ? *weight++ : 1.0;
+      for (int c = 0; c < 3; ++c) force[c] += w * space.forces[c * field_ + start + i];
+    }
+}
+
+double BoxSweep::energy(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
+                        SweepSpace& space) const {
+  const bool recomputed = mode_ == GeometryMode::recomputed;
+  read(u, read_columns(), space.nodes.data());
+  if (recomputed) read_geometry(X, space.nodes.data() + 3 * field_);
+  LawAtPoints own = law;
+  Pass pass{3 + (recomputed ? geometry_fields() : 0),
+            0,
+            rational_,
+            loops_->energy[law.loop],
+            const_cast<double*>(table_.empty() ? nullptr : table_.data()),
+            &own};
+  sweep(pass, space);
+  return pass.sums.sum;
+}
+
+PointSums BoxSweep::add_row_sums(const NodalVectors& X, Eigen::VectorXd& sums, SweepSpace& space) const {
+  read_geometry(X, space.nodes.data());
+  Pass pass{geometry_fields(), 1, true, geometry_loops_->mass};
+  sweep(pass, space);
+  const int* column = write_columns().data();
+  const double* weight = weights_.data();
+  for (std::size_t start = 0; start < field_; start += row_)
+    for (int i = 0; i < nx_; ++i) sums[*column++] += (rational_ ? *weight++ : 1.0) * space.forces[start + i];
+  return pass.sums;
+}
+
+}  // namespace structure

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The kernels of line_kernel.cpp and point_kernel.cpp, which are compiled once for each instruction set.
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "structure/sweep/line_kernel.h"
+#include "structure/sweep/point_kernel.h"
+
+namespace structure {
+
+using nurbs::SimdLevel;
+
+#define DECLARE_KERNELS(level)                                     \
+  namespace level {                                                \
+  const LineKernel& line_kernel(int degree);                       \
+  const PointLoops& point_loops(GeometryMode mode, bool rational); \
+  const GeometryLoops& geometry_loops(bool rational);              \
+  }
+DECLARE_KERNELS(portable)
+DECLARE_KERNELS(avx2)
+DECLARE_KERNELS(avx512)
+#undef DECLARE_KERNELS
+
+namespace {
+void expect(SimdLevel level) {
+  if (!nurbs::available(level))
+    throw std::invalid_argument(
+        fmt::format("this machine or this program has no {} kernels", nurbs::name(level)));
+}
+}  // namespace
+
+const LineKernel& line_kernel(int degree, SimdLevel level) {
+  expect(level);
+#ifdef NURBS_X86_64
+  if (level == SimdLevel::avx512) return avx512::line_kernel(degree);
+  if (level == SimdLevel::avx2) return avx2::line_kernel(degree);
+#endif
+  return portable::line_kernel(degree);
+}
+
+const PointLoops& point_loops(GeometryMode mode, bool rational, SimdLevel level) {
+  expect(level);
+#ifdef NURBS_X86_64
+  if (level == SimdLevel::avx512) return avx512::point_loops(mode, rational);
+  if (level == SimdLevel::avx2) return avx2::point_loops(mode, rational);
+#endif
+  return portable::point_loops(mode, rational);
+}
+
+const GeometryLoops& geometry_loops(bool rational, SimdLevel level) {
+  expect(level);
+#ifdef NURBS_X86_64
+  if (level == SimdLevel::avx512) return avx512::geometry_loops(rational);
+  if (level == SimdLevel::avx2) return avx2::geometry_loops(rational);
+#endif
+  return portable::geometry_loops(rational);
+}
+
+}  // namespace structure

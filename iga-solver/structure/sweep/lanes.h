@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Words of numbers, as long as the processor that a file is compiled for has them.  Internal linkage: see
+// line_kernel.cpp.
+#pragma once
+
+namespace structure {
+namespace {
+
+#if defined(__AVX512F__)
+constexpr int kLanes = 8;
+#elif defined(__AVX2__)
+constexpr int kLanes = 4;
+#else
+constexpr int kLanes = 2;
+#endif
+
+typedef double Lanes __attribute__((vector_size(8 * kLanes)));
+
+[[gnu::always_inline]] inline Lanes load(const double* numbers) {  // of any alignment
+  Lanes v;
+  __builtin_memcpy(&v, numbers, sizeof v);
+  return v;
+}
+[[gnu::always_inline]] inline void store(const Lanes& v, double* numbers) {
+  __builtin_memcpy(numbers, &v, sizeof v);
+}
+
+}  // namespace
+}  // namespace structure

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/sweep/patch_sweep.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "nurbs/assert.h"
+#include "structure/sweep/affine_map.h"
+
+namespace structure {
+
+bool PatchSweep::can_sweep(const nurbs::Space<3>& space) {
+  for (int d = 0; d < 3; ++d)
+    if (space.degree(d) < kLowestSweptDegree || space.degree(d) > kHighestSweptDegree) return false;
+  return true;
+}
+
+PatchSweep::PatchSweep(const nurbs::Volume& patch, const std::vector<PlacedBox>& boxes,
+                       const Material& material, Quadrature quadrature, GeometryMode mode,
+                       nurbs::SimdLevel level)
+    : X_(patch.control_points), law_{0, nullptr, outside_law(material), {}} {
+  const LawCall call = law_call(material);
+  law_.loop = call.loop;
+  law_.inlined = call.law;
+  SweepPlan plan{{}, mode, {}, level, material.state_size()};
+  for (int d = 0; d < 3; ++d) plan.rules[d] = rules_of(patch.space.knots(d), quadrature);
+  if (mode == GeometryMode::affine) {
+    plan.J = affine_jacobian(patch);
+    if (!plan.J) throw std::invalid_argument("PatchSweep: geometry is 'affine', and the patch's map is not");
+  }
+  std::size_t first_element = 0;
+  for (const PlacedBox& box : boxes) {
+    boxes_.emplace_back(patch, box, first_element, plan);
+    first_element += box.spans.element_count();
+    boxes_.back().reserve(space_);
+  }
+  if (mode == GeometryMode::stored)
+    for (BoxSweep& box : boxes_) box.tabulate(X_, space_);
+}
+
+BoxSweep::LawAtPoints PatchSweep::law_with(const PointMemory& memory) const {
+  BoxSweep::LawAtPoints law = law_;
+  law.memory = memory;
+  return law;
+}
+
+void PatchSweep::internal_force(const PointMemory& memory, const NodalVectors& u, NodalVectors& f) const {
+  f.setZero();
+  const BoxSweep::LawAtPoints law = law_with(memory);
+  for (const BoxSweep& box : boxes_) box.add_forces(law, X_, u, f, space_);
+}
+
+double PatchSweep::strain_energy(const PointMemory& memory, const NodalVectors& u) const {
+  const BoxSweep::LawAtPoints law = law_with(memory);
+  double energy = 0.0;
+  for (const BoxSweep& box : boxes_) energy += box.energy(law, X_, u, space_);
+  return energy;
+}
+
+PatchSweep::Volume PatchSweep::add_row_sums(Eigen::VectorXd& sums) const {
+  Volume volume{0.0, std::numeric_limits<double>::infinity()};
+  for (const BoxSweep& box : boxes_) {
+    const PointSums own = box.add_row_sums(X_, sums, space_);
+    volume.volume += own.sum;
+    volume.least_det = std::isnan(own.least_det) ? own.least_det : std::min(volume.least_det, own.least_det);
+  }
+  return volume;
+}
+
+double PatchSweep::table_bytes() const {
+  double bytes = 0.0;
+  for (const BoxSweep& box : boxes_) bytes += box.table_bytes();
+  return bytes;
+}
+
+}  // namespace structure

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Integrals over a patch by sum factorisation: its boxes are swept plane by plane, row by row, word by word
+// (line_kernel.h), and a law is asked at the points of a row (point_kernel.h).  No stiffness, no table of
+// functions in three dimensions: a plane's worth of numbers is in work at a time.
+// Source: Orszag (1980); laws at points: Kronbichler & Kormann (2012), Comput. Fluids 63, 135-147.
+#pragma once
+
+#include <vector>
+
+#include "structure/solid/box_grid.h"
+#include "structure/solid/integrals.h"
+#include "structure/sweep/box_sweep.h"
+#include "structure/sweep/law_call.h"
+
+namespace structure {
+
+/// For one thread at a time.
+class PatchSweep final : public Integrals {
+ public:
+  /// Whether all degrees lie between kLowestSweptDegree and kHighestSweptDegree.
+  static bool can_sweep(const nurbs::Space<3>& space);
+
+  /// Keeps references to the patch and the material.  Throws std::invalid_argument if `mode` is affine and
+  /// the map is not.
+  PatchSweep(const nurbs::Volume& patch, const std::vector<PlacedBox>& boxes, const Material& material,
+             Quadrature quadrature, GeometryMode mode, nurbs::SimdLevel level = nurbs::simd_level());
+
+  void internal_force(const PointMemory& memory, const NodalVectors& u, NodalVectors& f) const override;
+  double strain_energy(const PointMemory& memory, const NodalVectors& u) const override;
+  double table_bytes() const override;
+
+  struct Volume {
+    double volume;     ///< [length^3]
+    double least_det;  ///< smallest |dX/dxi| at the points
+  };
+  /// Adds integrals of R_A (row sums of the mass matrix for density 1) [length^3] to one number per column.
+  Volume add_row_sums(Eigen::VectorXd& sums) const;
+
+ private:
+  BoxSweep::LawAtPoints law_with(const PointMemory& memory) const;
+
+  const NodalVectors& X_;
+  BoxSweep::LawAtPoints law_;
+  std::vector<BoxSweep> boxes_;
+  mutable SweepSpace space_;
+};
+
+}  // namespace structure
