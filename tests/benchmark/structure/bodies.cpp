@@ -9,9 +9,25 @@
 
 namespace benchmarks {
 
-const std::vector<std::string>& methods() {
-  static const std::vector<std::string> kMethods = {"plain"};
+using structure::IntegrationMethod;
+using structure::Quadrature;
+
+const std::vector<Method>& methods() {
+  static const std::vector<Method> kMethods = {
+      {"plain", {Quadrature::full, IntegrationMethod::elements}},
+      {"auto", {}},
+      {"stored", {Quadrature::full, IntegrationMethod::stored}},
+      {"recomputed", {Quadrature::full, IntegrationMethod::recomputed}},
+      {"auto_reduced", {Quadrature::reduced, IntegrationMethod::automatic}},
+      {"auto_zou", {Quadrature::zou, IntegrationMethod::automatic}},
+  };
   return kMethods;
+}
+
+const Method& method_named(const std::string& name) {
+  for (const Method& method : methods())
+    if (method.name == name) return method;
+  throw std::invalid_argument("no method \"" + name + "\"");
 }
 
 namespace {
@@ -24,10 +40,9 @@ std::shared_ptr<const structure::Material> make_law(const std::string& word) {
 
 }  // namespace
 
-std::unique_ptr<structure::Body> make_body(const std::string& method, const nurbs::Volume& volume,
-                                           const std::string& law) {
-  if (method == "plain") return std::make_unique<structure::Solid>(volume, make_law(law));
-  throw std::invalid_argument("no method \"" + method + "\"");
+std::unique_ptr<structure::Solid> make_solid(const Method& method, const nurbs::Volume& volume,
+                                             const std::string& law) {
+  return std::make_unique<structure::Solid>(volume, make_law(law), method.integration);
 }
 
 std::unique_ptr<structure::ExplicitSolver> ringing(std::unique_ptr<structure::Body> body, int layers) {

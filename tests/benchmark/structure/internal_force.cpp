@@ -11,6 +11,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 
 #include "bodies.h"
 #include "cost.h"
@@ -46,91 +47,116 @@ struct Case {
         u(random_displacements(volume.space.control_point_count(), 1e-6)) {}
   int dofs() const { return static_cast<int>(u.size()); }
   /// Their forces, integrated on their own; kept.
-  const NodalVectors& expected(const std::string& law) {
-    if (auto found = forces.find(law); found != forces.end()) return found->second;
-    return forces[law] = integrated_force(volume, Rule::full, law, kLambda, kMu, u);
+  const NodalVectors& expected(const std::string& law, Rule rule) {
+    NodalVectors& f = forces[{law, rule}];
+    if (f.size() == 0) f = integrated_force(volume, rule, law, kLambda, kMu, u);
+    return f;
   }
 
   std::string label;
   nurbs::Volume volume;
   NodalVectors u;
-  std::map<std::string, NodalVectors> forces;
+  std::map<std::pair<std::string, Rule>, NodalVectors> forces;
 };
 
-using Force = std::function<void(const NodalVectors& u, NodalVectors& f)>;
+/// A way to the forces, and what it has to do.
+struct Operator {
+  std::function<void(const NodalVectors& u, NodalVectors& f)> force;
+  Cost cost;
+};
 
-/// `force` is made when it is first timed, and kept.
-void add_force(Case& c, const std::string& method, const std::string& law, Cost cost,
-               std::function<Force()> make) {
-  auto force = std::make_shared<Force>();
+/// The operator is made when it is first timed, and kept.
+void add_force(Case& c, const std::string& method, const std::string& law, Rule rule,
+               std::function<Operator()> make) {
+  auto made = std::make_shared<std::optional<Operator>>();
   const std::string name = "force/" + method + "/" + law + c.label;
   benchmark::RegisterBenchmark(name.c_str(), [=, &c](benchmark::State& state) {
-    if (!*force) *force = make();
+    if (!*made) *made = make();
     NodalVectors f(3, c.u.cols());
     for (auto _ : state) {
-      (*force)(c.u, f);
+      (*made)->force(c.u, f);
       benchmark::DoNotOptimize(f.data());
     }
-    const NodalVectors& expected = c.expected(law);
+    const NodalVectors& expected = c.expected(law, rule);
     state.counters["dofs"] = c.dofs();
-    state.counters["bytes"] = cost.bytes;
-    state.counters["flops"] = cost.flops;
+    state.counters["bytes"] = (*made)->cost.bytes;
+    state.counters["flops"] = (*made)->cost.flops;
     state.counters["error"] = (f - expected).cwiseAbs().maxCoeff() / expected.cwiseAbs().maxCoeff();
   })->Unit(benchmark::kMillisecond);
 }
 
-Cost cost_of(const std::string&, const Case& c, const std::string& law) {
-  const nurbs::Space<3>& space = c.volume.space;
-  return plain_cost(space, space.functions_per_element(), material_flops(law));
+Rule rule_of(structure::Quadrature quadrature) {
+  if (quadrature == structure::Quadrature::full) return Rule::full;
+  return quadrature == structure::Quadrature::reduced ? Rule::reduced : Rule::zou;
 }
 
-void add_bodies(Case& c) {
-  for (const std::string& method : methods())
+/// Of the method that was chosen.
+Cost cost_of(const structure::Integration& chosen, const nurbs::Space<3>& space, const std::string& law) {
+  const double flops = material_flops(law);
+  if (chosen.method == structure::IntegrationMethod::elements)
+    return plain_cost(space, space.functions_per_element(), flops);
+  std::array<double, 3> points = {0.0, 0.0, 0.0};
+  for (int d = 0; d < 3; ++d)
+    for (int span = 0; span < space.knots(d).element_count(); ++span)
+      points[d] += gauss_points(rule_of(chosen.quadrature), space.knots(d), span);
+  return sweep_cost(space, points, chosen.method, flops);
+}
+
+void add_solids(Case& c) {
+  for (const Method& method : methods())
     for (const std::string& law : kLaws)
-      add_force(c, method, law, cost_of(method, c, law), [&c, method, law] {
-        const std::shared_ptr<structure::Body> body = make_body(method, c.volume, law);
-        return [body](const NodalVectors& u, NodalVectors& f) { body->internal_force(u, f); };
-      });
+      add_force(c, method.name, law, rule_of(method.integration.quadrature),
+                [&c, &method, law]() -> Operator {
+                  const std::shared_ptr<const structure::Solid> solid = make_solid(method, c.volume, law);
+                  return {[solid](const NodalVectors& u, NodalVectors& f) { solid->internal_force(u, f); },
+                          cost_of(solid->integration(), c.volume.space, law)};
+                });
 }
 
 /// Products by the assembled matrix: as many numbers for all bodies, so the plate's are timed.
 void add_matrices(Case& c) {
+  const auto add = [&c](const std::string& method, std::function<Operator()> make) {
+    add_force(c, method, "linear_elastic", Rule::full, std::move(make));
+  };
   const auto K = std::make_shared<const BlockMatrix>(assemble_stiffness(c.volume, kLambda, kMu));
-  const auto csr = std::make_shared<const CsrMatrix>(to_csr(*K));
   const Cost block = block_cost(c.volume.space, *K);
-  add_force(c, "csr", "linear_elastic", csr_cost(c.volume.space, *csr), [csr] {
-    return [csr](const NodalVectors& u, NodalVectors& f) {
-      Eigen::Map<Eigen::VectorXd>(f.data(), f.size()).noalias() =
-          *csr * Eigen::Map<const Eigen::VectorXd>(u.data(), u.size());
-    };
+  add("csr", [&c, K]() -> Operator {
+    const auto csr = std::make_shared<const CsrMatrix>(to_csr(*K));
+    return {[csr](const NodalVectors& u, NodalVectors& f) {
+              Eigen::Map<Eigen::VectorXd>(f.data(), f.size()).noalias() =
+                  *csr * Eigen::Map<const Eigen::VectorXd>(u.data(), u.size());
+            },
+            csr_cost(c.volume.space, *csr)};
   });
-  add_force(c, "blocks", "linear_elastic", block, [K] {
-    return [K](const NodalVectors& u, NodalVectors& f) {
-      machine_kernels().multiply(K->view(), u.data(), f.data());
-    };
+  add("blocks", [K, block]() -> Operator {
+    return {[K](const NodalVectors& u, NodalVectors& f) {
+              machine_kernels().multiply(K->view(), u.data(), f.data());
+            },
+            block};
   });
-  add_force(c, "blocks_huge_pages", "linear_elastic", block, [K] {
+  add("blocks_huge_pages", [K, block]() -> Operator {
     const auto columns = in_huge_pages(K->column.data(), K->column.size());
     const auto values = in_huge_pages(K->values.data(), K->values.size());
-    return [=](const NodalVectors& u, NodalVectors& f) {
-      const BlockRows rows = K->view();
-      machine_kernels().multiply({rows.rows, rows.begin, columns->data(), values->data()}, u.data(),
-                                 f.data());
-    };
+    return {[=](const NodalVectors& u, NodalVectors& f) {
+              const BlockRows rows = K->view();
+              machine_kernels().multiply({rows.rows, rows.begin, columns->data(), values->data()}, u.data(),
+                                         f.data());
+            },
+            block};
   });
 }
 
 /// A step and a force alone take turns, so that whatever else the machine does hits both; the counter
 /// `over_force` is the ratio of their times.
-void add_step(Case& c, const std::string& method, int layers) {
+void add_step(Case& c, const Method& method, int layers) {
   auto solver = std::make_shared<std::unique_ptr<structure::ExplicitSolver>>();
-  const std::string name = "step/" + method + "/linear_elastic" + c.label;
+  const std::string name = "step/" + method.name + "/linear_elastic" + c.label;
   benchmark::RegisterBenchmark(
       name.c_str(),
       [=, &c](benchmark::State& state) {
         const NodalVectors none = NodalVectors::Zero(3, c.u.cols());
         NodalVectors f = none;
-        if (!*solver) *solver = ringing(make_body(method, c.volume, "linear_elastic"), layers);
+        if (!*solver) *solver = ringing(make_solid(method, c.volume, "linear_elastic"), layers);
         double force = 0.0, step = 0.0;
         for (auto _ : state) {
           force += cpu_seconds([&] { (*solver)->body().internal_force((*solver)->displacements(), f); });
@@ -188,10 +214,10 @@ int main(int argc, char** argv) {
   for (int degree : {2, 3})
     for (const char* name : {"plate", "distorted", "rational"}) {
       Case& c = *cases.emplace_back(std::make_unique<Case>(name, sizes, degree));
-      add_bodies(c);
+      add_solids(c);
       if (c.label.find("plate") != std::string::npos) {
         add_matrices(c);
-        for (const std::string& method : methods()) add_step(c, method, sizes.elements[2]);
+        for (const Method& method : methods()) add_step(c, method, sizes.elements[2]);
       }
     }
   benchmark::RunSpecifiedBenchmarks();

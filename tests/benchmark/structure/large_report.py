@@ -14,7 +14,7 @@ from pathlib import Path
 from bounds import AtMost
 from study.run.summary import Row, table, write_json
 
-SOLIDS = ["plain:plate:20", "plain:plate:40"]
+SOLIDS = ["auto:plate:100", "auto:distorted:100", "stored:distorted:50", "stored:rational:50", "plain:plate:30"]
 MILLION = 1_000_000  # elements, of which the figures aimed at speak
 
 

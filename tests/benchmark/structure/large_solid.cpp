@@ -56,8 +56,9 @@ Times time_steps(structure::ExplicitSolver& solver) {
 void measure(const std::string& method, const std::string& body, int n, int degree, bool stable) {
   const nurbs::Volume volume = make_volume(body, {n, n, n}, degree);
   const double dofs = 3.0 * volume.space.control_point_count(), before = allocated();
-  std::unique_ptr<structure::Body> solid;
-  const double set_up = cpu_seconds([&] { solid = make_body(method, volume, "linear_elastic"); });
+  std::unique_ptr<structure::Solid> solid;
+  const double set_up =
+      cpu_seconds([&] { solid = make_solid(method_named(method), volume, "linear_elastic"); });
   const double of_solid = allocated() - before;
   std::unique_ptr<structure::ExplicitSolver> solver;
   const double begin = cpu_seconds([&] { solver = ringing(std::move(solid), n); });

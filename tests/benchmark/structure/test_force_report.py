@@ -75,6 +75,23 @@ class Rows(unittest.TestCase):
                 found = rows(entry(f"force/plain/{PLATE}", 1.0, error=error))
                 self.assertIs(found["plate p2", "force_plain_linear_elastic_error"].passes, verdict)
 
+    def test_aims_are_those_of_linear_forces_with_full_quadrature(self):
+        share = "share_of_multiply_add"
+        for method, law, aim in (
+            ("auto", "linear_elastic", 0.5),
+            ("auto_reduced", "linear_elastic", None),
+            ("auto", "saint_venant_kirchhoff", None),
+        ):
+            with self.subTest(method=method, law=law):
+                found = rows(*PROBES, entry(f"force/{method}/{law}/plate/p2", 1.0, bytes=1.0, flops=1.0))
+                self.assertEqual(found["plate p2", f"force_{method}_{law}_{share}"].reference, aim)
+
+    def test_rational_bodies_may_store_more(self):
+        for body, verdict in (("plate", False), ("rational", True)):
+            with self.subTest(body=body):
+                found = rows(entry(f"force/stored/linear_elastic/{body}/p2", 1.0, dofs=1.0, bytes=700.0, flops=1.0))
+                self.assertIs(found[f"{body} p2", "force_stored_linear_elastic_bytes_per_dof"].passes, verdict)
+
     def test_only_medians_count(self):
         found = rows(entry(f"force/csr/{PLATE}", 1.0), entry(f"force/csr/{PLATE}", 5.0, aggregate="mean"))
         self.assertEqual([row.value for row in found.values()], [1e6])

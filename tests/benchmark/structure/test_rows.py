@@ -68,6 +68,11 @@ class BallPlate(unittest.TestCase):
             rows = by_name(ball_plate.rows({"auto": auto, "plain": 21.0}))
             self.assertEqual((rows["auto_time"].passes, rows["speedup_over_plain"].passes), verdicts)
 
+    def test_the_whole_study_is_to_take_a_quarter(self):
+        for auto, verdict in ((25.0, True), (25.1, False)):
+            rows = by_name(ball_plate.study_rows({"auto": auto, "plain": 100.0}))
+            self.assertIs(rows["speedup_over_plain"].passes, verdict)
+
 
 if __name__ == "__main__":
     unittest.main()
