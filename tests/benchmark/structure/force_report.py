@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Mapping, Sequence
 
@@ -28,12 +28,12 @@ LARGEST_ERROR = 1e-12  # of the largest force
 
 @dataclass(frozen=True)
 class Aim:
-    """Of a method, linear."""
+    """Of a method with linear forces."""
 
-    bandwidth: float | None = None  # shares of what the probes reach
+    bandwidth: float | None = None  # shares of what the probes reach, on the plate
     multiply_add: float | None = None
     over_force: float | None = None  # of a step
-    bytes: float | None = None  # per dof; of rational bodies, which store a third more, `rational_bytes`
+    bytes: float | None = None  # per dof, degree 2; `rational_bytes` of rational bodies, which store more
     rational_bytes: float | None = None
 
 
@@ -43,6 +43,18 @@ AIMS = {
     "stored": Aim(bandwidth=0.8, over_force=1.15, bytes=600.0, rational_bytes=800.0),
     "plain": Aim(over_force=1.15),
 }
+
+
+def aim_of(name: str) -> Aim:
+    _, method, law, body, degree = name.split("/")
+    aim = AIMS.get(method, Aim()) if law == LINEAR else Aim()
+    if body != "plate":
+        aim = replace(aim, bandwidth=None, multiply_add=None)
+    if body == "rational":
+        aim = replace(aim, bytes=aim.rational_bytes)
+    return aim if degree == "p2" else replace(aim, bytes=None)
+
+
 PLATES = {2: f"{LINEAR}/plate/p2", 3: f"{LINEAR}/plate/p3"}
 
 
@@ -137,11 +149,10 @@ def label(name: str) -> tuple[str, str]:
 
 def time_rows(name: str, time: Timing, limits: Machine | None) -> list[Row]:
     case, method = label(name)
-    method, aim = method.replace(" ", "_"), AIMS.get(name.split("/")[1] if LINEAR in name else "", Aim())
+    method, aim = method.replace(" ", "_"), aim_of(name)
     result = [Row(case, f"{method}_time_per_dof", time.per_dof, "ns")]
     if time.bytes is not None:
-        most = aim.rational_bytes if "/rational/" in name else aim.bytes
-        result.append(AtMost(case, f"{method}_bytes_per_dof", time.bytes / time.dofs, "B", most))
+        result.append(AtMost(case, f"{method}_bytes_per_dof", time.bytes / time.dofs, "B", aim.bytes))
         result.append(Row(case, f"{method}_flops_per_dof", time.flops / time.dofs, "1"))
     if time.over_force is not None:
         result.append(AtMost(case, f"{method}_over_force", time.over_force, "1", aim.over_force))
@@ -167,6 +178,8 @@ def probe_rows(times: Mapping[str, Timing]) -> list[Row]:
             result.append(Row("machine", name.removeprefix("probe/"), time.bytes / time.nanoseconds, "GB/s"))
         elif name.startswith("probe/"):
             result.append(Row("machine", name.removeprefix("probe/"), time.flops / time.nanoseconds, "GFlop/s"))
+    if limits := machine(times):
+        result.append(Row("machine", "balance", limits.multiply_add / limits.read, "flop/B"))
     return result
 
 
