@@ -42,7 +42,7 @@ def study(program: str, added: str) -> float:
         shutil.copytree(INPUTS, inputs)
         for model in (inputs / "ball_plate").glob("*.yaml"):
             model.write_text(model.read_text(encoding="utf-8") + added, encoding="utf-8")
-        command = [sys.executable, "-B", "-m", "study.run.cli", "ball_plate", "--solver", program]
+        command = [sys.executable, "-B", "-m", "study.run.cli", "ball_plate", "--solver", program, "--jobs", "1"]
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         environment = {**os.environ, "PYTHONPATH": str(inputs)}
         done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
