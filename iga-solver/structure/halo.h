@@ -57,19 +57,19 @@ class Halo {
     sum(&all, 1);
     return all.value();
   }
-  /// Adds what `run(first, count)` gives for each run of columns that the part owns, of an array's.
-  template <class Run>
-  void add_own(Eigen::Index columns, ExactSum& sum, Run run) const {
+  /// visit(first, count) for each run of columns that the part owns, of an array's.
+  template <class Visit>
+  void for_each_run(Eigen::Index columns, Visit visit) const {
     const Eigen::Index end = owned(columns);
-    if (runs_.empty()) return sum.add(run(Eigen::Index(0), end));
+    if (runs_.empty()) return visit(Eigen::Index(0), end);
     for (std::size_t k = 0; k < runs_.size(); ++k)
-      sum.add(run(runs_[k], (k + 1 < runs_.size() ? runs_[k + 1] : end) - runs_[k]));
+      visit(runs_[k], (k + 1 < runs_.size() ? runs_[k + 1] : end) - runs_[k]);
   }
-  /// The same, summed over all parts.
+  /// Sum over all parts of what `run(first, count)` gives for each run.
   template <class Run>
   double sum_over_nodes(Eigen::Index columns, Run run) const {
     ExactSum all;
-    add_own(columns, all, run);
+    for_each_run(columns, [&](Eigen::Index first, Eigen::Index count) { all.add(run(first, count)); });
     sum(&all, 1);
     return all.value();
   }

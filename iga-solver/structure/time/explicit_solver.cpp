@@ -10,10 +10,20 @@
 #include <stdexcept>
 #include <utility>
 
-#include "nurbs/assert.h"
 #include "structure/time/stable_time_step.h"
 
 namespace structure {
+
+namespace {
+
+/// 3 x n [1/mass]: 0 where a dof is fixed.
+NodalVectors inverse_mass_of_dofs(const MassOperator& mass, const Supports& supports) {
+  NodalVectors inverse = Vector3::Ones() * mass.nodal_mass().cwiseInverse().transpose();
+  supports.apply(inverse);
+  return inverse;
+}
+
+}  // namespace
 
 ExplicitSolver::ExplicitSolver(std::unique_ptr<Body> body, Supports supports,
                                std::unique_ptr<const Halo> halo)
@@ -21,15 +31,13 @@ ExplicitSolver::ExplicitSolver(std::unique_ptr<Body> body, Supports supports,
       supports_(std::move(supports)),
       halo_(std::move(halo)),
       mass_(std::make_unique<LumpedMass>(whole(*halo_, body_->row_sum_mass()))),
+      inverse_mass_(inverse_mass_of_dofs(*mass_, supports_)),
       f_ext_(NodalVectors::Zero(3, body_->node_count())),
       f_int_(f_ext_),
-      F_(f_ext_),
-      residual_(f_ext_),
       u_(f_ext_),
       x_(body_->reference()),
       v_(f_ext_),
-      a_(f_ext_),
-      v_sum_(f_ext_) {}
+      a_(f_ext_) {}
 
 void ExplicitSolver::check_size(const NodalVectors& values, const char* what) const {
   if (values.cols() != u_.cols())
@@ -60,80 +68,75 @@ void ExplicitSolver::set_time_step(double dt) {
 void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   check_size(F, "forces");
   body_->internal_force(u_, f_int_);
-  update_accelerations(F);
-  power_ = power(F);
-  start_energy_budget();
-  check_divergence(F);
+  accelerate(F, 0.0);
+  largest_u_ = u_.lpNorm<Eigen::Infinity>();
   ledger_ = WorkLedger();
-}
-
-void ExplicitSolver::half_kick() {
-  v_sum_ = v_;
-  v_ += 0.5 * dt_ * a_;
-  v_sum_ += v_;
-  ledger_.half_kick(*halo_, 0.5 * dt_, v_sum_, f_int_, f_ext_, F_);
+  budget_.reset();
+  check_divergence(F);
 }
 
 void ExplicitSolver::begin_step() {
   if (dt_ == 0.0) throw std::logic_error("ExplicitSolver: begin_step before set_time_step");
-  half_kick();
-  u_ += dt_ * v_;
-  x_ = body_->reference() + u_;
+  for (const ForceSums& run : sums_) ledger_.half_kick(run.work_from_now(0.5 * dt_));
+  largest_u_ = kick_and_drift(dt_, a_, body_->reference(), v_, u_, x_);
 }
 
 void ExplicitSolver::end_step(const NodalVectors& F) {
   check_size(F, "forces");
   body_->evolve(u_, dt_, f_int_);
-  update_accelerations(F);
-  half_kick();
+  accelerate(F, 0.5 * dt_);
+  for (const ForceSums& run : sums_) ledger_.half_kick(run.work_until_now(0.5 * dt_));
   body_->commit();
   time_ += dt_;
-  const double power_before = std::exchange(power_, power(F));
-  if (budget_)
-    budget_->add(0.5 * dt_ * (power_before + power_));
-  else
-    start_energy_budget();
   check_divergence(F);
+}
+
+void ExplicitSolver::accelerate(const NodalVectors& F, double h) {
+  halo_->sum_to_owners(f_int_);
+  sums_.clear();
+  halo_->for_each_run(v_.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    sums_.push_back(accelerate_and_kick(h, {f_int_, f_ext_, F}, inverse_mass_, first, count, a_, v_));
+  });
+  halo_->owners_to_ghosts(a_);
+  const Eigen::Index ghosts = v_.cols() - halo_->owned(v_.cols());
+  v_.rightCols(ghosts) += h * a_.rightCols(ghosts);
 }
 
 void ExplicitSolver::start_energy_budget() {
   constexpr double kNegligibleStrain = 1e-9;
-  const double kick = 0.125 * dt_ * dt_ * nodal_sum(a_);
-  budget_.emplace(kinetic_energy() + strain_energy() + kick, body_->material().youngs_modulus() *
-                                                                 halo_->sum(body_->volume()) *
-                                                                 kNegligibleStrain * kNegligibleStrain);
+  const Work work = ledger_.work(*halo_);
+  const double kinetic = kinetic_energy(), kick = 0.125 * dt_ * dt_ * nodal_sum(a_);
+  kinetic_start_ = kinetic + work.internal - work.loads - work.forces;
+  budget_.emplace(kinetic + strain_energy() + kick, body_->material().youngs_modulus() *
+                                                        halo_->sum(body_->volume()) * kNegligibleStrain *
+                                                        kNegligibleStrain);
 }
 
-void ExplicitSolver::check_divergence(const NodalVectors& F) const {
-  const double kinetic = kinetic_energy();
-  const bool good =
-      budget_->allows(kinetic) && a_.allFinite() && u_.cwiseAbs().maxCoeff() <= kLargestDisplacement;
-  if (halo_->any(!good))
+// One message of all ranks, and no pass over the nodes: the ledger knows the kinetic energy, and is not
+// finite if one velocity or acceleration is not.
+void ExplicitSolver::check_divergence(const NodalVectors& F) {
+  const bool starts = !budget_;
+  if (starts) start_energy_budget();
+  enum { kPower = kForceKinds, kPartsBeyond, kSums };
+  std::array<ExactSum, kSums> sums;
+  std::copy(ledger_.sums().begin(), ledger_.sums().end(), sums.begin());
+  for (const ForceSums& run : sums_) sums[kPower].add(run.f_v[kLoads] + run.f_v[kForces]);
+  sums[kPartsBeyond].add(largest_u_ <= kLargestDisplacement ? 0.0 : 1.0);
+  halo_->sum(sums.data(), sums.size());
+
+  const double kinetic =
+      kinetic_start_ + sums[kLoads].value() + sums[kForces].value() - sums[kInternal].value();
+  const double power_before = std::exchange(power_, sums[kPower].value());
+  if (!starts) budget_->add(0.5 * dt_ * (power_before + power_));
+  if (!budget_->allows(kinetic) || sums[kPartsBeyond].value() > 0.0)
     throw Diverged(describe_divergence(
         {*body_, *mass_, u_, v_, a_, F, time_, dt_, stable_time_step_, kinetic, budget_->most()}));
-}
-
-void ExplicitSolver::update_accelerations(const NodalVectors& F) {
-  halo_->sum_to_owners(f_int_);
-  F_ = F;
-  residual_ = f_ext_ + F_ - f_int_;
-  NURBS_ASSERT(residual_.cols() == mass_->nodal_mass().size(), residual_.cols(), mass_->nodal_mass().size());
-  mass_->apply_inverse_mass(residual_, a_);
-  supports_.apply(a_);
-  halo_->owners_to_ghosts(a_);
 }
 
 double ExplicitSolver::stable_time_step() const {
   if (!stable_time_step_)
     stable_time_step_ = structure::stable_time_step(*body_, *mass_, supports_, u_, *halo_);
   return *stable_time_step_;
-}
-
-double ExplicitSolver::power(const NodalVectors& F) const {
-  return halo_->sum_over_nodes(F.cols(), [&](Eigen::Index first, Eigen::Index count) {
-    const auto f = f_ext_.middleCols(first, count) + F.middleCols(first, count);
-    return f.cwiseProduct(v_.middleCols(first, count)).sum();
-  });
 }
 
 double ExplicitSolver::nodal_sum(const NodalVectors& q) const {

@@ -16,6 +16,7 @@
 #include "structure/halo.h"
 #include "structure/time/divergence.h"
 #include "structure/time/mass.h"
+#include "structure/time/verlet_update.h"
 #include "structure/time/work_ledger.h"
 
 namespace structure {
@@ -82,26 +83,27 @@ class ExplicitSolver {
 
  private:
   void check_size(const NodalVectors& values, const char* what) const;
-  /// From the part's share of f_int_, f_ext_ and F.
-  void update_accelerations(const NodalVectors& F);
-  double power(const NodalVectors& F) const;
+  /// From the part's share of f_int_: accelerations under F too, and a kick of `h` by them.
+  void accelerate(const NodalVectors& F, double h);
   /// Sum of m_A |q_A|^2 over all nodes.
   double nodal_sum(const NodalVectors& q) const;
   /// Over the nodes of all parts.
   Vector3 sum_of_own(const std::function<Vector3(Eigen::Index node)>& value) const;
   void start_energy_budget();
-  void check_divergence(const NodalVectors& F) const;
-  void half_kick();
+  void check_divergence(const NodalVectors& F);
   std::vector<Id> element_ids() const;
 
   std::unique_ptr<Body> body_;
   Supports supports_;
   std::unique_ptr<const Halo> halo_;
   std::unique_ptr<MassOperator> mass_;
+  NodalVectors inverse_mass_;  // of each dof, 0 where it is fixed
   double dt_ = 0.0, time_ = 0.0;
-  NodalVectors f_ext_, f_int_, F_, residual_, u_, x_, v_, a_;
-  NodalVectors v_sum_;  // of a half kick: before and after
+  NodalVectors f_ext_, f_int_, u_, x_, v_, a_;
+  double largest_u_ = 0.0;       // of all components that the part holds
+  std::vector<ForceSums> sums_;  // of the last kick, for each run of nodes that the part owns
   WorkLedger ledger_;
+  double kinetic_start_ = 0.0;          // what the ledger's work goes on from
   double power_ = 0.0;                  // of f_ext and F [energy/time]
   std::optional<EnergyBudget> budget_;  // since state or loads were set
   mutable std::optional<double> stable_time_step_;

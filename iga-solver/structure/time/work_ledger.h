@@ -7,6 +7,7 @@
 #include <array>
 
 #include "structure/halo.h"
+#include "structure/time/verlet_update.h"
 
 namespace structure {
 
@@ -21,27 +22,21 @@ struct Work {
 
 class WorkLedger {
  public:
-  /// A half kick over dt/2, with twice the mean velocity, v + v'; nodal arrays (3 x held).  Fixed dofs have
-  /// v = v' = 0.
-  void half_kick(const Halo& halo, double half_step, const nurbs::NodalVectors& v_sum,
-                 const nurbs::NodalVectors& f_int, const nurbs::NodalVectors& f_ext,
-                 const nurbs::NodalVectors& F) {
-    const nurbs::NodalVectors* const forces[] = {&f_int, &f_ext, &F};
-    for (int i = 0; i < 3; ++i)
-      halo.add_own(v_sum.cols(), sums_[i], [&](Eigen::Index first, Eigen::Index count) {
-        return 0.5 * half_step *
-               forces[i]->middleCols(first, count).cwiseProduct(v_sum.middleCols(first, count)).sum();
-      });
+  /// Of a half kick, for the nodes of one run (ForceSums).
+  void half_kick(const PerForce& work) {
+    for (int k = 0; k < kForceKinds; ++k) sums_[k].add(work[k]);
   }
   /// Of all parts; collective.
   Work work(const Halo& halo) const {
-    std::array<ExactSum, 3> all = sums_;
+    std::array<ExactSum, kForceKinds> all = sums_;
     halo.sum(all.data(), all.size());
-    return {all[0].value(), all[1].value(), all[2].value()};
+    return {all[kInternal].value(), all[kLoads].value(), all[kForces].value()};
   }
+  /// Of this part.
+  const std::array<ExactSum, kForceKinds>& sums() const { return sums_; }
 
  private:
-  std::array<ExactSum, 3> sums_;  // internal, loads, forces
+  std::array<ExactSum, kForceKinds> sums_;
 };
 
 }  // namespace structure
