@@ -24,15 +24,16 @@ class Input:
 
 
 INPUTS = {
-    "step": Input(453.0, "ns", "a step per dof, degree 2, full quadrature", "`step/plain`, measured"),
+    "step": Input(110.0, "ns", "a step per dof, degree 2, Jacobians recomputed", "`large_solid auto distorted 60`, measured"),
     "contact": Input(164.0, "ns", "a contact per step, its model included", "wavy wall, 2,624 contacts, measured"),
     "particle": Input(300.0, "ns", "a particle per step without walls", "stock LIGGGHTS, 50,000 particles, measured"),
-    "own": Input(1650.0, "B", "memory per owned node", "`large_solid`, affine, measured"),
-    "everywhere": Input(36.0, "B", "memory per node of the body on every rank", "reference net 24, node ids 8, weights 4"),
+    "own": Input(290.0, "B", "memory per owned node, solid and solver", "`large_solid`, measured"),
+    "everywhere": Input(24.0, "B", "memory per node of the body on every rank", "the reference net, counted"),
+    "box": Input(32.0, "1", "knot spans of a box per direction, the least that a rank works on", "`box_grid.h`"),
     "latency": Input(2.0, "us", "a message, both ends", "assumed: InfiniBand"),
     "bandwidth": Input(5.0, "GB/s", "of a rank's messages, when all send", "assumed"),
-    "sums": Input(3.0, "1", "sums over all ranks in a step", "counted"),
-    "sum_bytes": Input(560.0, "B", "of an exact sum", "`exact_sum.h`"),
+    "sums": Input(1.0, "1", "reductions over all ranks in a step", "`explicit_solver.cpp`, counted"),
+    "sum_bytes": Input(2800.0, "B", "of them, five exact sums", "`exact_sum.h`, counted"),
 }
 
 
@@ -72,10 +73,20 @@ def halo_nodes(own: float) -> float:
     return (side + DEGREE) ** 3 - own
 
 
-def structure(nodes: float, ranks: int) -> Step:
+def halo_time(own: float) -> float:
     """Forces of the halo go to their owners, motion comes back: 3 numbers each, to and from 7 neighbours."""
-    own = nodes / ranks
-    halo = message_time(2 * 7, 2 * 24.0 * halo_nodes(own)) if ranks > 1 else 0.0
+    return message_time(2 * 7, 2 * 24.0 * halo_nodes(own))
+
+
+def boxes(nodes: float) -> float:
+    """More ranks than these find nothing to do."""
+    return max(1.0, nodes / value("box") ** 3)
+
+
+def structure(nodes: float, ranks: int) -> Step:
+    """The rank that has most to do."""
+    own = nodes / min(ranks, boxes(nodes))
+    halo = halo_time(own) if ranks > 1 else 0.0
     memory = own * value("own") + nodes * value("everywhere")
     return Step(3.0 * own * value("step"), halo, sum_time(ranks), memory)
 
@@ -124,8 +135,8 @@ def half_work() -> float:
     low, high = 1.0, 1e9
     while high / low > 1.001:
         own = math.sqrt(low * high)
-        step = structure(10_000 * own, 10_000)
-        low, high = (own, high) if step.work < step.halo + step.sums else (low, own)
+        work, other = 3.0 * own * value("step"), halo_time(own) + sum_time(10_000)
+        low, high = (own, high) if work < other else (low, own)
     return high
 
 
@@ -134,7 +145,9 @@ def tables() -> str:
     lines += [f"| {i.meaning} | {i.value:g} {'' if i.unit == '1' else i.unit} | {i.source} |" for i in INPUTS.values()]
     for name in CASES:
         lines += case_table(name)
-    lines += ["", f"On 10,000 ranks, halo and sums take as long as the work where a rank owns {half_work():.0f} nodes."]
+    lines += ["", f"Boxes of {value('box'):g} spans: {boxes(1e6):.0f} ranks have work on 1e6 nodes, {boxes(1e8):,.0f} on 1e8."]
+    lines += [f"On 10,000 ranks, halo and sums take as long as the work where a rank owns {half_work():.0f} nodes; smaller boxes"]
+    lines += ["than that gain nothing."]
     return "\n".join(line.replace("  |", " |") for line in lines)
 
 

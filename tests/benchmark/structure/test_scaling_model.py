@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The page says what the model works out, and the model what its inputs say."""
 
+import re
 import unittest
 from dataclasses import replace
 from unittest import mock
@@ -27,7 +28,7 @@ class Model(unittest.TestCase):
     def test_halo_by_hand(self):
         """1e6 nodes on 1,000 ranks: cubes of 10, 12^3 - 10^3 = 728 nodes of 24 bytes, there and back, 14 messages."""
         by_hand = 14 * 2e-6 + 728 * 48.0 / 5e9
-        with inputs(latency=2.0, bandwidth=5.0):
+        with inputs(latency=2.0, bandwidth=5.0, box=1.0):
             self.assertAlmostEqual(model.structure(1e6, 1000).halo, by_hand, delta=1e-12)
 
     def test_sums_by_hand(self):
@@ -41,8 +42,18 @@ class Model(unittest.TestCase):
             self.assertAlmostEqual(model.particles(1e6, 1e3, 1000).work, 0.1)
 
     def test_memory_that_no_rank_saves(self):
-        with inputs(own=100.0, everywhere=10.0):
+        with inputs(own=100.0, everywhere=10.0, box=1.0):
             self.assertAlmostEqual(model.structure(1e6, 1000).memory, 100e3 + 10e6)
+
+    def test_more_ranks_than_boxes_do_not_help(self):
+        """8,000 nodes are eight boxes of 10 x 10 x 10."""
+        with inputs(box=10.0):
+            self.assertEqual(model.structure(8e3, 100).work, model.structure(8e3, 8).work)
+
+    def test_boxes_are_those_of_the_code(self):
+        header = model.PAGE.parents[3] / "iga-solver/structure/solid/box_grid.h"
+        spans = re.search(r"kBoxSpans = (\d+);", header.read_text(encoding="utf-8"))
+        self.assertEqual(model.value("box"), float(spans.group(1)))
 
     def test_units_of_what_is_shown(self):
         self.assertEqual([model.shown(t) for t in (2.0, 0.0213, 3.14e-5, 0.0)], ["2 s", "21.3 ms", "31.4 us", "0"])
