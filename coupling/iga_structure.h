@@ -31,7 +31,7 @@ class IgaStructure final : public StructureSolver {
   void initialise_forces(const NodalVectors& forces) override;
   void begin_step() override { solver_.begin_step(); }
   void end_step(const NodalVectors& forces) override;
-  /// Also throws if dt is above structure::kStableStepSafety of the stable step, naming both numbers.
+  /// Also throws if dt is above the stable step, naming both numbers.
   void set_time_step(double dt) override;
   double stable_time_step() const override { return solver_.stable_time_step(); }
 

@@ -11,7 +11,6 @@
 #include "command.h"
 #include "io/history.h"
 #include "io/model_file.h"
-#include "structure/time/stable_time_step.h"
 
 namespace {
 
@@ -45,11 +44,9 @@ auto with_name(const io::ModelFile& model, Action action) try {
 double time_step(const Options& options, const io::ModelFile& model, double stable) {
   std::optional<double> wanted = options.step;
   if (!wanted && model.time) wanted = model.time->step;
-  const double limit = structure::kStableStepSafety * stable;
-  if (wanted && *wanted > limit)
+  if (wanted && *wanted > stable)
     throw std::runtime_error(
-        fmt::format("{}: time step {:.6g} is above the stable step {:.6g} times {}: {:.6g}", model.file,
-                    *wanted, stable, structure::kStableStepSafety, limit));
+        fmt::format("{}: time step {:.6g} is above the stable step {:.6g}", model.file, *wanted, stable));
   if (!wanted && std::isinf(stable))
     throw std::runtime_error(fmt::format("{}: every node is fixed, expected at least one free", model.file));
   return wanted.value_or(kDefaultStepFactor * stable);

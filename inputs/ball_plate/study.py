@@ -41,7 +41,7 @@ SAME_MESH = {
         "restitution": (0.99962, 2e-4 / 0.99962),
         "plate_displacement_at_peak": (3.26e-10, 0.05),
         "plate_displacement_at_end": (7.63e-10, 0.05),
-        "stable_time_step": (9.19e-7, 0.03),
+        "stable_time_step": (9.19e-7, 0.04),
     },
     "free_block_centre": {
         "peak_force": (6.5764, 1e-3),

@@ -7,8 +7,6 @@
 #include <limits>
 #include <vector>
 
-#include "structure/time/stable_time_step.h"
-
 namespace structure {
 
 namespace {
@@ -66,8 +64,7 @@ std::string likely_cause(const LastStep& step) {
   const double dt = step.time_step;
   const std::optional<double>& stable = step.stable_time_step;
   const std::string known = stable ? fmt::format(" (the stable step was {:.6g} at the start)", *stable) : "";
-  if (stable && dt > kStableStepSafety * *stable)
-    return fmt::format("the time step {:.6g} is too long{}", dt, known);
+  if (stable && dt > *stable) return fmt::format("the time step {:.6g} is too long{}", dt, known);
   const std::string folded = folded_element(step);
   if (!folded.empty())
     return fmt::format(

@@ -202,7 +202,7 @@ TEST(Halo, TwoPartsMoveAsTheWholeBodyDoes) {
     const Results& r = runs.parts[part];
     EXPECT_LT((r.u - Tower::own(whole.u, part)).norm(), 1e-12 * whole.u.norm());
     EXPECT_LT((r.v - Tower::own(whole.v, part)).norm(), 1e-12 * whole.v.norm());
-    EXPECT_NEAR(r.stable / whole.stable, 1.0, 1e-3) << "two iterations from two random vectors";
+    EXPECT_NEAR(r.stable / whole.stable, 1.0, 1e-9) << "the random start goes by ids";
     EXPECT_NEAR(r.kinetic / whole.kinetic, 1.0, 1e-12);
     EXPECT_NEAR(r.strain / whole.strain, 1.0, 1e-12);
     EXPECT_NEAR(r.load_work / whole.load_work, 1.0, 1e-12);
