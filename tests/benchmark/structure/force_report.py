@@ -17,7 +17,7 @@ from study.run.summary import Row, table, write_json
 
 # Peers take turns in random order: what else the machine does hits all of them.
 OPTIONS = [
-    "--benchmark_repetitions=9",
+    "--benchmark_repetitions=15",
     "--benchmark_min_time=0.02",
     "--benchmark_enable_random_interleaving=true",
     "--benchmark_report_aggregates_only=true",
