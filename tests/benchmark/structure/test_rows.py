@@ -49,17 +49,21 @@ class Ranks(unittest.TestCase):
         self.assertEqual(step.memory, 13e6)
 
     def test_speedup_and_memory_of_two(self):
+        """Memory is counted from that of a tiny plate, 100 here."""
+
         def step(work, memory):
             return ranks.Step(work, 0, 0, 0, memory)
 
-        for two, verdicts in ((step(1.0, 55.0), (True, True)), (step(1.01, 56.0), (False, False))):
-            found = by_name(ranks.report({1: step(1.8, 100.0), 2: two}, {1: step(1.0, 1.0)}))
-            seen = tuple(found[name].passes for name in ("speedup", "memory_of_a_rank_over_one"))
-            self.assertEqual(seen, verdicts)
+        alone, both, tiny = (ranks.Case(*case) for case in (("large", (), 1), ("large", (), 2), ("tiny", (), 1)))
+        for two, verdicts in ((step(1.0, 155.0), (True, True)), (step(1.01, 156.0), (False, False))):
+            found = by_name(ranks.report({alone: step(1.8, 200.0), both: two, tiny: step(0.0, 100.0)}))
+            self.assertEqual(tuple(found[name].passes for name in ("speedup", "memory_over_one")), verdicts)
 
     def test_elements_of_a_larger_plate_are_as_large(self):
-        self.assertIn("size: [0.61, 0.61, 0.0501], elements: [31, 31, 8]", ranks.model(ranks.PLATE))
-        self.assertIn("size: [1.22, 0.61, 0.0501], elements: [62, 31, 8]", ranks.model((62, 31, 8)))
+        self.assertIn("size: [0.61, 0.61, 0.0501], elements: [31, 31, 8]", ranks.model(ranks.PLATE, "stored"))
+        text = ranks.model((62, 31, 8), "stored")
+        self.assertIn("size: [1.22, 0.61, 0.0501], elements: [62, 31, 8]", text)
+        self.assertIn("integration: {method: stored}", text)
 
 
 class BallPlate(unittest.TestCase):
