@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Compiled once for each instruction set, into the namespace NURBS_SIMD_LEVEL.  Everything else here has
 // internal linkage, and no header with inline functions is included: code for a newer processor must never be
-// what the linker picks for all (tests/iga-solver/search/check_symbols.py).
+// what the linker picks for all (tests/iga-solver/check_symbols.py).
 #include "search/power_kernel.h"
 
 #include "search/power_newton.h"

@@ -12,17 +12,17 @@ namespace {
 
 constexpr const char* kNames[] = {"full", "reduced", "zou"};
 
-/// Whether functions are less than p - 1 times continuous at a break.
-bool is_rough(const nurbs::KnotVector& knots, int brk) {
-  const double at = knots.breaks()[brk];
-  return std::count(knots.knots().begin(), knots.knots().end(), at) > 1;
+int multiplicity(const nurbs::KnotVector& knots, int brk) {
+  return static_cast<int>(std::count(knots.knots().begin(), knots.knots().end(), knots.breaks()[brk]));
 }
 
 int points_of_span(const nurbs::KnotVector& knots, int span, Quadrature quadrature) {
   const int p = knots.degree();
   if (quadrature == Quadrature::full) return p + 1;
-  if (quadrature == Quadrature::reduced) return p;
-  return is_rough(knots, span) || is_rough(knots, span + 1) ? p : p - 1;
+  const int before = multiplicity(knots, span), after = multiplicity(knots, span + 1);
+  if (before >= p && after >= p) return p + 1;
+  const bool is_smooth = before == 1 && after == 1;
+  return quadrature == Quadrature::zou && is_smooth ? p - 1 : p;
 }
 
 }  // namespace

@@ -14,8 +14,11 @@ namespace structure {
 enum class Quadrature {
   full,     ///< p + 1: exact for affine maps of polynomial patches
   reduced,  ///< p: the same zero modes and the same stable step
-  zou       ///< p - 1, and p in spans at the ends and beside C0 lines; degrees 2 and 3 only
+  zou       ///< p - 1, and p in spans at the ends and beside repeated knots; degrees 2 and 3 only
 };
+// A span that is alone between two ends or C0 lines has p + 1 points in all of them: Legendre's polynomial of
+// degree p would vanish at p, and the product of two such directions, times anything, is a motion without
+// energy.
 // Source of the last: Zou, Hughes, Scott, Miao & Sauer (2022), "Efficient and robust quadratures for
 // isogeometric analysis", Comput. Methods Appl. Mech. Eng. 392, 114722.
 

@@ -40,7 +40,6 @@ LaneBases::LaneBases(const SpanRange& range, const std::vector<nurbs::Quadrature
       lanes_(lanes),
       spans_(range.count()),
       words_((spans_ + lanes - 1) / lanes),
-      margin_(whole_words(degree_, lanes)),
       first_word_{0} {
   bool repeated = false;
   for (int s = 0; s < spans_; ++s) {
@@ -72,13 +71,9 @@ LaneBases::LaneBases(const SpanRange& range, const std::vector<nurbs::Quadrature
 }
 
 LaneBasis LaneBases::basis(double* scratch) const {
-  return {spans_,
-          words_,
-          row_,
-          margin_,
-          first_word_.data(),
-          basis_.data(),
-          first_control_.empty() ? nullptr : first_control_.data(),
+  return {spans_,        words_,
+          row_,          first_word_.data(),
+          basis_.data(), first_control_.empty() ? nullptr : first_control_.data(),
           scratch};
 }
 

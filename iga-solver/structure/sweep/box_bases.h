@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "structure/solid/quadrature.h"
+#include "structure/sweep/aligned_numbers.h"
 #include "structure/sweep/line_kernel.h"
 
 namespace structure {
@@ -44,10 +45,10 @@ class LaneBases {
  public:
   LaneBases(const SpanRange& range, const std::vector<nurbs::QuadratureRule>& rules, int lanes);
 
-  /// `scratch` has scratch_size() zeros at first.
+  /// `scratch` has scratch_size() numbers.
   LaneBasis basis(double* scratch) const;
   std::size_t scratch_size(int fields) const {
-    return std::size_t(3) * fields * (degree_ + 1) * (margin_ + row_);
+    return first_control_.empty() ? 0 : std::size_t(3) * fields * (degree_ + 1) * row_;
   }
   int row() const { return row_; }
   int point_words() const { return first_word_.back(); }
@@ -59,9 +60,9 @@ class LaneBases {
   Place place(int point_word, int lane) const;
 
  private:
-  int degree_, lanes_, spans_, words_, row_, margin_;
+  int degree_, lanes_, spans_, words_, row_;
   std::vector<int> first_word_, first_control_;
-  std::vector<double> basis_, weights_;
+  AlignedNumbers basis_, weights_;
 };
 
 }  // namespace structure

@@ -44,6 +44,14 @@ std::vector<int> permuted(const std::vector<int>& columns, const std::array<int,
   return out;
 }
 
+/// Whether a row-major K has its only numbers in columns (d + shift) % 3.
+bool is_aligned(const std::vector<double>& K, int shift) {
+  for (int d = 0; d < 3; ++d)
+    for (int j = 0; j < 3; ++j)
+      if (j != (d + shift) % 3 && K[3 * d + j] != 0.0) return false;
+  return true;
+}
+
 void grow(AlignedNumbers& numbers, std::size_t size) {
   if (numbers.size() < size) numbers.resize(size, 0.0);
 }
@@ -80,6 +88,8 @@ BoxSweep::BoxSweep(const nurbs::Volume& patch, const PlacedBox& box, std::size_t
     for (int d = 0; d < 3; ++d)
       for (int j = 0; j < 3; ++j) affine_.push_back(K(axes_[d], j));
     affine_.push_back(plan.J->determinant());
+    for (int shift = 0; shift < 3; ++shift)
+      if (is_aligned(affine_, shift)) loops_ = &aligned_loops(shift, plan.level);
   }
   place_memories(box.spans, first_element, plan);
 }
@@ -129,6 +139,13 @@ void BoxSweep::read(const NodalVectors& values, const std::vector<int>& columns,
       const double w = rational_ ? *weight++ : 1.0;
       for (int c = 0; c < 3; ++c) fields[c * field_ + start + i] = w * value[c];
     }
+  clear_padding(3, fields);
+}
+
+/// What other boxes left there.
+void BoxSweep::clear_padding(int count, double* fields) const {
+  for (std::size_t start = 0; start < count * field_; start += row_)
+    std::fill_n(fields + start + nx_, row_ - nx_, 0.0);
 }
 
 void BoxSweep::read_geometry(const NodalVectors& X, double* fields) const {
@@ -137,6 +154,7 @@ void BoxSweep::read_geometry(const NodalVectors& X, double* fields) const {
   const double* weight = weights_.data();
   for (std::size_t start = 3 * field_; start < 4 * field_; start += row_)
     for (int i = 0; i < nx_; ++i) fields[start + i] = *weight++;
+  clear_padding(1, fields + 3 * field_);
 }
 
 /// place: span and point in y, then in z.
@@ -183,7 +201,6 @@ void BoxSweep::sweep_plane(int z, int z_point, Pass& pass, SweepSpace& space) co
 }
 
 void BoxSweep::sweep(Pass& pass, SweepSpace& space) const {
-  std::fill_n(space.scratch.data(), x_.scratch_size(pass.fields_out), 0.0);  // other boxes' rows were longer
   std::fill_n(space.forces.data(), pass.fields_out * field_, 0.0);
   for (int z = 0; z < z_.spans(); ++z)
     for (int q = 0; q < z_.at(z).points; ++q) {

@@ -75,6 +75,7 @@ class BoxSweep {
   void do_points(const std::array<int, 4>& place, Pass& pass, double* values) const;
   void place_memories(const SpanBox& box, std::size_t first_element, const SweepPlan& plan);
   void read(const NodalVectors& values, const std::vector<int>& columns, double* fields) const;
+  void clear_padding(int count, double* fields) const;
   void read_geometry(const NodalVectors& X, double* fields) const;
   int geometry_fields() const { return rational_ ? 4 : 3; }
   const std::vector<int>& read_columns() const { return read_.empty() ? nodes_ : read_; }

@@ -15,6 +15,7 @@ using nurbs::SimdLevel;
   namespace level {                                                \
   const LineKernel& line_kernel(int degree);                       \
   const PointLoops& point_loops(GeometryMode mode, bool rational); \
+  const PointLoops& aligned_loops(int shift);                      \
   const GeometryLoops& geometry_loops(bool rational);              \
   }
 DECLARE_KERNELS(portable)
@@ -46,6 +47,15 @@ const PointLoops& point_loops(GeometryMode mode, bool rational, SimdLevel level)
   if (level == SimdLevel::avx2) return avx2::point_loops(mode, rational);
 #endif
   return portable::point_loops(mode, rational);
+}
+
+const PointLoops& aligned_loops(int shift, SimdLevel level) {
+  expect(level);
+#ifdef NURBS_X86_64
+  if (level == SimdLevel::avx512) return avx512::aligned_loops(shift);
+  if (level == SimdLevel::avx2) return avx2::aligned_loops(shift);
+#endif
+  return portable::aligned_loops(shift);
 }
 
 const GeometryLoops& geometry_loops(bool rational, SimdLevel level) {

@@ -4,6 +4,8 @@
 // what the linker picks for all.
 #include "structure/sweep/line_kernel.h"
 
+#include <utility>
+
 #include "structure/sweep/lanes.h"
 
 namespace structure {
@@ -136,29 +138,39 @@ void word_to_points(const double* basis, const Window& window, int fields, doubl
   }
 }
 
+/// Shares of the p + 1 control points of each span of a word, for value, d/dy, d/dz.
+template <int P>
+struct Shares {
+  Lanes of[3][P + 1];
+};
+
 template <int P, int Points, bool WithValue>
-void word_from_points(const double* basis, const double* values, std::size_t stride, int fields,
-                      std::size_t control, double* out) {
-  constexpr int kQuantities = WithValue ? 4 : 3;
-  for (int c = 0; c < fields; ++c, out += 3 * (P + 1) * control) {
-    Lanes value[P + 1] = {}, d_y[P + 1] = {}, d_z[P + 1] = {};
-    for (int q = 0; q < Points; ++q) {
-      const double *B = basis + 2 * (P + 1) * kLanes * q, *dB = B + (P + 1) * kLanes;
-      const double* t = values + stride * q + kQuantities * kLanes * c;
-      for (int a = 0; a <= P; ++a) {
-        const Lanes b = load(B + kLanes * a);
-        value[a] += load(dB + kLanes * a) * load(t);
-        if (WithValue) value[a] += b * load(t + 3 * kLanes);
-        d_y[a] += b * load(t + kLanes);
-        d_z[a] += b * load(t + 2 * kLanes);
-      }
-    }
+[[gnu::always_inline]] inline void add_points(const double* __restrict basis, const double* __restrict t,
+                                              std::size_t stride, Shares<P>& shares) {
+  for (int q = 0; q < Points; ++q, t += stride) {
+    const double *B = basis + 2 * (P + 1) * kLanes * q, *dB = B + (P + 1) * kLanes;
+    const Lanes t_x = load(t), t_y = load(t + kLanes), t_z = load(t + 2 * kLanes);
     for (int a = 0; a <= P; ++a) {
-      store(value[a], out + a * control);
-      store(d_y[a], out + (P + 1 + a) * control);
-      store(d_z[a], out + (2 * (P + 1) + a) * control);
+      const Lanes b = load(B + kLanes * a);
+      shares.of[0][a] += load(dB + kLanes * a) * t_x;
+      if (WithValue) shares.of[0][a] += b * load(t + 3 * kLanes);
+      shares.of[1][a] += b * t_y;
+      shares.of[2][a] += b * t_z;
     }
   }
+}
+
+template <int P, bool WithValue>
+[[gnu::always_inline]] inline Shares<P> word_shares(const LaneBasis& x, int w, const double* values,
+                                                    std::size_t stride) {
+  Shares<P> shares = {};
+  const int word = x.first_word[w], points = x.first_word[w + 1] - word;
+  const double* const basis = x.basis + std::size_t(word) * 2 * (P + 1) * kLanes;
+  const double* const t = values + stride * word;
+  if (points == P + 1) add_points<P, P + 1, WithValue>(basis, t, stride, shares);
+  if (points == P) add_points<P, P, WithValue>(basis, t, stride, shares);
+  if (points == P - 1) add_points<P, P - 1, WithValue>(basis, t, stride, shares);
+  return shares;
 }
 
 /// Where knots are repeated, span s does not begin at control point s: the values of each span's functions
@@ -167,18 +179,19 @@ template <int P>
 void expand(const LaneBasis& x, const double* rows, int count) {
   for (int k = 0; k < count; ++k)
     for (int a = 0; a <= P; ++a) {
-      double* out = x.scratch + (k * (P + 1) + a) * std::size_t(x.margin + x.row) + x.margin;
+      double* out = x.scratch + (k * (P + 1) + a) * std::size_t(x.row);
       for (int s = 0; s < x.spans; ++s) out[s] = rows[k * std::size_t(x.row) + x.first_control[s] + a];
+      for (int s = x.spans; s < x.words * kLanes; ++s) out[s] = 0.0;
     }
 }
 
 template <int P, bool WithValue>
 void to_points(const LaneBasis& x, const double* rows, int fields, double* values) {
-  const std::size_t length = x.margin + x.row;
-  Window window{rows, 1, std::size_t(x.row)};
+  const std::size_t row = x.row;
+  Window window{rows, 1, row};
   if (x.first_control) {
     expand<P>(x, rows, 3 * fields);
-    window = {x.scratch + x.margin, length, (P + 1) * length};
+    window = {x.scratch, row, (P + 1) * row};
   }
   for (int w = 0; w < x.words; ++w, window.values += kLanes) {
     const int word = x.first_word[w], points = x.first_word[w + 1] - word;
@@ -195,42 +208,66 @@ void to_points(const LaneBasis& x, const double* rows, int fields, bool with_val
   (with_value ? to_points<P, true> : to_points<P, false>)(x, rows, fields, values);
 }
 
-/// A control point's sum: from the spans that begin at it, at the one before, ...
-template <int P>
-void add_spans(const LaneBasis& x, const double* shares, double* row) {
-  const std::size_t length = x.margin + x.row;
-  shares += x.margin;
-  if (!x.first_control) {
-    for (int i = 0; i < x.row; i += kLanes) {
-      Lanes sum = load(shares + i);
-      for (int a = 1; a <= P; ++a) sum += load(shares + a * length + i - a);
-      store(sum, row + i);
-    }
-    return;
-  }
-  for (int i = 0; i < x.row; ++i) row[i] = 0.0;
-  for (int a = 0; a <= P; ++a)
-    for (int s = 0; s < x.spans; ++s) row[x.first_control[s] + a] += shares[a * length + s];
+/// Lanes -A, ..., kLanes - 1 - A, counted from the first of `now`; those below 0 are in the word before.
+template <int A, int... Lane>
+[[gnu::always_inline]] inline Lanes lanes_before(const Lanes& before, const Lanes& now,
+                                                 std::integer_sequence<int, Lane...>) {
+  return __builtin_shufflevector(before, now, (kLanes - A + Lane)...);
+}
+
+/// What spans of this word and of words before add to control points w kLanes, ...: of the span that begins
+/// at one its first function, of the span before the second, ...  history[h] is the word h before this one.
+template <int P, int A = 0>
+[[gnu::always_inline]] inline Lanes sum_of_spans(const Lanes (&history)[(P - 1) / kLanes + 2][P + 1]) {
+  constexpr int kWord = A / kLanes, kLane = A % kLanes;
+  Lanes share = history[kWord][A];
+  if constexpr (kLane > 0)
+    share = lanes_before<kLane>(history[kWord + 1][A], share, std::make_integer_sequence<int, kLanes>());
+  if constexpr (A < P)
+    return share + sum_of_spans<P, A + 1>(history);
+  else
+    return share;
 }
 
 template <int P, bool WithValue>
 void from_points(const LaneBasis& x, const double* values, std::size_t stride, int fields, double* rows) {
-  const std::size_t length = x.margin + x.row;
-  for (int w = 0; w < x.words; ++w) {
-    const int word = x.first_word[w], points = x.first_word[w + 1] - word;
-    const double* basis = x.basis + std::size_t(word) * 2 * (P + 1) * kLanes;
-    const auto contract = points == P + 1 ? word_from_points<P, P + 1, WithValue>
-                          : points == P   ? word_from_points<P, P, WithValue>
-                                          : word_from_points<P, P - 1, WithValue>;
-    contract(basis, values + stride * word, stride, fields, length, x.scratch + x.margin + w * kLanes);
+  constexpr int kWordsBack = (P - 1) / kLanes + 1;
+  for (int c = 0; c < fields; ++c, values += (WithValue ? 4 : 3) * kLanes, rows += 3 * std::size_t(x.row)) {
+    Lanes history[3][kWordsBack + 1][P + 1] = {};
+    for (int w = 0; w * kLanes < x.row; ++w) {
+      const Shares<P> shares = w < x.words ? word_shares<P, WithValue>(x, w, values, stride) : Shares<P>{};
+      for (int k = 0; k < 3; ++k) {
+        for (int h = kWordsBack; h > 0; --h)
+          for (int a = 0; a <= P; ++a) history[k][h][a] = history[k][h - 1][a];
+        for (int a = 0; a <= P; ++a) history[k][0][a] = shares.of[k][a];
+        store(sum_of_spans<P>(history[k]), rows + k * std::size_t(x.row) + w * kLanes);
+      }
+    }
   }
-  for (int k = 0; k < 3 * fields; ++k)
-    add_spans<P>(x, x.scratch + k * (P + 1) * length, rows + k * std::size_t(x.row));
+}
+
+/// The same where knots are repeated: span by span.
+template <int P, bool WithValue>
+void from_points_of_repeated_knots(const LaneBasis& x, const double* values, std::size_t stride, int fields,
+                                   double* rows) {
+  for (int i = 0; i < 3 * fields * x.row; ++i) rows[i] = 0.0;
+  for (int c = 0; c < fields; ++c, values += (WithValue ? 4 : 3) * kLanes, rows += 3 * std::size_t(x.row))
+    for (int w = 0; w < x.words; ++w) {
+      const Shares<P> shares = word_shares<P, WithValue>(x, w, values, stride);
+      for (int lane = 0; lane < kLanes && w * kLanes + lane < x.spans; ++lane)
+        for (int k = 0; k < 3; ++k)
+          for (int a = 0; a <= P; ++a)
+            rows[k * x.row + x.first_control[w * kLanes + lane] + a] += shares.of[k][a][lane];
+    }
 }
 template <int P>
 void from_points(const LaneBasis& x, const double* values, std::size_t stride, int fields, bool with_value,
                  double* rows) {
-  (with_value ? from_points<P, true> : from_points<P, false>)(x, values, stride, fields, rows);
+  const auto contract =
+      x.first_control
+          ? (with_value ? from_points_of_repeated_knots<P, true> : from_points_of_repeated_knots<P, false>)
+          : (with_value ? from_points<P, true> : from_points<P, false>);
+  contract(x, values, stride, fields, rows);
 }
 
 template <int P>

@@ -29,11 +29,10 @@ struct SpanBasis {
 struct LaneBasis {
   int spans, words;          ///< words of spans
   int row;                   ///< numbers in a padded row: whole words
-  int margin;                ///< numbers before a row of the scratch: whole words, p at least
   const int* first_word;     ///< [word + 1] point words before; points of a word at most p + 1
   const double* basis;       ///< [point word][B, dB][p + 1][lane]; 0 where a span has no such point
   const int* first_control;  ///< [span] control point; null where that of span s is s
-  double* scratch;           ///< [field][3][p + 1][margin + row], of zeros at first
+  double* scratch;           ///< where it is not: values span by span, [field][3][p + 1][row]
 };
 
 /// Contractions of a direction of one degree.

@@ -17,6 +17,14 @@ struct PointGeometry {
   Lanes g[3] = {};  // dW / W; rational only
 };
 
+/// Of a map that stretches along the axes: direction d of the parameters goes along axis (d + Shift) % 3.
+template <int Shift>
+struct AlignedGeometry {
+  static constexpr int axis(int d) { return (d + Shift) % 3; }
+  double k[3];  // 1 / J(axis(d), d)
+  Lanes w_det;
+};
+
 /// 1 / x, and 0 of 0: lanes without a span have no Jacobian.
 inline Lanes inverse_or_zero(const Lanes& x) {
   const Lanes one = Lanes{} + 1.0;
@@ -121,6 +129,31 @@ template <bool Rational>
   }
 }
 
+template <int Shift>
+[[gnu::always_inline]] inline void find_geometry(const PointRow& row, int word,
+                                                 AlignedGeometry<Shift>& geometry) {
+  for (int d = 0; d < 3; ++d) geometry.k[d] = row.affine[3 * d + AlignedGeometry<Shift>::axis(d)];
+  geometry.w_det = row.weight * row.affine[9] * load(row.weights + std::size_t(word) * kLanes);
+}
+
+template <int Shift>
+[[gnu::always_inline]] inline LaneTensor gradient(const double* values,
+                                                  const AlignedGeometry<Shift>& geometry) {
+  LaneTensor H;
+  for (int i = 0; i < 3; ++i)
+    for (int d = 0; d < 3; ++d) H(i, geometry.axis(d)) = geometry.k[d] * load(values + (3 * i + d) * kLanes);
+  return H;
+}
+
+template <int Shift>
+[[gnu::always_inline]] inline void put_stress(const LaneTensor& P, const AlignedGeometry<Shift>& geometry,
+                                              double* values) {
+  for (int d = 0; d < 3; ++d) {
+    const Lanes factor = geometry.w_det * geometry.k[d];
+    for (int i = 0; i < 3; ++i) store(factor * P(i, geometry.axis(d)), values + (3 * i + d) * kLanes);
+  }
+}
+
 /// A law that the kernels do not hold, in the place of one: point after point.
 struct OutsideWord {
   const OutsideLaw& outside;
@@ -190,6 +223,17 @@ void energy_loop(const PointRow& row, PointSums& sums) {
   for (int lane = 0; lane < kLanes; ++lane) sums.sum += energy[lane];
 }
 
+template <class Law, int Shift>
+void aligned_stress_loop(const PointRow& row, PointSums& /*sums*/) {
+  double* values = row.values;
+  for (int word = 0; word < row.words; ++word, values += 9 * kLanes) {
+    AlignedGeometry<Shift> geometry;
+    find_geometry(row, word, geometry);
+    const LaneTensor H = gradient(values, geometry);
+    put_stress(law_at(row, word, static_cast<const Law*>(nullptr)).stress(H), geometry, values);
+  }
+}
+
 void note_least(const Lanes& det, const double* weights, PointSums& sums) {
   for (int lane = 0; lane < kLanes; ++lane)
     if (weights[lane] != 0.0 && !(det[lane] >= sums.least_det)) sums.least_det = det[lane];
@@ -238,8 +282,17 @@ constexpr PointLoops loops(LawList<Laws...>) {
           {energy_loop<Laws, Mode, Rational>..., energy_loop<OutsideWord, Mode, Rational>}};
 }
 
+template <int Shift, class... Laws>
+constexpr PointLoops aligned_loops(LawList<Laws...>) {
+  return {{aligned_stress_loop<Laws, Shift>..., aligned_stress_loop<OutsideWord, Shift>},
+          {energy_loop<Laws, GeometryMode::affine, false>...,
+           energy_loop<OutsideWord, GeometryMode::affine, false>}};
+}
+
 template <GeometryMode Mode>
 constexpr PointLoops kLoops[2] = {loops<Mode, false>(ElasticLaws{}), loops<Mode, true>(ElasticLaws{})};
+constexpr PointLoops kAlignedLoops[3] = {aligned_loops<0>(ElasticLaws{}), aligned_loops<1>(ElasticLaws{}),
+                                         aligned_loops<2>(ElasticLaws{})};
 constexpr GeometryLoops kGeometryLoops[2] = {{tabulate<false>, mass<false>}, {tabulate<true>, mass<true>}};
 
 }  // namespace
@@ -250,6 +303,7 @@ const PointLoops& point_loops(GeometryMode mode, bool rational) {
          : mode == GeometryMode::stored ? kLoops<GeometryMode::stored>[rational]
                                         : kLoops<GeometryMode::recomputed>[rational];
 }
+const PointLoops& aligned_loops(int shift) { return kAlignedLoops[shift]; }
 const GeometryLoops& geometry_loops(bool rational) { return kGeometryLoops[rational]; }
 }  // namespace NURBS_SIMD_LEVEL
 

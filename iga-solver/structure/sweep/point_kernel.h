@@ -61,6 +61,9 @@ struct PointLoops {
 };
 const PointLoops& point_loops(GeometryMode mode, bool rational, nurbs::SimdLevel level);
 
+/// Of an affine map that only stretches: direction d of the row's three goes along axis (d + shift) % 3.
+const PointLoops& aligned_loops(int shift, nurbs::SimdLevel level);
+
 /// Loops over geometry alone; values are those of recomputed geometry without displacements.
 struct GeometryLoops {
   PointLoop tabulate;  ///< fills the table

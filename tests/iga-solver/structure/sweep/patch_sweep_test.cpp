@@ -21,6 +21,7 @@ using nurbs::SimdLevel;
 using structure::ElementLoop;
 using structure::GeometryMode;
 using structure::Material;
+using structure::Matrix3;
 using structure::PatchSweep;
 using structure::PointMemory;
 using structure::Quadrature;
@@ -106,6 +107,21 @@ void expect_equal_in_all_ways(const nurbs::Volume& patch, bool affine) {
 TEST(PatchSweep, EqualsThePlainLoopOnAffineBlocks) {
   expect_equal_in_all_ways(models::block({1, 2, 1.5}, {5, 3, 4}, 2), true);
   expect_equal_in_all_ways(models::block({1, 2, 1.5}, {2, 1, 11}, 3), true);
+}
+
+// Maps that only stretch have loops of their own, for each way to lie along the axes.
+TEST(PatchSweep, EqualsThePlainLoopOnAffineImages) {
+  const auto image = [](nurbs::Volume patch, const Matrix3& A) {
+    patch.control_points = A * patch.control_points;
+    return patch;
+  };
+  const nurbs::Volume block = models::block({1, 2, 1.5}, {5, 3, 9}, 2);
+  Matrix3 cyclic, odd, sheared;
+  cyclic << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+  odd << 0, 1, 0, 1, 0, 0, 0, 0, -1;
+  sheared << 1, 0.3, 0, 0, 1, 0, 0.1, 0, 1;
+  for (const Matrix3& A : {cyclic, Matrix3(cyclic * cyclic), odd, sheared, Matrix3(sheared * cyclic)})
+    expect_equal_in_all_ways(image(block, A), true);
 }
 
 TEST(PatchSweep, EqualsThePlainLoopForEveryDegreeAndMixedOnes) {
