@@ -8,18 +8,19 @@ namespace structure {
 namespace {
 
 /// Where a direction is cut: first and last span included.
-std::vector<int> cuts(const nurbs::KnotVector& knots) {
-  const int spans = knots.element_count(), longest = std::max(kBoxSpans, 2 * knots.degree()),
-            pieces = (spans + longest - 1) / longest;
-  std::vector<int> cuts;
-  for (int i = 0; i <= pieces; ++i) cuts.push_back(static_cast<int>(static_cast<long>(spans) * i / pieces));
+std::vector<int> cuts(const nurbs::KnotVector& knots, int longest) {
+  const int spans = knots.element_count();
+  std::vector<int> cuts{0};
+  while (spans - cuts.back() >= longest + knots.degree()) cuts.push_back(cuts.back() + longest);
+  cuts.push_back(spans);
   return cuts;
 }
 
 }  // namespace
 
 std::vector<SpanBox> box_grid(const nurbs::Space<3>& space) {
-  const std::vector<int> x = cuts(space.knots(0)), y = cuts(space.knots(1)), z = cuts(space.knots(2));
+  const std::vector<int> x = cuts(space.knots(0), kBoxSpans[0]), y = cuts(space.knots(1), kBoxSpans[1]),
+                         z = cuts(space.knots(2), kBoxSpans[2]);
   std::vector<SpanBox> boxes;
   for (std::size_t k = 0; k + 1 < z.size(); ++k)
     for (std::size_t j = 0; j + 1 < y.size(); ++j)

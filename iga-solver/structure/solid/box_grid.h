@@ -30,13 +30,14 @@ struct SpanBox {
   }
 };
 
-/// Boxes, the first direction fastest.  A direction is cut into pieces of nearly equal numbers of spans, at
-/// most kBoxSpans, and no fewer than its degree: so a control point has elements in at most two boxes per
+/// Spans of a box in each direction: whole words of numbers; what is in work fits into the cache beside the
+/// processor; many ranks have one each.
+constexpr std::array<int, 3> kBoxSpans = {32, 16, 16};
+
+/// Boxes, the first direction fastest.  A direction is cut into pieces of kBoxSpans; the last has what is
+/// left, but no fewer spans than the degree: so a control point has elements in at most two boxes per
 /// direction.
 std::vector<SpanBox> box_grid(const nurbs::Space<3>& space);
-
-/// Long enough for whole words of numbers, short enough for the cache and for many ranks.
-constexpr int kBoxSpans = 32;
 
 /// Control points of the elements of a box, the first direction fastest.
 std::vector<int> box_nodes(const nurbs::Space<3>& space, const SpanBox& box);
