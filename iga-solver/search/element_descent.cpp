@@ -289,6 +289,16 @@ class Descent {
 
 }  // namespace
 
+namespace {
+
+// Rows that stay in a second-level cache.
+bool is_cached(int rows, int lines_per_row) {
+  constexpr int kLines = 8192;  // half a megabyte
+  return rows <= kLines / lines_per_row;
+}
+
+}  // namespace
+
 ElementStore::ElementStore(const Space<2>& space, SimdLevel level)
     : space_(space),
       axes_{{space, 0}, {space, 1}},
@@ -296,6 +306,7 @@ ElementStore::ElementStore(const Space<2>& space, SimdLevel level)
       rational_(space.rational()),
       functions_(space.functions_per_element()),
       lines_per_row_((row_length(functions_, rational_) + 7) / 8),
+      lines_to_fetch_(is_cached(space.element_count(), lines_per_row_) ? 0 : lines_per_row_),
       built_(space.element_count(), 0),
       lines_(new Line[static_cast<size_t>(space.element_count()) * lines_per_row_]) {}
 

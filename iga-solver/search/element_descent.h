@@ -40,8 +40,8 @@ class ElementStore {
     if (built_[index] != version_) build(e0, e1, index);
     return {row(index)};
   }
-  /// Has the processor fetch an element's numbers.
-  void prefetch(const Element& element) const { nurbs::prefetch(element.row, lines_per_row_); }
+  /// Has the processor fetch an element's numbers, where it may have to go to memory for them.
+  void prefetch(const Element& element) const { nurbs::prefetch(element.row, lines_to_fetch_); }
   /// Homogeneous control points (w (P - origin), w), or (P - origin, 0) of a polynomial patch.
   void homogeneous_points(const int (&e)[2], Vector4* out) const;
   ElementNet net(int e0, int e1) const {
@@ -63,7 +63,7 @@ class ElementStore {
   ElementAxis axes_[2];
   ElementKernel kernel_;
   bool rational_;
-  int functions_, lines_per_row_;
+  int functions_, lines_per_row_, lines_to_fetch_;
   NodalVectors control_points_;
   unsigned version_ = 1;
   mutable std::vector<unsigned> built_;

@@ -230,24 +230,23 @@ void newton(int p, int q, const double* element, const double* point, double s0,
 template <int P, int Q, bool Rational>
 void newton_batch(int p, int q, NewtonBatch& batch) {
   for (int k = batch.count; k % kLanes != 0; ++k) {  // lanes not used repeat the first point
-    batch.element[k] = batch.element[0], batch.d[k] = batch.d[0];
-    for (int i = 0; i < 2; ++i) batch.s[i][k] = batch.s[i][0];
+    batch.element[k] = batch.element[0];
+    for (auto& d : batch.d) d[k] = d[0];
+    for (auto& s : batch.s) s[k] = s[0];
   }
   for (int first = 0; first < batch.count; first += kLanes) {
-    Vector4 points[kLanes];
-    Lanes d[4];
-    for (int lane = 0; lane < kLanes; ++lane) points[lane] = load3(batch.d[first + lane]);
-    transpose(points, d);
-    const LaneElements<P, Q, Rational> surface(p, q, batch.element + first, {d[0], d[1], d[2]});
+    const LaneVector d{load_lanes(batch.d[0] + first), load_lanes(batch.d[1] + first),
+                       load_lanes(batch.d[2] + first)};
+    const LaneElements<P, Q, Rational> surface(p, q, batch.element + first, d);
     Lanes s[2] = {load_lanes(batch.s[0] + first), load_lanes(batch.s[1] + first)};
     const auto foot = newton(surface, s);
     store(foot.done, batch.done + first);
     store(foot.iterations, batch.iterations + first);
     for (int i = 0; i < 2; ++i)
       store(foot.s[i], batch.s[i] + first), store(foot.next[i], batch.next[i] + first);
-    store(d[0] + foot.r.x, batch.foot[0] + first);
-    store(d[1] + foot.r.y, batch.foot[1] + first);
-    store(d[2] + foot.r.z, batch.foot[2] + first);
+    store(d.x + foot.r.x, batch.foot[0] + first);
+    store(d.y + foot.r.y, batch.foot[1] + first);
+    store(d.z + foot.r.z, batch.foot[2] + first);
     store(root(foot.distance2), batch.distance + first);
   }
 }

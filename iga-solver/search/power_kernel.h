@@ -54,8 +54,8 @@ struct NewtonBatch {
   static constexpr int kCapacity = 64;  // a multiple of the length of every word
 
   int count;
-  const double *element[kCapacity], *d[kCapacity];
-  alignas(64) double s[2][kCapacity];  ///< where to start; then as in NewtonEnd
+  const double* element[kCapacity];
+  alignas(64) double d[3][kCapacity], s[2][kCapacity];  ///< s: where to start; then as in NewtonEnd
   double next[2][kCapacity], foot[3][kCapacity], distance[kCapacity];
   long long iterations[kCapacity], done[kCapacity];
 

@@ -160,7 +160,6 @@ void SurfaceProjector::warm_batch(const Vector3* d, Foot* const* feet, int count
   const ElementKernel& kernel = elements_.kernel();
   NewtonBatch batch;
   int e[NewtonBatch::kCapacity][2];
-  Vector3 moved[NewtonBatch::kCapacity];
   for (int first = 0; first < count; first += batch.count) {
     batch.count = std::min(NewtonBatch::kCapacity, count - first);
     for (int k = 0; k < batch.count; ++k) {
@@ -171,14 +170,14 @@ void SurfaceProjector::warm_batch(const Vector3* d, Foot* const* feet, int count
       }
       const ElementStore::Element element = elements_.element(e[k]);
       elements_.prefetch(element);
-      moved[k] = d[first + k] - foot.image;
-      batch.element[k] = element.row, batch.d[k] = moved[k].data();
+      batch.element[k] = element.row;
+      for (int c = 0; c < 3; ++c) batch.d[c][k] = d[first + k][c] - foot.image[c];
     }
     kernel.newton_batch(kernel.p, kernel.q, batch);
     for (int k = 0; k < batch.count; ++k) {
       Foot& foot = *feet[first + k];
       if (batch.done[k] == 0) {
-        foot = placed(warm_beyond(moved[k], start(foot.xi), batch.end(k)), foot.patch, foot.image);
+        foot = placed(warm_beyond(d[first + k] - foot.image, start(foot.xi), batch.end(k)), foot.patch, foot.image);
         continue;
       }
       for (int c = 0; c < 3; ++c) foot.point[c] = batch.foot[c][k] + foot.image[c];
