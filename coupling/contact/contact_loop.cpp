@@ -16,7 +16,7 @@ ContactLoop::ContactLoop(const coupling::StructureSolver& structure, coupling::S
     : options_(options),
       wall_(structure, exchange),
       search_(options.search, wall_.projector()),
-      tracker_(search_, wall_.regularity(), candidates_) {}
+      tracker_(search_, candidates_) {}
 
 void ContactLoop::forget_reports() {
   search_.reset();
@@ -28,7 +28,7 @@ void ContactLoop::forget_reports() {
 void ContactLoop::build_list(const ParticleView& particles, const ListReach& reach) {
   if (wall_.deforms() || !candidates_.has_surface()) {
     candidates_.set_surface(wall_.surface(), wall_.control_points());
-    wall_.remeasure();
+    wall_.projector().begin_list();
   }
   const search::Box& bounds = candidates_.wall_bounds();
   wall_.set_bounds(bounds);

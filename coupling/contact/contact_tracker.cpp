@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "nurbs/assert.h"
+#include "nurbs/curvature.h"
 
 namespace contact {
 
@@ -75,7 +76,7 @@ bool ContactTracker::is_regular(const Candidate& candidate, const Query& query) 
     const Vector3 d = query.centre - candidates_.images()[images[k].image];
     const int* elements = candidates_.elements(images[k]);
     for (int e = 0; e < images[k].count; ++e)
-      if (!regularity_.is_regular(d, query.list_reach, elements[e])) return false;
+      if (!search_.projector().excludes_second_foot(d, query.list_reach, elements[e])) return false;
   }
   return true;
 }
@@ -94,17 +95,27 @@ void ContactTracker::find_all(const Candidate& candidate, const Query& query, do
   match_slots(candidate, query, slots, out.data(), static_cast<int>(out.size()));
 }
 
+// Whether the distance does not rise along the surface to second order, as the particle is on a centre of
+// curvature.  Of a pole counts what is beside it.
+bool ContactTracker::in_valley(const Query& query, const Foot& foot) const {
+  constexpr double kFlat = 1e-6;
+  const search::SurfaceProjector& patch = search_.projector().patch(foot.patch);
+  const nurbs::SurfaceShape shape = nurbs::shape_near(patch.space(), patch.control_points(), foot.xi);
+  const double side = shape.normal.dot(query.centre - foot.image - shape.point) < 0.0 ? -1.0 : 1.0;
+  const auto flat = [&](double curvature) {
+    return std::abs(1.0 - side * foot.distance * curvature) <= kFlat;
+  };
+  return flat(shape.curvature[0]) || flat(shape.curvature[1]);
+}
+
 // On a centre of curvature (the axis of a tube) feet are not isolated and the search finds some of a row of
 // them, all equally far: they are one contact.
 void ContactTracker::keep_one_of_each_valley(const Query& query) {
   constexpr double kEqual = 1e-9;
   if (found_.size() < 2) return;
-  const auto in_valley = [&](const Foot& foot) {
-    return regularity_.in_valley(query.centre - foot.image, foot.at(), foot.distance);
-  };
   const auto repeats = [&](const Foot& foot, const Foot& kept) {
-    return std::abs(foot.distance - kept.distance) <= kEqual * foot.distance && in_valley(kept) &&
-           in_valley(foot);
+    return std::abs(foot.distance - kept.distance) <= kEqual * foot.distance && in_valley(query, kept) &&
+           in_valley(query, foot);
   };
   auto end = found_.begin() + 1;
   for (auto foot = end; foot != found_.end(); ++foot)

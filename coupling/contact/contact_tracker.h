@@ -2,8 +2,8 @@
 // The feet of each candidate from step to step: all local minima of the distance within reach, each with the
 // slot of the particle's memory that belongs to its branch.
 //
-// When the list is new, all minima within its reach are found by branch and bound.  Where the surface is
-// regular (search/regularity.h) none can appear or vanish until the next rebuild, so each is followed from
+// When the list is new, all minima within its reach are found by branch and bound.  Where a second foot is
+// excluded (search/second_foot.h) none can appear or vanish until the next rebuild, so each is followed from
 // its last place. Elsewhere - edges, kinks, poles, troughs as narrow as the particle - all minima are found
 // anew in each step.
 #pragma once
@@ -14,7 +14,6 @@
 #include "coupling/contact/candidate_list.h"
 #include "coupling/contact/contact_memory.h"
 #include "coupling/contact/local_search.h"
-#include "search/regularity.h"
 
 namespace contact {
 
@@ -31,9 +30,9 @@ struct FeetRange {
 
 class ContactTracker {
  public:
-  /// Keeps references to all three.
-  ContactTracker(LocalSearch& search, search::Regularity& regularity, const CandidateList& candidates)
-      : search_(search), regularity_(regularity), candidates_(candidates) {}
+  /// Keeps references to both.
+  ContactTracker(LocalSearch& search, const CandidateList& candidates)
+      : search_(search), candidates_(candidates) {}
 
   /// After the list was rebuilt.
   void list_is_new();
@@ -90,6 +89,7 @@ class ContactTracker {
   bool is_regular(const Candidate& candidate, const Query& query) const;
   void find_all(const Candidate& candidate, const Query& query, double reach, const ParticleSlots& slots,
                 std::vector<TrackedFoot>& out);
+  bool in_valley(const Query& query, const search::Foot& foot) const;
   void keep_one_of_each_valley(const Query& query);
   void match_slots(const Candidate& candidate, const Query& query, const ParticleSlots& slots,
                    TrackedFoot* feet, int count);
@@ -97,7 +97,6 @@ class ContactTracker {
                                const nurbs::Vector3& centre) const;
 
   LocalSearch& search_;
-  search::Regularity& regularity_;
   const CandidateList& candidates_;
   std::vector<State> states_;          // per candidate
   std::vector<TrackedFoot> feet_;      // of regular candidates

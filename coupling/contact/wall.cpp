@@ -17,7 +17,6 @@ Wall::Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange
       exchange_(exchange),
       surface_(structure.surface().topology),
       projector_(surface_),
-      regularity_(surface_),
       outward_sign_(structure.surface().outward_sign) {}
 
 void Wall::weld_across(const std::vector<Vector3>& periods) {
@@ -25,7 +24,7 @@ void Wall::weld_across(const std::vector<Vector3>& periods) {
   for (const Vector3& period : periods) in_frame.push_back(structure_.frame().rotation.transpose() * period);
   constexpr double kTolerance = 1e-9;
   surface_.set_borders(nurbs::find_borders(nurbs::split(surface_, control_points()), kTolerance, in_frame));
-  remeasure();  // it depends on the borders
+  projector_.begin_list();  // it depends on the borders
 }
 
 void Wall::import() {
@@ -85,7 +84,8 @@ Vector3 Wall::leave(Foot& foot, const Vector3& delta, int known_side, double rad
 
 double Wall::effective_radius(const Foot& foot, const Vector3& delta, double radius) const {
   constexpr double kLeast = 0.1;  // of 1/r: in a hollow of nearly the particle's radius Hertz' theory ends
-  const nurbs::SurfaceShape shape = nurbs::shape_near(surface_, control_points(), foot.at());
+  const nurbs::SurfaceShape shape = nurbs::shape_near(
+      surface_.patch(foot.patch), surface_.control_points_of(foot.patch, control_points()), foot.xi);
   const double side = shape.normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1.0 : 1.0;
   double product = 1.0;
   for (const double curvature : shape.curvature) product *= std::max(1.0 - side * curvature * radius, kLeast);

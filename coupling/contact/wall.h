@@ -7,7 +7,6 @@
 #include "coupling/surface_exchange.h"
 #include "nurbs/multi_patch.h"
 #include "search/multi_patch_projector.h"
-#include "search/regularity.h"
 
 namespace contact {
 
@@ -26,8 +25,6 @@ class Wall {
   void weld_across(const std::vector<Vector3>& periods);
   /// Takes place and shape from the structure.
   void import();
-  /// The elements are to be measured anew, where they now are.
-  void remeasure() { regularity_.set_control_points(control_points()); }
   /// The box of all elements, in the wall's frame, when the list of candidates was built.
   void set_bounds(const search::Box& bounds);
 
@@ -35,7 +32,6 @@ class Wall {
   const nurbs::NodalVectors& control_points() const { return exchange_.positions(); }
   const coupling::RigidFrame& frame() const { return frame_; }
   search::MultiPatchProjector& projector() { return projector_; }
-  search::Regularity& regularity() { return regularity_; }
 
   bool deforms() const { return deforms_; }
   bool stands() const { return stands_; }  ///< nothing of it moves in this step
@@ -83,7 +79,6 @@ class Wall {
   coupling::SurfaceExchange& exchange_;
   nurbs::MultiPatch surface_;  // of the structure; welded across periodic faces, too
   search::MultiPatchProjector projector_;
-  search::Regularity regularity_;
   const std::vector<int>& outward_sign_;  // of each patch
   coupling::RigidFrame frame_;
   double resolution_ = 0.0;

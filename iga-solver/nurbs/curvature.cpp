@@ -9,32 +9,33 @@
 namespace nurbs {
 
 SurfaceShape shape_at(const MultiPatch& surface, const NodalVectors& control_points, const SurfacePoint& at) {
-  return shape_on_element(surface, control_points, at.patch, surface.patch(at.patch).element_at(at.xi),
+  const Space<2>& patch = surface.patch(at.patch);
+  return shape_on_element(patch, surface.control_points_of(at.patch, control_points), patch.element_at(at.xi),
                           at.xi);
 }
 
-SurfaceShape shape_near(const MultiPatch& surface, const NodalVectors& control_points, SurfacePoint at) {
+SurfaceShape shape_near(const Space<2>& patch, const Eigen::Ref<const NodalVectors>& control_points,
+                        Parameter<2> xi) {
   constexpr double kBeside = 1e-3;  // of the way to the patch's middle
-  const SurfaceShape shape = shape_at(surface, control_points, at);
+  const SurfaceShape shape = shape_on_element(patch, control_points, patch.element_at(xi), xi);
   if (std::isfinite(shape.curvature[1])) return shape;
   for (int d = 0; d < 2; ++d) {
-    const KnotVector& knots = surface.patch(at.patch).knots(d);
-    at.xi[d] += kBeside * (0.5 * (knots.front() + knots.back()) - at.xi[d]);
+    const KnotVector& knots = patch.knots(d);
+    xi[d] += kBeside * (0.5 * (knots.front() + knots.back()) - xi[d]);
   }
-  return shape_at(surface, control_points, at);
+  return shape_on_element(patch, control_points, patch.element_at(xi), xi);
 }
 
-SurfaceShape shape_on_element(const MultiPatch& surface, const NodalVectors& control_points, int patch,
-                              int element_of_patch, const Parameter<2>& xi) {
+SurfaceShape shape_on_element(const Space<2>& patch, const Eigen::Ref<const NodalVectors>& control_points,
+                              int element, const Parameter<2>& xi) {
   constexpr double kNoArea = 1e-16, kNoLength = 1e-12;
   RationalBasis<2> basis;
-  evaluate_on_element(surface.patch(patch), element_of_patch, xi, 2, basis);
-  const auto points = surface.control_points_of(patch, control_points);
+  evaluate_on_element(patch, element, xi, 2, basis);
   const Vector3 zero = Vector3::Zero();
   Vector3 S = zero, S_i[2] = {zero, zero}, S_ij[3] = {zero, zero, zero};
   double round_off[2] = {0.0, 0.0};  // of S_i, over the machine's
   for (int a = 0; a < basis.count; ++a) {
-    const Vector3 P = points.col(basis.control_point[a]);
+    const Vector3 P = control_points.col(basis.control_point[a]);
     S += basis.R[a] * P;
     for (int i = 0; i < 2; ++i) S_i[i] += basis.dR[i][a] * P;
     for (int i = 0; i < 2; ++i) round_off[i] += std::abs(basis.dR[i][a]) * P.norm();

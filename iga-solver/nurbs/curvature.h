@@ -14,10 +14,11 @@ struct SurfaceShape {
 
 /// Control points of the whole surface (3 x n).  On knots as seen from the element right of them.
 SurfaceShape shape_at(const MultiPatch& surface, const NodalVectors& control_points, const SurfacePoint& at);
-/// The same, but of a pole, which has no curvature, that of a point beside it.
-SurfaceShape shape_near(const MultiPatch& surface, const NodalVectors& control_points, SurfacePoint at);
-/// The same as seen from one closed element of a patch.
-SurfaceShape shape_on_element(const MultiPatch& surface, const NodalVectors& control_points, int patch,
-                              int element_of_patch, const Parameter<2>& xi);
+/// Of one patch with its control points; of a pole, which has no curvature, that of a point beside it.
+SurfaceShape shape_near(const Space<2>& patch, const Eigen::Ref<const NodalVectors>& control_points,
+                        Parameter<2> xi);
+/// The same as seen from one closed element of a patch, with the patch's control points.
+SurfaceShape shape_on_element(const Space<2>& patch, const Eigen::Ref<const NodalVectors>& control_points,
+                              int element, const Parameter<2>& xi);
 
 }  // namespace nurbs

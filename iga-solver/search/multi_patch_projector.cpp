@@ -22,6 +22,17 @@ void MultiPatchProjector::set_control_points(const NodalVectors& control_points)
     patches_[p]->set_control_points(surface_.control_points_of(p, control_points));
 }
 
+void MultiPatchProjector::begin_list() {
+  for (int p = 0; p < surface_.patch_count(); ++p) {
+    bool goes_on[nurbs::kSideCount];
+    for (int side = 0; side < nurbs::kSideCount; ++side) {
+      const nurbs::Border& border = surface_.border(p, side);
+      goes_on[side] = border.kind == nurbs::Border::welded && border.max_angle <= SecondFoot::kFlush;
+    }
+    patches_[p]->second_foot().begin_list(goes_on);
+  }
+}
+
 // The local minimum reached on one patch.
 Foot MultiPatchProjector::warm(const Vector3& d, const SurfacePoint& from, const Vector3& image) const {
   return placed(patches_[from.patch]->warm(d - image, from.xi), from.patch, image);

@@ -19,6 +19,8 @@ class MultiPatchProjector {
 
   /// New coordinates of all patches (3 x n, copied).
   void set_control_points(const NodalVectors& control_points);
+  /// A list of candidates is new (SecondFoot::begin_list).
+  void begin_list();
   const MultiPatch& surface() const { return surface_; }
   const SurfaceProjector& patch(int p) const { return *patches_[p]; }
 
@@ -28,6 +30,12 @@ class MultiPatchProjector {
   /// where follow() leads it, to the last bit.
   void follow(const Vector3* d, Foot* const* feet, int count) const;
 
+  /// Whether no second foot of d can appear, and none vanish or split, on an element within `reach` until the
+  /// next list (SecondFoot).
+  bool excludes_second_foot(const Vector3& d, double reach, int element) const {
+    const int p = surface_.patch_of_element(element);
+    return patches_[p]->second_foot().excluded_until_next_list(d, reach, element - surface_.first_element(p));
+  }
   /// Adds to `out`, nearest first, the local minima nearer than `reach` on candidate elements (numbers in
   /// rising order) of the surface moved by `image`.  Feet closer than `same_foot` to one in `out` are left
   /// out.

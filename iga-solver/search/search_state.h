@@ -9,7 +9,7 @@
 
 #include "search/element_descent.h"
 #include "search/foot.h"
-#include "search/local_reach.h"
+#include "search/second_foot.h"
 #include "search/surface_tree.h"
 
 namespace search {
@@ -76,10 +76,10 @@ struct Search {
   void nothing_is_proved() {
     proved = {};
     proved_level = -1;
-    unproved_level = best.end == DescentEnd::minimum ? LocalReach::kLevels : 0;
+    unproved_level = best.end == DescentEnd::minimum ? SecondFoot::kLevels : 0;
   }
 
-  // A window with a foot has nothing else that is wanted if its local reach is above this.
+  // A window with a foot has nothing else that is wanted if a second foot is excluded below more than this.
   double needed_reach() const { return all != nullptr ? std::sqrt(bound2) : best.foot.distance; }
 
   void found(const Reached& reached) {

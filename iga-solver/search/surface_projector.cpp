@@ -52,7 +52,7 @@ SurfaceProjector::SurfaceProjector(const Space<2>& space, SimdLevel level)
       elements_(space, level),
       products_(product_terms(space.degree(0), space.degree(1))),
       tree_(space),
-      reach_(space),
+      second_foot_(space, elements_.control_points()),
       box_version_(space.element_count(), 0),
       net_version_(space.element_count(), 0),
       boxes_(new Box[space.element_count()]),
@@ -69,7 +69,7 @@ void SurfaceProjector::set_control_points(const Eigen::Ref<const NodalVectors>& 
     throw std::invalid_argument(fmt::format("{} control points given, expected {}", control_points.cols(),
                                             space_.control_point_count()));
   elements_.set_control_points(control_points);
-  reach_.forget();
+  second_foot_.surface_moved();
   tree_current_ = false;
   ++version_;
 }
@@ -177,7 +177,8 @@ void SurfaceProjector::warm_batch(const Vector3* d, Foot* const* feet, int count
     for (int k = 0; k < batch.count; ++k) {
       Foot& foot = *feet[first + k];
       if (batch.done[k] == 0) {
-        foot = placed(warm_beyond(d[first + k] - foot.image, start(foot.xi), batch.end(k)), foot.patch, foot.image);
+        foot = placed(warm_beyond(d[first + k] - foot.image, start(foot.xi), batch.end(k)), foot.patch,
+                      foot.image);
         continue;
       }
       for (int c = 0; c < 3; ++c) foot.point[c] = batch.foot[c][k] + foot.image[c];

@@ -3,7 +3,7 @@
 //
 // Warm: Newton's method with the exact Hessian on the elements' power form (power_element.h,
 // element_descent.h).  Cold: branch and bound over a tree of boxes (surface_tree.h), past the neighbourhood
-// of a foot that is proved to be the nearest there (local_reach.h), and inside an element over Bernstein
+// of a foot that is proved to be the nearest there (second_foot.h), and inside an element over Bernstein
 // bounds of the squared distance (distance_polynomial.h), so that no minimum is overlooked. Where Newton's
 // method ends on no minimum (on saddles, in flat valleys, beside poles) branch and bound takes over: no
 // iteration has to converge for its result to be right. Source: Piegl & Tiller (1997), section 6.1; Johnson &
@@ -18,7 +18,7 @@
 #include "search/box.h"
 #include "search/element_descent.h"
 #include "search/foot.h"
-#include "search/local_reach.h"
+#include "search/second_foot.h"
 #include "search/surface_tree.h"
 
 namespace search {
@@ -93,6 +93,9 @@ class SurfaceProjector {
                      std::vector<Foot>& out) const;
 
   const Space<2>& space() const { return space_; }
+  /// Where there is no second foot; begin_list() is up to the caller.
+  SecondFoot& second_foot() { return second_foot_; }
+  const SecondFoot& second_foot() const { return second_foot_; }
   /// Those given last.
   const NodalVectors& control_points() const { return elements_.control_points(); }
 
@@ -162,7 +165,7 @@ class SurfaceProjector {
   std::vector<double> binomials_;  // C(p, i) C(q, j)
   mutable SurfaceTree tree_;
   mutable bool tree_current_ = false;
-  LocalReach reach_;
+  SecondFoot second_foot_;
   unsigned version_ = 1;  // of the control points
   mutable std::vector<unsigned> box_version_, net_version_;
   std::unique_ptr<Box[]> boxes_;       // of the elements that needed one

@@ -12,7 +12,7 @@ namespace search {
 namespace {
 
 constexpr double kSmallestPart = 0x1p-20;  // of an element: below it a part is searched from its centre
-constexpr double kReach = 1.0 - 1e-6;      // of a local reach: safe from round-off, in the foot as well
+constexpr double kReach = 1.0 - 1e-6;      // of a proved reach: safe from round-off, in the foot as well
 
 }  // namespace
 
@@ -95,10 +95,9 @@ bool SurfaceProjector::settled(const ElementBlock& block, Search& search) const 
   const LocalPoint& at = search.best.at;
   const int wide_enough = 2 * block.level - 1;
   for (int level = std::max(search.proved_level + 1, wide_enough); level < search.unproved_level; ++level) {
-    const ElementWindow window = reach_.window(level, at.e);
+    const ElementWindow window = second_foot_.window(level, at.e);
     if (!window.holds(own)) continue;
-    if (interior_of_region(at) &&
-        search.needed_reach() < kReach * reach_(level, at.e, elements_.control_points())) {
+    if (interior_of_region(at) && search.needed_reach() < kReach * second_foot_.excluded_below(level, at.e)) {
       search.proved = window;
       search.proved_level = level;
       return true;
@@ -112,9 +111,9 @@ bool SurfaceProjector::settled(const ElementBlock& block, Search& search) const 
 // reach, and it is found.
 bool SurfaceProjector::has_its_only_foot(const ElementBlock& block, Search& search) const {
   const int level = 2 * block.level;
-  if (level >= LocalReach::kLevels) return false;
-  const ElementWindow own = tree_.elements(block), window = reach_.window(level, own.begin);
-  const double reach = kReach * reach_(level, own.begin, elements_.control_points());
+  if (level >= SecondFoot::kLevels) return false;
+  const ElementWindow own = tree_.elements(block), window = second_foot_.window(level, own.begin);
+  const double reach = kReach * second_foot_.excluded_below(level, own.begin);
   if (!(search.bound2 < reach * reach)) return false;
   const auto is_in_window = [&](const Foot& foot) {
     const LocalPoint at = local(foot.xi);

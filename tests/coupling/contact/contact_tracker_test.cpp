@@ -26,14 +26,13 @@ class Scene {
         std::vector<Vector3> images = {Vector3::Zero()}, int slot_count = 2)
       : surface_(nurbs::join(patches)),
         projector_(surface_.topology),
-        regularity_(surface_.topology),
         search_(SearchMethod::newton, projector_),
-        tracker_(search_, regularity_, candidates_),
+        tracker_(search_, candidates_),
         centres_(std::move(centres)),
         touch_(touch),
         list_(list) {
     projector_.set_control_points(surface_.control_points);
-    regularity_.set_control_points(surface_.control_points);
+    projector_.begin_list();
     candidates_.set_surface(surface_.topology, surface_.control_points);
     std::vector<double> empty = {ContactSlot::kEmpty, 0.0, 0.0};
     values_.resize(slot_count);
@@ -89,7 +88,6 @@ class Scene {
 
   nurbs::PatchedSurface surface_;
   search::MultiPatchProjector projector_;
-  search::Regularity regularity_;
   CandidateList candidates_;
   LocalSearch search_;
   ContactTracker tracker_;
@@ -256,6 +254,28 @@ TEST(ContactTracker, FeetOfImagesAtEdgesAndKinks) {
     });
     for (Vector3& centre : scene.centres()) centre += 0.002 * Vector3(std::sin(step), 1.0, 0.0);
   }
+}
+
+// On the axis of a tube and in the middle of a ball the feet are a row of equally near points, and one
+// contact; beside the axis there is one foot as well.
+TEST(ContactTracker, OneContactOnACentreOfCurvature) {
+  constexpr double kRadius = 2.0;
+  using nurbs::arc, nurbs::refined;
+  const Vector3 middle(1, 2, 3), axis(0, 0, 1);
+  const nurbs::Surface tube = nurbs::cylinder(nurbs::frame(middle - 10.0 * axis, axis), kRadius, 20.0,
+                                              refined(arc(0, 360), 8, 2), nurbs::KnotVector::uniform(2, 20));
+  const nurbs::Surface ball = nurbs::sphere(nurbs::frame(middle, axis), kRadius, refined(arc(0, 360), 8, 2),
+                                            refined(arc(-90, 90), 4, 2));
+  const auto expect_one = [&](const nurbs::Surface& surface, double aside) {
+    Scene scene({surface}, {middle + Vector3(aside, 0, 0)}, 2.1, 2.2);
+    scene.step(64, [&](int, const FeetRange& feet) {
+      ASSERT_EQ(feet.count, 1);
+      EXPECT_NEAR(feet.first->foot.distance, kRadius - aside, 1e-12);
+    });
+  };
+  expect_one(tube, 0.0);
+  expect_one(tube, 0.3);
+  expect_one(ball, 0.0);
 }
 
 }  // namespace

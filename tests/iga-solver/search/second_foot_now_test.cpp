@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The local reach against what it promises, and against the radius of a cylinder, which no reach exceeds.
-#include "search/local_reach.h"
+// Where no second foot can be now, against what is promised, and against the radius of a cylinder, which no
+// reach exceeds.
+#include "search/second_foot.h"
 
 #include <gtest/gtest.h>
 
@@ -58,10 +59,10 @@ Vector3 to_point(shapes::Random& random, const Tangents& t, bool on_border) {
 }
 
 // Feet in a window of points at half the reach and more, against points of the window.
-void expect_nearest(shapes::Random& random, const Surface& surface, const LocalReach& reach, int level,
+void expect_nearest(shapes::Random& random, const Surface& surface, const SecondFoot& second_foot, int level,
                     const int (&e)[2]) {
-  const double rho = reach(level, e, surface.control_points);
-  const ElementWindow window = reach.window(level, e);
+  const double rho = second_foot.excluded_below(level, e);
+  const ElementWindow window = second_foot.window(level, e);
   ASSERT_TRUE(window.holds(e));
   const Region region(surface.space, window);
   for (int foot = 0; foot < 10; ++foot) {
@@ -83,9 +84,9 @@ void expect_nearest(shapes::Random& random, const Surface& surface, const LocalR
   }
 }
 
-TEST(LocalReach, NothingInTheWindowIsNearer) {
+TEST(SecondFootNow, NothingInTheWindowIsNearer) {
   shapes::Random random(43);
-  int useful[LocalReach::kLevels] = {0};
+  int useful[SecondFoot::kLevels] = {0};
   for (int k = 0; k < 300; ++k) {
     const int n = 3 + k % 40;
     const double height = std::pow(10.0, uniform(random, -4.0, -0.5));
@@ -102,22 +103,22 @@ TEST(LocalReach, NothingInTheWindowIsNearer) {
     Eigen::Matrix3d shear = Eigen::Matrix3d::Identity();
     shear(0, 1) = uniform(random, -2.0, 2.0);
     surface.control_points = (turn * shear * surface.control_points).eval();
-    const LocalReach reach(surface.space);
-    for (int level = 0; level < LocalReach::kLevels; ++level) {
+    const SecondFoot second_foot(surface.space, surface.control_points);
+    for (int level = 0; level < SecondFoot::kLevels; ++level) {
       const int e[2] = {static_cast<int>(uniform(random, 0, surface.space.knots(0).element_count())),
                         static_cast<int>(uniform(random, 0, surface.space.knots(1).element_count()))};
-      const double rho = reach(level, e, surface.control_points);
+      const double rho = second_foot.excluded_below(level, e);
       ASSERT_GE(rho, 0.0);
       if (rho == 0.0) continue;
       ++useful[level];
-      expect_nearest(random, surface, reach, level, e);
+      expect_nearest(random, surface, second_foot, level, e);
     }
   }
   for (int level = 0; level < 4; ++level) EXPECT_GT(useful[level], 10) << "level " << level;
 }
 
 // What random surfaces seldom show: parameters that run slowly at one end, and curvature by twist alone.
-TEST(LocalReach, SlowParametersAndTwist) {
+TEST(SecondFootNow, SlowParametersAndTwist) {
   shapes::Random random(44);
   const KnotVector line(1, {0, 0, 1, 1}), parabola(2, {0, 0, 0, 1, 1, 1});
   Surface slow{Space<2>({parabola, line}), NodalVectors(3, 6)};  // x = u - 0.8 u^2, z = u^2 / 2, |u| < 1/2
@@ -129,16 +130,16 @@ TEST(LocalReach, SlowParametersAndTwist) {
       -0.2, -0.2, 0.2, 0.2,                                     //
       0.04, -0.04, -0.04, 0.04;
   for (const Surface& surface : {slow, twisted}) {
-    const LocalReach reach(surface.space);
+    const SecondFoot second_foot(surface.space, surface.control_points);
     const int e[2] = {0, 0};
-    EXPECT_GT(reach(0, e, surface.control_points), 0.001);
-    for (int k = 0; k < 100; ++k) expect_nearest(random, surface, reach, 0, e);
+    EXPECT_GT(second_foot.excluded_below(0, e), 0.001);
+    for (int k = 0; k < 100; ++k) expect_nearest(random, surface, second_foot, 0, e);
   }
 }
 
 // A sheet bent at one of its four rims alone: no reach of a window there exceeds the radius of curvature,
 // elsewhere nothing bounds it.  Asked of one block after the other, each has its own answer.
-TEST(LocalReach, OfASheetBentAtOneRim) {
+TEST(SecondFootNow, OfASheetBentAtOneRim) {
   const Surface sheet =
       plane({0, 0, 0}, {12, 0, 0}, {0, 12, 0}, {KnotVector::uniform(2, 12), KnotVector::uniform(2, 12)});
   const int n = sheet.space.control_point_count(0);
@@ -149,12 +150,12 @@ TEST(LocalReach, OfASheetBentAtOneRim) {
       if (place == (side % 2 == 0 ? 0 : n - 1)) points(2, a) = 0.2;
     }
     const MultiPatch patch({sheet.space});
-    const LocalReach reach(sheet.space);
+    const SecondFoot second_foot(sheet.space, points);
     for (int f = 0; f < 12; ++f)
       for (int e = 0; e < 12; ++e) {
         SCOPED_TRACE(testing::Message() << "side " << side << ", element " << e << ", " << f);
         const int at[2] = {e, f}, from_rim = side % 2 == 0 ? at[side / 2] : 11 - at[side / 2];
-        const double r = reach(0, at, points);
+        const double r = second_foot.excluded_below(0, at);
         if (from_rim > 1) {
           EXPECT_GT(r, 1e12);
           continue;
@@ -170,13 +171,13 @@ TEST(LocalReach, OfASheetBentAtOneRim) {
 }
 
 // A window ends at creases; one that a crease would cut in its own block is empty.
-TEST(LocalReach, WindowsEndAtCreases) {
+TEST(SecondFootNow, WindowsEndAtCreases) {
   const KnotVector creased(2, {0, 0, 0, 1, 2, 3, 3, 4, 5, 6, 6, 6}), smooth = KnotVector::uniform(2, 6);
   const Surface plate = plane(Vector3::Zero(), Vector3::UnitX(), Vector3::UnitY(), {creased, smooth});
-  const LocalReach reach(plate.space);
+  const SecondFoot second_foot(plate.space, plate.control_points);
   const auto range = [&](int level, int e0) {
     const int e[2] = {e0, 0};
-    const ElementWindow window = reach.window(level, e);
+    const ElementWindow window = second_foot.window(level, e);
     return std::make_pair(window.begin[0], window.end[0]);
   };
   EXPECT_EQ(range(0, 0), std::make_pair(0, 2));
@@ -187,45 +188,46 @@ TEST(LocalReach, WindowsEndAtCreases) {
   EXPECT_EQ(range(1, 3), std::make_pair(0, 0));  // elements 2 and 3
   EXPECT_EQ(range(1, 5), std::make_pair(3, 6));
   const int cut[2] = {3, 0}, whole[2] = {5, 0};
-  EXPECT_EQ(reach(1, cut, plate.control_points), 0.0);
-  EXPECT_GT(reach(1, whole, plate.control_points), 1e12);
+  EXPECT_EQ(second_foot.excluded_below(1, cut), 0.0);
+  EXPECT_GT(second_foot.excluded_below(1, whole), 1e12);
 }
 
 // Not above the radius, and not far below on small windows; follows the control points.
-TEST(LocalReach, RadiusOfACylinder) {
+TEST(SecondFootNow, RadiusOfACylinder) {
   const double radius = 2.0;
   const Frame axis = frame(Vector3(5, -7, 3), Vector3(1, 2, 2).normalized());
   Surface quarter = cylinder(axis, radius, 1.0, refined(arc(0.0, 90.0), 128, 2), KnotVector::uniform(2, 128));
-  LocalReach reach(quarter.space);
+  SecondFoot second_foot(quarter.space, quarter.control_points);
   for (const int element : {0, 40, 127}) {
     const int e[2] = {element, element};
     double last = radius;
-    for (int level = 0; level < LocalReach::kLevels; ++level) {
-      const double rho = reach(level, e, quarter.control_points);
+    for (int level = 0; level < SecondFoot::kLevels; ++level) {
+      const double rho = second_foot.excluded_below(level, e);
       EXPECT_LE(rho, last);
       last = rho;
     }
-    EXPECT_GT(reach(0, e, quarter.control_points), 0.75 * radius);
+    EXPECT_GT(second_foot.excluded_below(0, e), 0.75 * radius);
   }
   quarter.control_points *= 0.25;
-  reach.forget();
+  second_foot.surface_moved();
   const int e[2] = {40, 40};
-  EXPECT_LE(reach(0, e, quarter.control_points), 0.25 * radius);
-  EXPECT_GT(reach(0, e, quarter.control_points), 0.75 * 0.25 * radius);
+  EXPECT_LE(second_foot.excluded_below(0, e), 0.25 * radius);
+  EXPECT_GT(second_foot.excluded_below(0, e), 0.75 * 0.25 * radius);
 }
 
 // Weights that are all multiplied by a number are those of the same surface.
-TEST(LocalReach, IsThatOfTheSurfaceHoweverLargeItsWeights) {
+TEST(SecondFootNow, IsThatOfTheSurfaceHoweverLargeItsWeights) {
   const Surface quarter = cylinder(frame({0, 0, 0}, {0, 0, 1}), 2.0, 1.0, refined(arc(0.0, 90.0), 16, 2),
                                    KnotVector::uniform(2, 4));
   std::vector<double> weights = quarter.space.weights();
   for (double& w : weights) w *= 5.0;
   const Space<2> heavy({quarter.space.knots(0), quarter.space.knots(1)}, weights);
-  const LocalReach reach(quarter.space), reach_of_heavy(heavy);
+  const SecondFoot second_foot(quarter.space, quarter.control_points),
+      of_heavy(heavy, quarter.control_points);
   const int e[2] = {3, 1};
-  for (int level = 0; level < LocalReach::kLevels; ++level) {
-    const double rho = reach(level, e, quarter.control_points);
-    EXPECT_NEAR(reach_of_heavy(level, e, quarter.control_points), rho, 1e-6 * rho) << "level " << level;
+  for (int level = 0; level < SecondFoot::kLevels; ++level) {
+    const double rho = second_foot.excluded_below(level, e);
+    EXPECT_NEAR(of_heavy.excluded_below(level, e), rho, 1e-6 * rho) << "level " << level;
   }
 }
 

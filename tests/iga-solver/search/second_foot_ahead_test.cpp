@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Where a second foot cannot appear, against the principal curvatures of simple shapes in closed form and the
-// distances of their edges, kinks and poles.
-#include "search/regularity.h"
+// Where no second foot can appear until the next list, against the principal curvatures of simple shapes in
+// closed form and the distances of their edges, kinks and poles.
+#include "search/multi_patch_projector.h"
 
 #include <gtest/gtest.h>
 
@@ -17,54 +17,33 @@ namespace {
 
 using namespace nurbs;
 
-// A surface with its regularity; `element` of patch 0 by the parameters of a point in it.
+// A surface, at the moment of a new list; the element by the parameters of a point in it.
 class Subject {
  public:
-  explicit Subject(PatchedSurface surface) : surface_(std::move(surface)), regularity_(surface_.topology) {
-    regularity_.set_control_points(surface_.control_points);
+  explicit Subject(PatchedSurface surface) : surface_(std::move(surface)), projector_(surface_.topology) {
+    move(surface_.control_points);
   }
-  bool regular(const Vector3& d, double reach, const Parameter<2>& xi, int patch = 0) const {
+  bool excluded(const Vector3& d, double reach, const Parameter<2>& xi, int patch = 0) const {
     const int element =
         surface_.topology.first_element(patch) + surface_.topology.patch(patch).element_at(xi);
-    return regularity_.is_regular(d, reach, element);
-  }
-  bool in_valley(const Vector3& d, const SurfacePoint& foot) const {
-    const Vector3 S = shape_at(surface_.topology, surface_.control_points, foot).point;
-    return regularity_.in_valley(d, foot, (d - S).norm());
+    return projector_.excludes_second_foot(d, reach, element);
   }
   void move(const NodalVectors& points) {
-    surface_.control_points = points;
-    regularity_.set_control_points(surface_.control_points);
+    projector_.set_control_points(points);
+    projector_.begin_list();
   }
-  const NodalVectors& points() const { return surface_.control_points; }
 
  private:
   PatchedSurface surface_;
-  Regularity regularity_;
+  MultiPatchProjector projector_;
 };
 
 std::array<KnotVector, 2> knots(int n, int m) {
   return {KnotVector::uniform(2, n), KnotVector::uniform(2, m)};
 }
 
-// Of a sphere all is a valley from its centre, and nothing from elsewhere; its poles are like other places.
-TEST(Regularity, ValleysOfASphere) {
-  const Vector3 centre(1, 2, 3);
-  const Subject ball(
-      join({sphere(frame(centre, {0, 0, 1}), 2.0, refined(arc(0, 360), 8, 2), refined(arc(-90, 90), 4, 2))}));
-  for (const double eta : {0.0, 0.3, 1.0})
-    for (const double xi : {0.0, 0.6}) {
-      const SurfacePoint foot{0, {xi, eta}};
-      EXPECT_TRUE(ball.in_valley(centre, foot)) << xi << ' ' << eta;
-      const double latitude = eta == 0.0 ? -1.0 : 1.0;
-      if (eta == 0.3) continue;
-      for (const double height : {1.0, 1.9, 2.1, 5.0})
-        EXPECT_FALSE(ball.in_valley(centre + Vector3(0, 0, latitude * height), foot)) << eta << ' ' << height;
-    }
-}
-
 // Inside a tube of radius R the reach must be below R / 2; outside it bends away, and any reach will do.
-TEST(Regularity, OfATubeEndsAtHalfItsRadius) {
+TEST(SecondFootAhead, OfATubeEndsAtHalfItsRadius) {
   constexpr double kRadius = 3.0;
   for (const bool inwards : {false, true}) {
     Surface tube = cylinder(frame({0, 0, 0}, {0, 0, 1}), kRadius, 20.0, refined(arc(0, 360), 16, 2),
@@ -77,17 +56,17 @@ TEST(Regularity, OfATubeEndsAtHalfItsRadius) {
     for (const double xi : {0.03, 0.4}) {
       const Vector3 S = interpolate(tube.space, tube.control_points, {xi, 0.5});
       const Vector3 out(S[0] / kRadius, S[1] / kRadius, 0.0);
-      EXPECT_TRUE(subject.regular(S - 1.0 * out, 0.49 * kRadius, {xi, 0.5}));
-      EXPECT_FALSE(subject.regular(S - 1.0 * out, 0.51 * kRadius, {xi, 0.5}));
-      EXPECT_TRUE(subject.regular(S + 1.0 * out, 2.0 * kRadius, {xi, 0.5}));
+      EXPECT_TRUE(subject.excluded(S - 1.0 * out, 0.49 * kRadius, {xi, 0.5}));
+      EXPECT_FALSE(subject.excluded(S - 1.0 * out, 0.51 * kRadius, {xi, 0.5}));
+      EXPECT_TRUE(subject.excluded(S + 1.0 * out, 2.0 * kRadius, {xi, 0.5}));
       // Beside the element neither side is the clear one: the stronger curvature counts.
-      EXPECT_FALSE(subject.regular(S + Vector3(0, 0, 5.0), 0.51 * kRadius, {xi, 0.5}));
+      EXPECT_FALSE(subject.excluded(S + Vector3(0, 0, 5.0), 0.51 * kRadius, {xi, 0.5}));
     }
   }
 }
 
 // On a torus both curvatures have their say: that of the tube outwards of its inner side, of the ring there.
-TEST(Regularity, OfATorus) {
+TEST(SecondFootAhead, OfATorus) {
   constexpr double kRing = 4.0, kTube = 1.0;
   const Surface torus = nurbs::torus(frame({0, 0, 0}, {0, 0, 1}), kRing, kTube, refined(arc(0, 360), 32, 2),
                                      refined(arc(0, 360), 32, 2));
@@ -97,15 +76,15 @@ TEST(Regularity, OfATorus) {
   const double rho = std::hypot(S[0], S[1]);
   const Vector3 out = Vector3(S[0], S[1], 0.0) / rho;
   // Towards the axis the ring bends to the point, with 1 / rho (rho = 3, and a little more off the middle).
-  EXPECT_TRUE(subject.regular(S - 0.5 * out, 0.49 * (kRing - kTube), inner));
-  EXPECT_FALSE(subject.regular(S - 0.5 * out, 0.53 * (kRing - kTube), inner));
+  EXPECT_TRUE(subject.excluded(S - 0.5 * out, 0.49 * (kRing - kTube), inner));
+  EXPECT_FALSE(subject.excluded(S - 0.5 * out, 0.53 * (kRing - kTube), inner));
   // Inside the tube, the tube.
-  EXPECT_TRUE(subject.regular(S + 0.3 * out, 0.49 * kTube, inner));
-  EXPECT_FALSE(subject.regular(S + 0.3 * out, 0.51 * kTube, inner));
+  EXPECT_TRUE(subject.excluded(S + 0.3 * out, 0.49 * kTube, inner));
+  EXPECT_FALSE(subject.excluded(S + 0.3 * out, 0.51 * kTube, inner));
 }
 
 // A cylinder whose parameters are sheared along its axis has the same curvatures, and is as regular.
-TEST(Regularity, OfShearedParametersIsThatOfTheShape) {
+TEST(SecondFootAhead, OfShearedParametersIsThatOfTheShape) {
   const Surface straight =
       cylinder(frame({0, 0, 0}, {0, 0, 1}), 3.0, 20.0, refined(arc(0, 180), 8, 2), KnotVector::uniform(2, 5));
   Surface sheared = straight;
@@ -117,14 +96,14 @@ TEST(Regularity, OfShearedParametersIsThatOfTheShape) {
     subject.move(points);
     const Parameter<2> xi{0.55, 0.5};
     const Vector3 S = interpolate(straight.space, points, xi), out = Vector3(S[0], S[1], 0.0) / 3.0;
-    EXPECT_TRUE(subject.regular(S - out, 0.49 * 3.0, xi));
-    EXPECT_FALSE(subject.regular(S - out, 0.52 * 3.0, xi));
+    EXPECT_TRUE(subject.excluded(S - out, 0.49 * 3.0, xi));
+    EXPECT_FALSE(subject.excluded(S - out, 0.52 * 3.0, xi));
   }
 }
 
 // Free edges, and the seams of patches that meet at an angle, are not regular within reach of them; welds
 // that are smooth are no matter.
-TEST(Regularity, EndsAtEdgesAndKinks) {
+TEST(SecondFootAhead, EndsAtEdgesAndKinks) {
   const Surface left = plane({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, knots(4, 4));
   for (const double slope : {0.0, 0.01, 1.0}) {
     const Surface right = plane({4, 0, 0}, {4, 0, 4 * slope}, {0, 4, 0}, knots(4, 4));
@@ -133,22 +112,22 @@ TEST(Regularity, EndsAtEdgesAndKinks) {
           welded ? join({left, right})
                  : PatchedSurface{MultiPatch({left.space, right.space}), join({left, right}).control_points});
       const Vector3 d(3.3, 1.5, 0.1);  // 0.7 from the seam, 1.5 from the edge y = 0
-      EXPECT_TRUE(subject.regular(d, 0.69, {0.8, 0.4}));
-      EXPECT_EQ(subject.regular(d, 0.72, {0.8, 0.4}), welded && slope == 0.0);
-      EXPECT_TRUE(subject.regular(d, 3.0, {0.6, 0.4})) << "an element that has no such side";
+      EXPECT_TRUE(subject.excluded(d, 0.69, {0.8, 0.4}));
+      EXPECT_EQ(subject.excluded(d, 0.72, {0.8, 0.4}), welded && slope == 0.0);
+      EXPECT_TRUE(subject.excluded(d, 3.0, {0.6, 0.4})) << "an element that has no such side";
     }
     const Subject subject(join({left, right}));
     const Vector3 low(1.5, 0.5, 0.1);  // above an element on the edge y = 0
-    EXPECT_TRUE(subject.regular(low, 0.5, {0.4, 0.1}));
-    EXPECT_FALSE(subject.regular(low, 0.52, {0.4, 0.1}));
+    EXPECT_TRUE(subject.excluded(low, 0.5, {0.4, 0.1}));
+    EXPECT_FALSE(subject.excluded(low, 0.52, {0.4, 0.1}));
     const Vector3 high(1.5, 3.5, 0.1);
-    EXPECT_TRUE(subject.regular(high, 0.5, {0.4, 0.9}));
-    EXPECT_FALSE(subject.regular(high, 0.52, {0.4, 0.9}));
+    EXPECT_TRUE(subject.excluded(high, 0.5, {0.4, 0.9}));
+    EXPECT_FALSE(subject.excluded(high, 0.52, {0.4, 0.9}));
   }
 }
 
 // A C0 line inside a patch is a kink only while the sheet is bent there: the shape changes from step to step.
-TEST(Regularity, OfACreaseChangesWithTheShape) {
+TEST(SecondFootAhead, OfACreaseChangesWithTheShape) {
   const Surface sheet = insert_knot(plane({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, knots(4, 4)), 0, 0.5, 1);
   Subject subject(join({sheet}));
   NodalVectors bent = sheet.control_points;
@@ -158,18 +137,18 @@ TEST(Regularity, OfACreaseChangesWithTheShape) {
   const Vector3 d(1.5, 1.5, 0.1);  // 0.5 from the crease at x = 2
   for (int turn = 0; turn < 3; ++turn) {
     subject.move(sheet.control_points);
-    EXPECT_TRUE(subject.regular(d, 1.2, {0.4, 0.4}));
+    EXPECT_TRUE(subject.excluded(d, 1.2, {0.4, 0.4}));
     subject.move(bent);
-    EXPECT_FALSE(subject.regular(d, 1.2, {0.4, 0.4}));
-    EXPECT_TRUE(subject.regular(d, 0.49, {0.4, 0.4}));
-    EXPECT_FALSE(subject.regular({2.5, 1.5, 0.4}, 1.2, {0.6, 0.4})) << "from the other side";
+    EXPECT_FALSE(subject.excluded(d, 1.2, {0.4, 0.4}));
+    EXPECT_TRUE(subject.excluded(d, 0.49, {0.4, 0.4}));
+    EXPECT_FALSE(subject.excluded({2.5, 1.5, 0.4}, 1.2, {0.6, 0.4})) << "from the other side";
     subject.move(folded);
-    EXPECT_FALSE(subject.regular(d, 1.2, {0.4, 0.4}));
+    EXPECT_FALSE(subject.excluded(d, 1.2, {0.4, 0.4}));
   }
 }
 
 // A sheet rolled up tighter and unrolled: curvatures and the places of edges follow.
-TEST(Regularity, FollowsAChangingShape) {
+TEST(SecondFootAhead, FollowsAChangingShape) {
   const Surface sheet = plane({-1, 0, 0}, {2, 0, 0}, {0, 4, 0}, knots(16, 4));
   Subject subject(join({sheet}));
   const std::vector<double> u = sheet.space.knots(0).greville();
@@ -183,21 +162,21 @@ TEST(Regularity, FollowsAChangingShape) {
     }
     subject.move(points);
     const Vector3 above(0.01, 1.5, 0.1);
-    EXPECT_TRUE(subject.regular(above, std::min(0.45 * radius, 1.4), {0.51, 0.4})) << radius;
-    EXPECT_EQ(subject.regular(above, std::min(0.55 * radius, 1.4), {0.51, 0.4}), radius > 2.6) << radius;
+    EXPECT_TRUE(subject.excluded(above, std::min(0.45 * radius, 1.4), {0.51, 0.4})) << radius;
+    EXPECT_EQ(subject.excluded(above, std::min(0.55 * radius, 1.4), {0.51, 0.4}), radius > 2.6) << radius;
     const Vector3 end = interpolate(sheet.space, points, {0.99, 0.4});
-    EXPECT_FALSE(subject.regular(end, 0.1, {0.99, 0.4})) << radius;
+    EXPECT_FALSE(subject.excluded(end, 0.1, {0.99, 0.4})) << radius;
   }
 }
 
-TEST(Regularity, EndsAtAPole) {
+TEST(SecondFootAhead, EndsAtAPole) {
   const Surface dome =
       sphere(frame({0, 0, 0}, {0, 0, 1}), 5.0, refined(arc(0, 360), 8, 2), refined(arc(0, 90), 8, 2));
   const Subject subject(join({dome}));
   const Vector3 d(0.5, 0.0, 5.4);  // outside, where the dome bends away
-  EXPECT_TRUE(subject.regular(d, 0.55, {0.01, 0.99}));
-  EXPECT_FALSE(subject.regular(d, 0.70, {0.01, 0.99}));
-  EXPECT_TRUE(subject.regular({0.6, 0.0, 6.0}, 0.55, {0.01, 0.8})) << "the next element has no pole";
+  EXPECT_TRUE(subject.excluded(d, 0.55, {0.01, 0.99}));
+  EXPECT_FALSE(subject.excluded(d, 0.70, {0.01, 0.99}));
+  EXPECT_TRUE(subject.excluded({0.6, 0.0, 6.0}, 0.55, {0.01, 0.8})) << "the next element has no pole";
 }
 
 }  // namespace
