@@ -29,7 +29,7 @@ INPUTS = {
     "particle": Input(300.0, "ns", "a particle per step without walls", "stock LIGGGHTS, 50,000 particles, measured"),
     "own": Input(290.0, "B", "memory per owned node, solid and solver", "`large_solid`, measured"),
     "everywhere": Input(24.0, "B", "memory per node of the body on every rank", "the reference net, counted"),
-    "box": Input(32.0, "1", "knot spans of a box per direction, the least that a rank works on", "`box_grid.h`"),
+    "box": Input(20.2, "1", "knot spans of a box per direction (mean of 32, 16, 16), the least that a rank works on", "`box_grid.h`"),
     "latency": Input(2.0, "us", "a message, both ends", "assumed: InfiniBand"),
     "bandwidth": Input(5.0, "GB/s", "of a rank's messages, when all send", "assumed"),
     "sums": Input(1.0, "1", "reductions over all ranks in a step", "`explicit_solver.cpp`, counted"),
