@@ -51,6 +51,8 @@ inline Cost sweep_cost(const nurbs::Space<3>& space, const std::array<double, 3>
   const double contractions = points[2] * nx * ny * 2.0 + rows * nx * 3.0 + all * (rational ? 4.0 : 3.0);
   // H = (dN - N g) K: 45 (+ 18); T = w|J| P K^T, T g: 54 (+ 18)
   double at_point = 45.0 + 54.0 + (rational ? 36.0 : 0.0) + material_flops;
+  // a map that only stretches along the axes, as the plate's: K has three entries
+  if (method == structure::IntegrationMethod::affine) at_point = 9.0 + 12.0 + material_flops;
   // cofactors 27, |J| 5, K 10, w|J| 1; of X W and W: 1 / W, g, J, K / W
   if (recomputed) at_point += 43.0 + (rational ? 40.0 : 0.0);
   double bytes = vector_bytes(space) + 8.0 * space.control_point_count();  // columns read, and written to

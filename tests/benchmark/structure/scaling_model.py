@@ -24,12 +24,12 @@ class Input:
 
 
 INPUTS = {
-    "step": Input(110.0, "ns", "a step per dof, degree 2, Jacobians recomputed", "`large_solid auto distorted 60`, measured"),
+    "step": Input(75.0, "ns", "a step per dof, degree 2, Jacobians recomputed", "`large_solid auto distorted 100`, measured"),
     "contact": Input(164.0, "ns", "a contact per step, its model included", "wavy wall, 2,624 contacts, measured"),
     "particle": Input(300.0, "ns", "a particle per step without walls", "stock LIGGGHTS, 50,000 particles, measured"),
-    "own": Input(290.0, "B", "memory per owned node, solid and solver", "`large_solid`, measured"),
+    "own": Input(235.0, "B", "memory per owned node, solid and solver", "`large_solid`, measured"),
     "everywhere": Input(24.0, "B", "memory per node of the body on every rank", "the reference net, counted"),
-    "box": Input(20.2, "1", "knot spans of a box per direction (mean of 32, 16, 16), the least that a rank works on", "`box_grid.h`"),
+    "box": Input(8192.0, "1", "elements of a box, the least that a rank works on", "`box_grid.h`"),
     "latency": Input(2.0, "us", "a message, both ends", "assumed: InfiniBand"),
     "bandwidth": Input(5.0, "GB/s", "of a rank's messages, when all send", "assumed"),
     "sums": Input(1.0, "1", "reductions over all ranks in a step", "`explicit_solver.cpp`, counted"),
@@ -80,7 +80,7 @@ def halo_time(own: float) -> float:
 
 def boxes(nodes: float) -> float:
     """More ranks than these find nothing to do."""
-    return max(1.0, nodes / value("box") ** 3)
+    return max(1.0, nodes / value("box"))
 
 
 def structure(nodes: float, ranks: int) -> Step:
@@ -145,7 +145,7 @@ def tables() -> str:
     lines += [f"| {i.meaning} | {i.value:g} {'' if i.unit == '1' else i.unit} | {i.source} |" for i in INPUTS.values()]
     for name in CASES:
         lines += case_table(name)
-    lines += ["", f"Boxes of {value('box'):g} spans: {boxes(1e6):.0f} ranks have work on 1e6 nodes, {boxes(1e8):,.0f} on 1e8."]
+    lines += ["", f"Boxes of {value('box'):,.0f} elements: {boxes(1e6):.0f} ranks have work on 1e6 nodes, {boxes(1e8):,.0f} on 1e8."]
     lines += [f"On 10,000 ranks, halo and sums take as long as the work where a rank owns {half_work():.0f} nodes; smaller boxes"]
     lines += ["than that gain nothing."]
     return "\n".join(line.replace("  |", " |") for line in lines)
