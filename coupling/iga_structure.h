@@ -23,6 +23,8 @@ class IgaStructure final : public StructureSolver {
   /// From now on writes histories; before the first run.
   void write_history(SharedHistory history) { history_.emplace(std::move(history)); }
 
+  structure::ExplicitSolver& solver() { return solver_; }
+
   const ContactSurface& surface() const override { return surface_; }
   const std::vector<NodeId>& nodes() const override { return nodes_; }
   const NodalVectors& positions() const override { return solver_.positions(); }

@@ -70,6 +70,8 @@ class StructureSolver {
   virtual void set_time_step(double dt) = 0;
   /// Largest stable dt [time]; infinity for a body that is not integrated.
   virtual double stable_time_step() const = 0;
+  /// For the log, after set_time_step: how it takes the step, if not as one.
+  virtual std::string describe_step() const { return ""; }
 
   virtual bool moves() const = 0;  ///< whether begin_step and end_step do anything
   /// Whether positions() change; if not, what moves is the frame.

@@ -125,6 +125,8 @@ void FixWallNurbs::init() {
     if (observer_) observer_->begin_run(style);
   });
   reset_dt();
+  const std::string step = structure_.describe_step();
+  if (!step.empty()) messages_.print(step);
   if (!structure_.deforms()) loop_.wall().weld_across(contact::periods(box_of(*domain)));
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "keyword_table.h"
 #include "model_words.h"
@@ -56,6 +57,20 @@ void read_twin(const Reading& in) {
       in.keyword, "how many cells of two triangles an element has in each direction", kMostTwinCells);
 }
 
+void read_substeps(const Reading& in) {
+  coupling::SubstepOptions substeps;
+  if (in.words.next_is_one_of({"particles", "structure"}))
+    substeps.fast = in.words.keyword() == "particles" ? coupling::SubstepOptions::Fast::particles
+                                                      : coupling::SubstepOptions::Fast::structure;
+  if (in.words.next_is_one_of({"auto"}))
+    in.words.keyword();
+  else
+    substeps.count = in.words.count(
+        in.keyword, "'auto' or a number of steps, after 'particles' or 'structure' if that is to be said",
+        coupling::kMostSubsteps);
+  in.options.substeps = std::move(substeps);
+}
+
 void read_drive_of_wall(const Reading& in) {
   read_drive(in.keyword, in.words, in.variable, in.options.drive);
 }
@@ -88,6 +103,7 @@ constexpr Keyword<void(const Reading&)> kKeywords[] = {
      [](const Reading& in) {
        in.options.temperature = fmt::format("{}", in.words.number_at_least_zero(in.keyword));
      }},
+    {"substeps", "substeps [particles|structure] N|auto", read_substeps},
     {"motion", "motion VERB ...", read_drive_of_wall},
     {"servo", "servo ...", read_drive_of_wall},
     {"surface_vel", "surface_vel Vx Vy Vz", read_drive_of_wall},
@@ -118,6 +134,8 @@ void check_complete(const WallNurbsOptions& options) {
     fail(
         "keyword 'surface' is missing, expected 'surface NAME' after the file, a name under 'surfaces' in "
         "that file");
+  if (options.substeps && options.body != WallNurbsOptions::Body::iga)
+    fail("'substeps' are those of a deforming wall, given 'geometry', expected 'structure FILE'");
   const std::string drive = drive_name(options.drive);
   if (!drive.empty() && options.body != WallNurbsOptions::Body::rigid)
     fail(fmt::format("'{}' drives a rigid wall, given 'structure', expected 'geometry FILE'", drive));

@@ -2,11 +2,13 @@
 // The words of `fix ID group wall/nurbs ...`, split into ours and LIGGGHTS'.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "coupling/contact/local_search.h"
 #include "coupling/rigid/rigid_surface.h"
+#include "coupling/substep_options.h"
 #include "output_words.h"
 #include "word_reader.h"
 
@@ -28,6 +30,7 @@ struct WallNurbsOptions {
   bool curvature_radius = false;  ///< the effective radius takes the wall's curvature into account
   std::string temperature;        ///< of the wall, as LIGGGHTS reads it; empty: no heat transfer
   coupling::RigidDrive drive;     ///< what moves a rigid wall
+  std::optional<coupling::SubstepOptions> substeps;  ///< of a deforming one
   OutputOptions output;
   int twin = 2;  ///< cells per element and direction of the triangle twin
 };

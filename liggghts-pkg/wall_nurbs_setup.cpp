@@ -68,6 +68,14 @@ double smallest_radius(const LAMMPS& lmp) {
   return smallest;
 }
 
+/// Of the particles of all ranks; 0 if there are none.
+double heaviest_particle(const LAMMPS& lmp) {
+  double mine = 0.0, heaviest;
+  for (int i = 0; i < lmp.atom->nlocal; ++i) mine = std::max(mine, lmp.atom->rmass[i]);
+  MPI_Allreduce(&mine, &heaviest, 1, MPI_DOUBLE, MPI_MAX, lmp.world);
+  return heaviest;
+}
+
 }  // namespace
 
 void WallNurbsSetup::complete_servo(LAMMPS* lmp, coupling::ServoSettings& servo) {
@@ -104,6 +112,10 @@ WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
     opened_ = options_.body == WallNurbsOptions::Body::iga
                   ? coupling::open_iga_structure(lmp->world, options_.file, options_.surface)
                   : coupling::open_rigid_surface(lmp->world, options_.file, options_.surface, options_.drive);
+    if (options_.substeps) {
+      options_.substeps->heaviest_particle = [lmp] { return heaviest_particle(*lmp); };
+      opened_.solver = coupling::with_substeps(std::move(opened_.solver), *options_.substeps);
+    }
     check_units(options_, opened_.units, lmp->update->unit_style);
   } catch (const std::exception& problem) {
     lmp->error->all(FLERR, liggghts_pkg::wall_message(arg[0], problem.what()).c_str());

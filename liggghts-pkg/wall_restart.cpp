@@ -17,7 +17,8 @@ std::vector<double> WallRestart::packed(const WallState::Origin& origin, const W
 
 void WallRestart::reserve(const WallState::Origin& origin, const WallOutput* output) {
   constexpr std::size_t kMayGrowBy = 1000;  // motions that `fix_modify` adds to a rigid wall
-  blocks_.reserve(packed(origin, output).size() + kMayGrowBy);
+  const std::size_t now = packed(origin, output).size();
+  blocks_.reserve(now + now * 2 / 3 + kMayGrowBy);  // within an outer step a solid saves 15 for 9 numbers
 }
 
 void WallRestart::write(std::FILE* file, const WallState::Origin& origin, const WallOutput* output) {

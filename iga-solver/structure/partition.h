@@ -43,7 +43,7 @@ struct Part {
   int owned = 0;             ///< how many of them
   int columns = 0;           ///< of nodes and shares
   std::vector<Eigen::Index>
-      runs;  ///< first columns of runs of owned nodes that no cut divides (Halo::add_own)
+      runs;  ///< first columns of runs of owned nodes that no cut divides (Halo::for_each_run)
   std::vector<SharedNode> shared;
   std::vector<Neighbour> neighbours;  ///< in the order of parts
   /// Per box of `boxes`, its nodes with the first direction fastest: their columns, and those where the box

@@ -67,7 +67,7 @@ void ExplicitSolver::set_time_step(double dt) {
 
 void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   check_size(F, "forces");
-  body_->internal_force(u_, f_int_);
+  body_->internal_force(led_displacements(), f_int_);
   accelerate(F, 0.0);
   largest_u_ = u_.lpNorm<Eigen::Infinity>();
   ledger_ = WorkLedger();
@@ -81,10 +81,43 @@ void ExplicitSolver::begin_step() {
   largest_u_ = kick_and_drift(dt_, a_, body_->reference(), v_, u_, x_);
 }
 
+void ExplicitSolver::add_motion(const NodalVectors& displacements, const NodalVectors& velocities) {
+  check_size(displacements, "displacements");
+  check_size(velocities, "velocities");
+  halo_->for_each_run(v_.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    const auto gain = velocities.middleCols(first, count);
+    const auto v = v_.middleCols(first, count);
+    const auto momentum = gain * mass_->nodal_mass().segment(first, count).asDiagonal();
+    const double energy = momentum.cwiseProduct(v + 0.5 * gain).sum();
+    ledger_.half_kick({0.0, 0.0, energy});
+    added_energy_.add(energy);
+  });
+  u_ += displacements;
+  v_ += velocities;
+  x_ = body_->reference() + u_;
+  largest_u_ = u_.lpNorm<Eigen::Infinity>();
+  added_displacements_ = &displacements;
+}
+
+void ExplicitSolver::add_strain_energy() {
+  const NodalVectors& added = *std::exchange(added_displacements_, nullptr);
+  halo_->for_each_run(v_.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    const auto f = f_int_.middleCols(first, count) - f_ext_.middleCols(first, count);
+    added_energy_.add(added.middleCols(first, count).cwiseProduct(f).sum());
+  });
+}
+
+const NodalVectors& ExplicitSolver::led_displacements() {
+  if (lead_ == 0.0) return u_;
+  led_u_ = u_ + lead_ * v_;
+  return led_u_;
+}
+
 void ExplicitSolver::end_step(const NodalVectors& F) {
   check_size(F, "forces");
-  body_->evolve(u_, dt_, f_int_);
+  body_->evolve(led_displacements(), dt_, f_int_);
   accelerate(F, 0.5 * dt_);
+  if (added_displacements_) add_strain_energy();
   for (const ForceSums& run : sums_) ledger_.half_kick(run.work_until_now(0.5 * dt_));
   body_->commit();
   time_ += dt_;
@@ -117,17 +150,18 @@ void ExplicitSolver::start_energy_budget() {
 void ExplicitSolver::check_divergence(const NodalVectors& F) {
   const bool starts = !budget_;
   if (starts) start_energy_budget();
-  enum { kPower = kForceKinds, kPartsBeyond, kSums };
+  enum { kPower = kForceKinds, kAdded, kPartsBeyond, kSums };
   std::array<ExactSum, kSums> sums;
   std::copy(ledger_.sums().begin(), ledger_.sums().end(), sums.begin());
   for (const ForceSums& run : sums_) sums[kPower].add(run.f_v[kLoads] + run.f_v[kForces]);
+  sums[kAdded] = std::exchange(added_energy_, ExactSum());
   sums[kPartsBeyond].add(largest_u_ <= kLargestDisplacement ? 0.0 : 1.0);
   halo_->sum(sums.data(), sums.size());
 
   const double kinetic =
       kinetic_start_ + sums[kLoads].value() + sums[kForces].value() - sums[kInternal].value();
   const double power_before = std::exchange(power_, sums[kPower].value());
-  if (!starts) budget_->add(0.5 * dt_ * (power_before + power_));
+  if (!starts) budget_->add(0.5 * dt_ * (power_before + power_) + sums[kAdded].value());
   if (!budget_->allows(kinetic) || sums[kPartsBeyond].value() > 0.0)
     throw Diverged(describe_divergence(
         {*body_, *mass_, u_, v_, a_, F, time_, dt_, stable_time_step_, kinetic, budget_->most()}));
@@ -188,35 +222,49 @@ std::vector<Id> ExplicitSolver::element_ids() const {
   return ids;
 }
 
-std::vector<double> ExplicitSolver::save() const {
+std::size_t ExplicitSolver::all_nodes() const {
+  return std::llround(halo_->sum(static_cast<double>(halo_->owned(u_.cols()))));
+}
+
+std::size_t ExplicitSolver::state_size() const {
+  return 1 + 9 * all_nodes() + std::llround(halo_->sum(static_cast<double>(body_->memory().size())));
+}
+
+std::vector<double> ExplicitSolver::in_order(const NodalVectors& values) const {
   std::vector<Id> nodes = node_ids();
   nodes.resize(halo_->owned(u_.cols()));
+  return halo_->in_order(nodes, {values.data(), values.data() + 3 * nodes.size()});
+}
+
+void ExplicitSolver::from_order(const double* rows, NodalVectors& values) const {
+  const std::vector<Id> nodes = node_ids();
+  for (std::size_t i = 0; i < nodes.size(); ++i) values.col(i) = Vector3::Map(rows + 3 * nodes[i]);
+}
+
+std::vector<double> ExplicitSolver::save() const {
   std::vector<double> state{time_};
   const auto append = [&](const std::vector<double>& rows) {
     state.insert(state.end(), rows.begin(), rows.end());
   };
-  for (const NodalVectors* values : {&u_, &v_, &a_})
-    append(halo_->in_order(nodes, {values->data(), values->data() + 3 * nodes.size()}));
+  for (const NodalVectors* values : {&u_, &v_, &a_}) append(in_order(*values));
   append(halo_->in_order(element_ids(), body_->memory()));
   return state;
 }
 
 void ExplicitSolver::load(const std::vector<double>& state) {
-  const std::vector<Id> nodes = node_ids(), elements = element_ids();
-  std::vector<double> memory(body_->memory().size());
-  const std::size_t width = memory.size() / elements.size();  // equally much of every element
-  const std::size_t all_nodes = std::llround(halo_->sum(double(halo_->owned(u_.cols())))),
-                    all_elements = std::llround(halo_->sum(double(elements.size()))),
-                    expected = 1 + 9 * all_nodes + width * all_elements;
+  const std::size_t expected = state_size(), all_values = 3 * all_nodes();
   if (state.size() != expected)
     throw std::invalid_argument(
         fmt::format("ExplicitSolver: state of {} numbers, expected {}", state.size(), expected));
   const double* next = state.data();
   time_ = *next++;
   for (NodalVectors* values : {&u_, &v_, &a_}) {
-    for (std::size_t i = 0; i < nodes.size(); ++i) values->col(i) = Vector3::Map(next + 3 * nodes[i]);
-    next += 3 * all_nodes;
+    from_order(next, *values);
+    next += all_values;
   }
+  const std::vector<Id> elements = element_ids();
+  std::vector<double> memory(body_->memory().size());
+  const std::size_t width = elements.empty() ? 0 : memory.size() / elements.size();  // equally much of each
   for (std::size_t i = 0; i < elements.size(); ++i)
     std::copy_n(next + width * elements[i], width, memory.data() + width * i);
   body_->set_memory(std::move(memory));

@@ -48,6 +48,18 @@ class ExplicitSolver {
   /// the EnergyBudget allows; a step later the state would mean nothing.
   void end_step(const NodalVectors& F);
 
+  // For time steps that are made of several (coupling/substeps.h).
+  /// Between begin_step and end_step: adds displacements [length] and velocities [length/time] that
+  /// somebody's forces have given to the nodes meanwhile; 0 at fixed dofs.  The ledger books the change of
+  /// kinetic energy as their work.  The displacements must live until end_step.
+  void add_motion(const NodalVectors& displacements, const NodalVectors& velocities);
+  /// Internal forces are those of the displacements u + lead v from now on: a mode of frequency omega is
+  /// damped by the ratio omega lead/2.
+  void set_lead(double lead) { lead_ = lead; }
+  /// Of each dof [1/mass], 3 x node_count: 0 where it is fixed.
+  const NodalVectors& inverse_mass() const { return inverse_mass_; }
+  const Halo& halo() const { return *halo_; }
+
   const Body& body() const { return *body_; }
   const Supports& supports() const { return supports_; }
   const MassOperator& mass() const { return *mass_; }
@@ -80,9 +92,18 @@ class ExplicitSolver {
   std::vector<double> save() const;
   /// Takes what is of the part.  Throws std::invalid_argument if the size does not fit.  Collective.
   void load(const std::vector<double>& state);
+  std::size_t state_size() const;  ///< what save() gives, collective
+  std::size_t all_nodes() const;   ///< of all parts, collective
+  /// Nodal values of the whole body in the order of node ids, collective; and back to the part's.
+  std::vector<double> in_order(const NodalVectors& values) const;
+  void from_order(const double* rows, NodalVectors& values) const;
 
  private:
   void check_size(const NodalVectors& values, const char* what) const;
+  /// What add_motion's displacements have added to the strain energy, at most, if that is convex.
+  void add_strain_energy();
+  /// The displacements whose internal forces count.
+  const NodalVectors& led_displacements();
   /// From the part's share of f_int_: accelerations under F too, and a kick of `h` by them.
   void accelerate(const NodalVectors& F, double h);
   /// Sum of m_A |q_A|^2 over all nodes.
@@ -99,13 +120,17 @@ class ExplicitSolver {
   std::unique_ptr<MassOperator> mass_;
   NodalVectors inverse_mass_;  // of each dof, 0 where it is fixed
   double dt_ = 0.0, time_ = 0.0;
+  double lead_ = 0.0;
   NodalVectors f_ext_, f_int_, u_, x_, v_, a_;
+  NodalVectors led_u_;           // u + lead v, where there is a lead
   double largest_u_ = 0.0;       // of all components that the part holds
   std::vector<ForceSums> sums_;  // of the last kick, for each run of nodes that the part owns
   WorkLedger ledger_;
-  double kinetic_start_ = 0.0;          // what the ledger's work goes on from
-  double power_ = 0.0;                  // of f_ext and F [energy/time]
-  std::optional<EnergyBudget> budget_;  // since state or loads were set
+  ExactSum added_energy_;                              // by add_motion in this step
+  const NodalVectors* added_displacements_ = nullptr;  // likewise
+  double kinetic_start_ = 0.0;                         // what the ledger's work goes on from
+  double power_ = 0.0;                                 // of f_ext and F [energy/time]
+  std::optional<EnergyBudget> budget_;                 // since state or loads were set
   mutable std::optional<double> stable_time_step_;
 };
 

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Particles and a body with time steps of their own, behind the port: one of them takes several steps in one
+// of the other's.
+//   Particles fast (a slow body): internal forces and loads kick the body at the ends of an outer step of
+//   `count` particle steps, contact kicks the nodes of the surface in every particle step, and these move on
+//   by their own velocities (r-RESPA, impulse form: Tuckerman, Berne & Martyna 1992, J. Chem. Phys. 97,
+//   1990). Structure fast (a thin body): the body takes `count` steps in a particle step, contact kicks it at
+//   the ends of these.  Its fast modes are damped a little, since such impulses resonate.
+// Both are symmetric, of second order (but for the damping), and keep momentum and the ledger of work to
+// round-off.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coupling/iga_structure.h"
+#include "coupling/substep_options.h"
+
+namespace coupling {
+
+/// Numbers of the body (energies, momenta, work, probes, histories, saved state) are those at the end of its
+/// last own step: with fast particles they stand still within an outer step.
+class Substeps final : public StructureSolver {
+ public:
+  Substeps(std::unique_ptr<IgaStructure> body, SubstepOptions options);
+
+  const ContactSurface& surface() const override { return body_->surface(); }
+  const std::vector<NodeId>& nodes() const override { return body_->nodes(); }
+  /// Of nodes that the surface does not hang on they are those at the end of the body's last own step.
+  const NodalVectors& positions() const override { return particles_fast() ? x_ : body_->positions(); }
+  const NodalVectors& velocities() const override { return particles_fast() ? v_ : body_->velocities(); }
+
+  void initialise_forces(const NodalVectors& forces) override;
+  void begin_step() override;
+  void end_step(const NodalVectors& forces) override;
+
+  /// Of the particles.  Chooses who is fast and by how much where that is left open.  Also throws
+  /// std::invalid_argument if `auto` finds no number that lets nothing grow, and if dt changes within an
+  /// outer step.
+  void set_time_step(double dt) override;
+  double stable_time_step() const override { return body_->stable_time_step(); }
+  std::string describe_step() const override;
+
+  bool moves() const override { return true; }
+  Eigen::VectorXd control_node_mass() const override { return body_->control_node_mass(); }
+  double kinetic_energy() const override { return body_->kinetic_energy(); }
+  double strain_energy() const override { return body_->strain_energy(); }
+  Work work() const override { return body_->work(); }
+  Vector3 linear_momentum() const override { return body_->linear_momentum(); }
+  Vector3 angular_momentum(const Vector3& about) const override { return body_->angular_momentum(about); }
+  std::optional<SurfaceMaterial> material() const override { return body_->material(); }
+  std::optional<Vector3> gravity() const override { return body_->gravity(); }
+  std::vector<Probe> probes() const override { return body_->probes(); }
+
+  /// The body's own state; within an outer step followed by where in it particles stand, and what contacts
+  /// have moved the nodes by.
+  std::vector<double> save() const override;
+  void load(const std::vector<double>& state) override;
+  Fingerprint fingerprint() const override { return body_->fingerprint(); }
+
+  bool particles_fast() const { return fast_ == SubstepOptions::Fast::particles; }
+  int count() const { return count_; }
+
+ private:
+  void choose(double dt);
+  int particle_steps(double dt) const;
+  int structure_steps(double dt) const;
+  double heaviest_ratio() const;
+  void kick_by_contact();
+  void place_surface();
+
+  std::unique_ptr<IgaStructure> body_;
+  structure::ExplicitSolver& solver_;
+  SubstepOptions options_;
+  std::vector<Eigen::Index> surface_nodes_;  // columns of nodal arrays
+  SubstepOptions::Fast fast_ = SubstepOptions::Fast::structure;
+  int count_ = 1, done_ = 0;  // particle steps of the outer step that are done
+  double dt_ = 0.0;           // of the particles
+  NodalVectors F_, no_forces_;
+  // Particles fast: the surface now, and what contacts have added since the outer step began.
+  NodalVectors x_, v_, du_, dv_;
+};
+
+}  // namespace coupling
