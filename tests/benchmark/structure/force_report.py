@@ -235,8 +235,8 @@ def main(executable: str, out: str, *options: str) -> None:
     found = rows(times)
     write_json(folder / "summary.json", "benchmark_structure", found)
     print(time_table(times), "\n")
-    errors_are_above = [row for row in found if not row.quantity.endswith("_error")]
-    print(table([row for row in errors_are_above if row.passes is not None or row.case == "machine"]))
+    shown = [row for row in found if row.passes is not None or row.case == "machine" or "speedup" in row.quantity]
+    print(table([row for row in shown if not row.quantity.endswith("_error")]))  # these are above
     print(f"\nMedians of thread CPU time; kernels: {output['context']['dispatched_to']}.")
 
 
