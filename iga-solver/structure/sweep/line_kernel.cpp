@@ -111,31 +111,46 @@ struct Window {
   std::size_t control, row;  // from one to the next
 };
 
+/// Functions at the points of a word of spans: B or dB.
+template <int P, int Points>
+struct WordBasis {
+  Lanes of[Points][P + 1];
+  WordBasis(const double* basis, int derivative) {
+    for (int q = 0; q < Points; ++q)
+      for (int a = 0; a <= P; ++a) of[q][a] = load(basis + ((2 * q + derivative) * (P + 1) + a) * kLanes);
+  }
+};
+
+/// Sums over control values `control` apart, to points `point` apart.
+template <int P, int Points>
+[[gnu::always_inline]] inline void contract(const WordBasis<P, Points>& basis, const double* u,
+                                            std::size_t control, double* out, std::size_t point) {
+  Lanes value[P + 1];
+  for (int a = 0; a <= P; ++a) value[a] = load(u + a * control);
+  for (int q = 0; q < Points; ++q) {
+    Lanes sum = basis.of[q][0] * value[0];
+    for (int a = 1; a <= P; ++a) sum += basis.of[q][a] * value[a];
+    store(sum, out + q * point);
+  }
+}
+
+// B for all that it is needed for, then dB: one of them has room in the registers.
 template <int P, int Points, bool WithValue>
 void word_to_points(const double* basis, const Window& window, int fields, double* values) {
   constexpr int kQuantities = WithValue ? 4 : 3;
-  const double* u = window.values;
-  for (int c = 0; c < fields; ++c, u += 3 * window.row) {
-    Lanes value[P + 1], d_y[P + 1], d_z[P + 1];
-    for (int a = 0; a <= P; ++a) {
-      value[a] = load(u + a * window.control);
-      d_y[a] = load(u + window.row + a * window.control);
-      d_z[a] = load(u + 2 * window.row + a * window.control);
-    }
-    for (int q = 0; q < Points; ++q) {
-      const double *B = basis + 2 * (P + 1) * kLanes * q, *dB = B + (P + 1) * kLanes;
-      Lanes sum[4] = {};
-      for (int a = 0; a <= P; ++a) {
-        const Lanes b = load(B + kLanes * a);
-        sum[0] += load(dB + kLanes * a) * value[a];
-        sum[1] += b * d_y[a];
-        sum[2] += b * d_z[a];
-        if (WithValue) sum[3] += b * value[a];
-      }
-      for (int k = 0; k < kQuantities; ++k)
-        store(sum[k], values + (kQuantities * (c + fields * q) + k) * kLanes);
-    }
+  const std::size_t point = std::size_t(kQuantities) * fields * kLanes;
+  const WordBasis<P, Points> B(basis, 0);
+  for (int c = 0; c < fields; ++c) {
+    const double* const u = window.values + 3 * c * window.row;
+    double* const out = values + kQuantities * c * kLanes;
+    contract(B, u + window.row, window.control, out + kLanes, point);
+    contract(B, u + 2 * window.row, window.control, out + 2 * kLanes, point);
+    if (WithValue) contract(B, u, window.control, out + 3 * kLanes, point);
   }
+  const WordBasis<P, Points> dB(basis, 1);
+  for (int c = 0; c < fields; ++c)
+    contract(dB, window.values + 3 * c * window.row, window.control, values + kQuantities * c * kLanes,
+             point);
 }
 
 /// Shares of the p + 1 control points of each span of a word, for value, d/dy, d/dz.
