@@ -8,7 +8,8 @@ namespace nurbs {
 /// Has the processor fetch `lines` lines of 8 numbers, the first at an address that is a multiple of 64,
 /// while the program goes on.  Feet of 64 points at a time in random order, time of a foot with this and
 /// without: 500 x 500 elements of degree 2 (4 lines): 42 and 76 ns, 400 x 400 of degree 3 (7 lines): 50 and
-/// 82 ns; 31 x 31, which are in the cache: the same.  Every fourth line alone is as slow as none.
+/// 82 ns; 31 x 31, which stay in the cache: 3 to 5 % more, which ElementStore spares them.  Every fourth
+/// line alone is as slow as none.
 inline void prefetch(const double* numbers, int lines) {
   for (int line = 0; line < lines; ++line) __builtin_prefetch(numbers + 8 * line);
 }
