@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <variant>
 #include <vector>
@@ -71,6 +72,10 @@ class Body {
   virtual double smallest_volume_ratio(int element, const double* u) const = 0;
   /// For messages: "element 7 (spans 1, 0, 2 of xi, eta, zeta, undeformed about (1, 2, 3))".
   virtual std::string describe_element(int element) const = 0;
+
+  /// Neighbours in the net of control nodes: pairs of columns of nodal arrays, some twice; none: strains are
+  /// not watched (time/stretch_watch.h).
+  virtual std::vector<std::array<int, 2>> net_edges() const { return {}; }
 };
 
 /// "(1, 2.5, 3)", for messages.

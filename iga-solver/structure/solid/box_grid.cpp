@@ -16,6 +16,10 @@ std::vector<int> cuts(const nurbs::KnotVector& knots, int longest) {
   return cuts;
 }
 
+int first_node(const nurbs::KnotVector& knots, int element) {
+  return knots.span_of_element(element) - knots.degree();
+}
+
 }  // namespace
 
 std::vector<SpanBox> box_grid(const nurbs::Space<3>& space) {
@@ -29,17 +33,26 @@ std::vector<SpanBox> box_grid(const nurbs::Space<3>& space) {
   return boxes;
 }
 
-std::vector<int> box_nodes(const nurbs::Space<3>& space, const SpanBox& box) {
-  std::array<int, 3> first, last;
+std::array<int, 3> box_node_counts(const nurbs::Space<3>& space, const SpanBox& box) {
+  std::array<int, 3> counts;
   for (int d = 0; d < 3; ++d) {
     const nurbs::KnotVector& knots = space.knots(d);
-    first[d] = knots.span_of_element(box.begin[d]) - knots.degree();
-    last[d] = knots.span_of_element(box.end[d] - 1);
+    const int last = knots.span_of_element(box.end[d] - 1);
+    counts[d] = last + 1 - first_node(knots, box.begin[d]);
+  }
+  return counts;
+}
+
+std::vector<int> box_nodes(const nurbs::Space<3>& space, const SpanBox& box) {
+  std::array<int, 3> first, end = box_node_counts(space, box);
+  for (int d = 0; d < 3; ++d) {
+    first[d] = first_node(space.knots(d), box.begin[d]);
+    end[d] += first[d];
   }
   std::vector<int> nodes;
-  for (int k = first[2]; k <= last[2]; ++k)
-    for (int j = first[1]; j <= last[1]; ++j)
-      for (int i = first[0]; i <= last[0]; ++i)
+  for (int k = first[2]; k < end[2]; ++k)
+    for (int j = first[1]; j < end[1]; ++j)
+      for (int i = first[0]; i < end[0]; ++i)
         nodes.push_back(i + space.control_point_count(0) * (j + space.control_point_count(1) * k));
   return nodes;
 }

@@ -42,6 +42,9 @@ std::vector<SpanBox> box_grid(const nurbs::Space<3>& space);
 /// Control points of the elements of a box, the first direction fastest.
 std::vector<int> box_nodes(const nurbs::Space<3>& space, const SpanBox& box);
 
+/// How many of them there are in each direction.
+std::array<int, 3> box_node_counts(const nurbs::Space<3>& space, const SpanBox& box);
+
 /// A box, and where the values of its control points stand in nodal arrays.
 struct PlacedBox {
   SpanBox spans;

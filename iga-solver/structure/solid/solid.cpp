@@ -154,6 +154,20 @@ std::string Solid::describe_element(int element) const {
                      spans[1], spans[2], text(nurbs::interpolate(space, patch_->control_points, centre)));
 }
 
+std::vector<std::array<int, 2>> Solid::net_edges() const {
+  std::vector<std::array<int, 2>> edges;
+  for (const PlacedBox& box : boxes_) {
+    const std::vector<int>& columns = box.read();
+    const std::array<int, 3> counts = box_node_counts(patch_->space, box.spans);
+    const int strides[3] = {1, counts[0], counts[0] * counts[1]};
+    for (int node = 0; node < static_cast<int>(columns.size()); ++node)
+      for (int d = 0; d < 3; ++d)
+        if (node / strides[d] % counts[d] + 1 < counts[d])
+          edges.push_back({columns[node], columns[node + strides[d]]});
+  }
+  return edges;
+}
+
 void Solid::gather(int element, const NodalVectors& nodal, double* values) const {
   NURBS_ASSERT(nodal.cols() == node_count(), nodal.cols(), node_count());
   const std::vector<int>& columns = one(element).columns;

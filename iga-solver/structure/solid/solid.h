@@ -76,6 +76,7 @@ class Solid final : public Body {
   const double* element_mass(int element) const override;
   double smallest_volume_ratio(int element, const double* u) const override;
   std::string describe_element(int element) const override;
+  std::vector<std::array<int, 2>> net_edges() const override;
 
  private:
   /// One element, worked out when it is asked for.

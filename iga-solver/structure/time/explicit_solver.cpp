@@ -63,6 +63,7 @@ void ExplicitSolver::set_time_step(double dt) {
   if (!(dt > 0.0 && std::isfinite(dt)))
     throw std::invalid_argument(fmt::format("ExplicitSolver: time step is {}, expected a number > 0", dt));
   dt_ = dt;
+  watch_.reset();
 }
 
 void ExplicitSolver::initialise_forces(const NodalVectors& F) {
@@ -77,6 +78,10 @@ void ExplicitSolver::initialise_forces(const NodalVectors& F) {
 
 void ExplicitSolver::begin_step() {
   if (dt_ == 0.0) throw std::logic_error("ExplicitSolver: begin_step before set_time_step");
+  if (!watch_ && stable_time_step_) {
+    const double room = *stable_time_step_ / dt_;
+    watch_.emplace(*body_, room * room);
+  }
   for (const ForceSums& run : sums_) ledger_.half_kick(run.work_from_now(0.5 * dt_));
   largest_u_ = kick_and_drift(dt_, a_, body_->reference(), v_, u_, x_);
 }
@@ -150,12 +155,13 @@ void ExplicitSolver::start_energy_budget() {
 void ExplicitSolver::check_divergence(const NodalVectors& F) {
   const bool starts = !budget_;
   if (starts) start_energy_budget();
-  enum { kPower = kForceKinds, kAdded, kPartsBeyond, kSums };
+  enum { kPower = kForceKinds, kAdded, kPartsBeyond, kPartsStrained, kSums };
   std::array<ExactSum, kSums> sums;
   std::copy(ledger_.sums().begin(), ledger_.sums().end(), sums.begin());
   for (const ForceSums& run : sums_) sums[kPower].add(run.f_v[kLoads] + run.f_v[kForces]);
   sums[kAdded] = std::exchange(added_energy_, ExactSum());
   sums[kPartsBeyond].add(largest_u_ <= kLargestDisplacement ? 0.0 : 1.0);
+  sums[kPartsStrained].add(watch_ && watch_->look(x_) ? 1.0 : 0.0);
   halo_->sum(sums.data(), sums.size());
 
   const double kinetic =
@@ -165,6 +171,16 @@ void ExplicitSolver::check_divergence(const NodalVectors& F) {
   if (!budget_->allows(kinetic) || sums[kPartsBeyond].value() > 0.0)
     throw Diverged(describe_divergence(
         {*body_, *mass_, u_, v_, a_, F, time_, dt_, stable_time_step_, kinetic, budget_->most()}));
+  if (sums[kPartsStrained].value() > 0.0) find_stable_step_anew();
+}
+
+void ExplicitSolver::find_stable_step_anew() {
+  constexpr double kLeastGrowth = 1.005;  // of the stiffness, until it is worth to look again
+  stable_now_ = structure::stable_time_step(*body_, *mass_, supports_, u_, *halo_);
+  const double room = *stable_now_ / dt_;
+  if (room < 1.0)
+    throw Diverged(describe_too_strained(*body_, *watch_, {time_, dt_, stable_time_step(), *stable_now_}));
+  watch_->allow_more(std::max(kLeastGrowth, room * room));
 }
 
 double ExplicitSolver::stable_time_step() const {

@@ -16,6 +16,7 @@
 #include "structure/halo.h"
 #include "structure/time/divergence.h"
 #include "structure/time/mass.h"
+#include "structure/time/stretch_watch.h"
 #include "structure/time/verlet_update.h"
 #include "structure/time/work_ledger.h"
 
@@ -45,7 +46,8 @@ class ExplicitSolver {
   void begin_step();
   /// Accelerations under further nodal forces F [force] and half kick.  Throws Diverged when the solid blows
   /// up: values that are not finite, displacements beyond kLargestDisplacement, or more kinetic energy than
-  /// the EnergyBudget allows; a step later the state would mean nothing.
+  /// the EnergyBudget allows; a step later the state would mean nothing.  Also if the body is
+  /// strained so much that the stable step has come down to dt.
   void end_step(const NodalVectors& F);
 
   // For time steps that are made of several (coupling/substeps.h).
@@ -72,6 +74,9 @@ class ExplicitSolver {
 
   /// 2 / omega_max about the state of the first call, which takes seconds for large models; then remembered.
   double stable_time_step() const;
+  /// The same about the last state for which it was worked out anew: if it is known, steps watch how the body
+  /// is strained, and do so where it may have come down to the time step.
+  double stable_time_step_now() const { return stable_now_.value_or(stable_time_step()); }
 
   double largest_displacement() const;  ///< of all nodes [length]
   double kinetic_energy() const;        ///< sum m_A |v_A|^2 / 2
@@ -112,6 +117,8 @@ class ExplicitSolver {
   Vector3 sum_of_own(const std::function<Vector3(Eigen::Index node)>& value) const;
   void start_energy_budget();
   void check_divergence(const NodalVectors& F);
+  /// Throws Diverged if the time step is above it.
+  void find_stable_step_anew();
   std::vector<Id> element_ids() const;
 
   std::unique_ptr<Body> body_;
@@ -132,6 +139,8 @@ class ExplicitSolver {
   double power_ = 0.0;                                 // of f_ext and F [energy/time]
   std::optional<EnergyBudget> budget_;                 // since state or loads were set
   mutable std::optional<double> stable_time_step_;
+  std::optional<StretchWatch> watch_;  // if the stable step is known
+  std::optional<double> stable_now_;   // when it was found last
 };
 
 }  // namespace structure
