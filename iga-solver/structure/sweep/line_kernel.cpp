@@ -105,10 +105,47 @@ void from_rows(const SpanBasis& y, const double* rows, std::size_t row, std::siz
   contract(y.basis, rows, row, plane, fields, planes);
 }
 
-/// Control values of one word of spans, of all fields: (p + 1) of value, d/dy, d/dz.
-struct Window {
-  const double* values;
-  std::size_t control, row;  // from one to the next
+/// Lanes A, ..., A + kLanes - 1, counted from the first of `now`; those from kLanes on are in the word after.
+template <int A, int... Lane>
+[[gnu::always_inline]] inline Lanes lanes_from(const Lanes& now, const Lanes& after,
+                                               std::integer_sequence<int, Lane...>) {
+  return __builtin_shufflevector(now, after, (A + Lane)...);
+}
+
+/// The p + 1 control values of each span of a word: span s begins at control point s.  Aligned words are
+/// loaded and shifted, since loads that straddle lines of the cache take twice as long.
+template <int P>
+struct Shifted {
+  static constexpr int kWords = (P - 1) / kLanes + 2;
+  std::size_t row;
+
+  template <int A>
+  [[gnu::always_inline]] static Lanes value(const Lanes (&word)[kWords]) {
+    constexpr int kFirst = A / kLanes, kLane = A % kLanes;
+    if constexpr (kLane == 0)
+      return word[kFirst];
+    else
+      return lanes_from<kLane>(word[kFirst], word[kFirst + 1], std::make_integer_sequence<int, kLanes>());
+  }
+  template <int... A>
+  [[gnu::always_inline]] static void take(const double* u, Lanes (&values)[P + 1],
+                                          std::integer_sequence<int, A...>) {
+    Lanes word[kWords];
+    for (int k = 0; k < kWords; ++k) word[k] = load(u + k * kLanes);
+    ((values[A] = value<A>(word)), ...);
+  }
+  [[gnu::always_inline]] void operator()(const double* u, Lanes (&values)[P + 1]) const {
+    take(u, values, std::make_integer_sequence<int, P + 1>());
+  }
+};
+
+/// The same where knots are repeated, and the values were written span by span.
+template <int P>
+struct Expanded {
+  std::size_t row, control;  // from one to the next
+  [[gnu::always_inline]] void operator()(const double* u, Lanes (&values)[P + 1]) const {
+    for (int a = 0; a <= P; ++a) values[a] = load(u + a * control);
+  }
 };
 
 /// Functions at the points of a word of spans: B or dB.
@@ -121,12 +158,12 @@ struct WordBasis {
   }
 };
 
-/// Sums over control values `control` apart, to points `point` apart.
-template <int P, int Points>
-[[gnu::always_inline]] inline void contract(const WordBasis<P, Points>& basis, const double* u,
-                                            std::size_t control, double* out, std::size_t point) {
+/// Sums over control values, to points `point` apart.
+template <int P, int Points, class Values>
+[[gnu::always_inline]] inline void contract(const WordBasis<P, Points>& basis, const Values& values_at,
+                                            const double* u, double* out, std::size_t point) {
   Lanes value[P + 1];
-  for (int a = 0; a <= P; ++a) value[a] = load(u + a * control);
+  values_at(u, value);
   for (int q = 0; q < Points; ++q) {
     Lanes sum = basis.of[q][0] * value[0];
     for (int a = 1; a <= P; ++a) sum += basis.of[q][a] * value[a];
@@ -135,22 +172,36 @@ template <int P, int Points>
 }
 
 // B for all that it is needed for, then dB: one of them has room in the registers.
-template <int P, int Points, bool WithValue>
-void word_to_points(const double* basis, const Window& window, int fields, double* values) {
+template <int P, int Points, bool WithValue, class Values>
+void word_to_points(const double* basis, const Values& values_at, const double* window, int fields,
+                    double* values) {
   constexpr int kQuantities = WithValue ? 4 : 3;
-  const std::size_t point = std::size_t(kQuantities) * fields * kLanes;
+  const std::size_t point = std::size_t(kQuantities) * fields * kLanes, row = values_at.row;
   const WordBasis<P, Points> B(basis, 0);
   for (int c = 0; c < fields; ++c) {
-    const double* const u = window.values + 3 * c * window.row;
+    const double* const u = window + 3 * c * row;
     double* const out = values + kQuantities * c * kLanes;
-    contract(B, u + window.row, window.control, out + kLanes, point);
-    contract(B, u + 2 * window.row, window.control, out + 2 * kLanes, point);
-    if (WithValue) contract(B, u, window.control, out + 3 * kLanes, point);
+    contract(B, values_at, u + row, out + kLanes, point);
+    contract(B, values_at, u + 2 * row, out + 2 * kLanes, point);
+    if (WithValue) contract(B, values_at, u, out + 3 * kLanes, point);
   }
   const WordBasis<P, Points> dB(basis, 1);
   for (int c = 0; c < fields; ++c)
-    contract(dB, window.values + 3 * c * window.row, window.control, values + kQuantities * c * kLanes,
-             point);
+    contract(dB, values_at, window + 3 * c * row, values + kQuantities * c * kLanes, point);
+}
+
+template <int P, bool WithValue, class Values>
+void words_to_points(const LaneBasis& x, const Values& values_at, const double* window, int fields,
+                     double* values) {
+  for (int w = 0; w < x.words; ++w, window += kLanes) {
+    const int word = x.first_word[w], points = x.first_word[w + 1] - word;
+    const double* basis = x.basis + std::size_t(word) * 2 * (P + 1) * kLanes;
+    double* out = values + std::size_t(word) * (WithValue ? 4 : 3) * fields * kLanes;
+    const auto contract = points == P + 1 ? word_to_points<P, P + 1, WithValue, Values>
+                          : points == P   ? word_to_points<P, P, WithValue, Values>
+                                          : word_to_points<P, P - 1, WithValue, Values>;
+    contract(basis, values_at, window, fields, out);
+  }
 }
 
 /// Shares of the p + 1 control points of each span of a word, for value, d/dy, d/dz.
@@ -203,20 +254,9 @@ void expand(const LaneBasis& x, const double* rows, int count) {
 template <int P, bool WithValue>
 void to_points(const LaneBasis& x, const double* rows, int fields, double* values) {
   const std::size_t row = x.row;
-  Window window{rows, 1, row};
-  if (x.first_control) {
-    expand<P>(x, rows, 3 * fields);
-    window = {x.scratch, row, (P + 1) * row};
-  }
-  for (int w = 0; w < x.words; ++w, window.values += kLanes) {
-    const int word = x.first_word[w], points = x.first_word[w + 1] - word;
-    const double* basis = x.basis + std::size_t(word) * 2 * (P + 1) * kLanes;
-    double* out = values + std::size_t(word) * (WithValue ? 4 : 3) * fields * kLanes;
-    const auto contract = points == P + 1 ? word_to_points<P, P + 1, WithValue>
-                          : points == P   ? word_to_points<P, P, WithValue>
-                                          : word_to_points<P, P - 1, WithValue>;
-    contract(basis, window, fields, out);
-  }
+  if (!x.first_control) return words_to_points<P, WithValue>(x, Shifted<P>{row}, rows, fields, values);
+  expand<P>(x, rows, 3 * fields);
+  words_to_points<P, WithValue>(x, Expanded<P>{(P + 1) * row, row}, x.scratch, fields, values);
 }
 template <int P>
 void to_points(const LaneBasis& x, const double* rows, int fields, bool with_value, double* values) {
