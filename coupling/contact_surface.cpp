@@ -27,35 +27,79 @@ SurfaceMap SurfaceMap::identity(NodeId nodes) {
   return selection(node, nodes);
 }
 
-SurfaceMap SurfaceMap::on(const std::vector<NodeId>& nodes) const {
+SurfaceMap SurfaceMap::on(const std::vector<NodeId>& nodes, Eigen::Index owned) const {
   std::vector<Eigen::Triplet<double, NodeId>> entries;
   entries.reserve(S_.nonZeros());
-  for (NodeId row = 0; row < S_.rows(); ++row)
-    for (Matrix::InnerIterator entry(S_, row); entry; ++entry) {
-      const auto held = std::lower_bound(nodes.begin(), nodes.end(), entry.col());
-      if (held == nodes.end() || *held != entry.col())
-        throw std::invalid_argument("SurfaceMap: the surface hangs on node " + std::to_string(entry.col()) +
-                                    ", which this rank does not hold");
-      entries.emplace_back(row, held - nodes.begin(), entry.value());
-    }
+  const auto end = nodes.begin() + owned;
+  const auto column = [&](NodeId node) {
+    const auto held = std::lower_bound(nodes.begin(), end, node);
+    return held == end || *held != node ? NodeId(-1) : held - nodes.begin();
+  };
+  for (NodeId row = 0; row < S_.rows(); ++row) {
+    const std::size_t before = entries.size();
+    NodeId other = -1;
+    for (Matrix::InnerIterator entry(S_, row); entry; ++entry)
+      if (const NodeId held = column(entry.col()); held >= 0)
+        entries.emplace_back(row, held, entry.value());
+      else
+        other = entry.col();
+    if (other >= 0 && entries.size() > before)
+      throw std::invalid_argument("SurfaceMap: a control point of the surface hangs on node " +
+                                  std::to_string(other) +
+                                  ", which this rank does not own, and on others that it owns");
+  }
   Matrix S(S_.rows(), static_cast<NodeId>(nodes.size()));
   if (!entries.empty()) S.setFromTriplets(entries.begin(), entries.end());
+  if (S.rows() > 0) S.makeCompressed();
   return SurfaceMap(S);
 }
 
+SurfaceMap SurfaceMap::on(const std::vector<NodeId>& nodes) const {
+  SurfaceMap held = on(nodes, static_cast<Eigen::Index>(nodes.size()));
+  for (int row = 0; row < S_.rows(); ++row)
+    if (hangs(row) && !held.hangs(row))
+      throw std::invalid_argument("SurfaceMap: the surface hangs on node " +
+                                  std::to_string(Matrix::InnerIterator(S_, row).col()) +
+                                  ", which this rank does not hold");
+  return held;
+}
+
+void SurfaceMap::to_surface(const std::vector<int>& control_points, const NodalVectors& nodal,
+                            NodalVectors& surface) const {
+  NURBS_ASSERT(nodal.cols() == S_.cols() && surface.cols() == S_.rows(), nodal.cols(), S_.cols());
+  for (const int row : control_points) {
+    Vector3 sum = Vector3::Zero();
+    for (Matrix::InnerIterator entry(S_, row); entry; ++entry) sum += entry.value() * nodal.col(entry.col());
+    surface.col(row) = sum;
+  }
+}
+
 void SurfaceMap::to_surface(const NodalVectors& nodal, NodalVectors& surface) const {
-  NURBS_ASSERT(nodal.cols() == S_.cols(), nodal.cols(), S_.cols());
-  surface.setZero(3, S_.rows());
-  for (NodeId row = 0; row < S_.rows(); ++row)
+  surface.resize(3, S_.rows());
+  to_surface(all(), nodal, surface);
+}
+
+void SurfaceMap::add_to_nodes(const std::vector<int>& control_points, const NodalVectors& surface,
+                              NodalVectors& nodal) const {
+  NURBS_ASSERT(surface.cols() == S_.rows() && nodal.cols() == S_.cols(), surface.cols(), nodal.cols());
+  for (const int row : control_points)
     for (Matrix::InnerIterator entry(S_, row); entry; ++entry)
-      surface.col(row) += entry.value() * nodal.col(entry.col());
+      nodal.col(entry.col()) += entry.value() * surface.col(row);
 }
 
 void SurfaceMap::add_to_nodes(const NodalVectors& surface, NodalVectors& nodal) const {
-  NURBS_ASSERT(surface.cols() == S_.rows() && nodal.cols() == S_.cols(), surface.cols(), nodal.cols());
-  for (NodeId row = 0; row < S_.rows(); ++row)
-    for (Matrix::InnerIterator entry(S_, row); entry; ++entry)
-      nodal.col(entry.col()) += entry.value() * surface.col(row);
+  add_to_nodes(all(), surface, nodal);
+}
+
+void SurfaceMap::clear_nodes(const std::vector<int>& control_points, NodalVectors& nodal) const {
+  for (const int row : control_points)
+    for (Matrix::InnerIterator entry(S_, row); entry; ++entry) nodal.col(entry.col()).setZero();
+}
+
+std::vector<int> SurfaceMap::all() const {
+  std::vector<int> all(S_.rows());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 }  // namespace coupling

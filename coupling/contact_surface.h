@@ -29,21 +29,36 @@ class SurfaceMap {
   static SurfaceMap identity(NodeId nodes);
   /// Control point i is node[i].
   static SurfaceMap selection(const std::vector<NodeId>& node, NodeId nodes);
-  /// The same map for nodal arrays whose columns belong to these ids (rising).  Throws std::invalid_argument,
-  /// naming the node, if it needs one that is not among them.
+  /// The same map for nodal arrays whose columns belong to these ids, the first `owned` of them rising, of
+  /// the control points that hang on owned nodes alone.  Throws std::invalid_argument, naming the node, if
+  /// one hangs on owned nodes and on others.
+  SurfaceMap on(const std::vector<NodeId>& nodes, Eigen::Index owned) const;
+  /// The same where all are owned; also throws if the surface hangs on a node that is not among them.
   SurfaceMap on(const std::vector<NodeId>& nodes) const;
+  bool hangs(int control_point) const {
+    return S_.outerIndexPtr()[control_point + 1] > S_.outerIndexPtr()[control_point];
+  }
 
-  /// surface (3 x n_control_points) = values of the control points where `nodal` (3 x n_nodes) are those of
-  /// the nodes.
-  void to_surface(const NodalVectors& nodal, NodalVectors& surface) const;
-  /// Adds S^T times control-point forces (3 x n_control_points) to nodal forces (3 x n_nodes).
-  void add_to_nodes(const NodalVectors& surface, NodalVectors& nodal) const;
+  /// At these control points, surface (3 x n_control_points) = values where `nodal` (3 x n_nodes) are those
+  /// of the nodes.
+  void to_surface(const std::vector<int>& control_points, const NodalVectors& nodal,
+                  NodalVectors& surface) const;
+  void to_surface(const NodalVectors& nodal, NodalVectors& surface) const;  ///< at all
+  /// Adds S^T times the forces of these control points (out of 3 x n_control_points) to nodal forces
+  /// (3 x n_nodes).
+  void add_to_nodes(const std::vector<int>& control_points, const NodalVectors& surface,
+                    NodalVectors& nodal) const;
+  void add_to_nodes(const NodalVectors& surface, NodalVectors& nodal) const;  ///< of all
+  /// Sets to zero what add_to_nodes adds to.
+  void clear_nodes(const std::vector<int>& control_points, NodalVectors& nodal) const;
 
   NodeId control_point_count() const { return S_.rows(); }
   NodeId node_count() const { return S_.cols(); }
 
  private:
-  Matrix S_;
+  std::vector<int> all() const;
+
+  Matrix S_;  // compressed
 };
 
 struct ContactSurface {

@@ -26,6 +26,12 @@ class FootBasis {
 
   /// Adds R_A F to the control-point forces f (3 x n) [force].
   void distribute(const Vector3& F, NodalVectors& f) const { nurbs::distribute(values_, F, f); }
+  /// f(index) for those that it spreads to.
+  template <class Function>
+  void for_each_control_point(Function f) const {
+    for (int j = 0; j <= values_.q; ++j)
+      for (int i = 0; i <= values_.p; ++i) f(values_.first + i + values_.stride * j);
+  }
 
  private:
   nurbs::SurfaceValues values_;

@@ -42,8 +42,13 @@ class StructureSolver {
   virtual ~StructureSolver() = default;
 
   virtual const ContactSurface& surface() const = 0;
-  /// Ids of the nodes that this rank holds, rising; nodal arrays have one column for each.
+  /// Ids of the nodes that this rank holds, one for each column of nodal arrays: those that it owns, rising,
+  /// then others; -1 for columns that are no node.
   virtual const std::vector<NodeId>& nodes() const = 0;
+  /// Whether each node is owned by one rank; if not, every rank holds and moves them all alike.
+  virtual bool is_in_parts() const { return false; }
+  /// How many of nodes() this rank owns: forces on the others are not asked for.
+  virtual Eigen::Index owned_node_count() const { return static_cast<Eigen::Index>(nodes().size()); }
   /// In the body frame: current positions [length] and velocities relative to it [length/time].  During a
   /// step (after begin_step) the velocities are those of the half step.
   virtual const NodalVectors& positions() const = 0;

@@ -2,6 +2,7 @@
 #include "coupling/surface_exchange.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -24,40 +25,150 @@ void expect_int(std::int64_t contacts) {
                              std::to_string(kMost));
 }
 
+FootBasis basis_of(const ContactForce& contact, const nurbs::MultiPatch& surface) {
+  return {surface, {contact.patch, {contact.xi[0], contact.xi[1]}}};
+}
+
+/// Control points of these elements and of those around each in its patch: a foot may wander a little beyond.
+std::vector<int> control_points_around(const std::vector<int>& elements, const nurbs::MultiPatch& surface) {
+  std::vector<bool> taken(surface.control_point_count(), false);
+  std::vector<bool> seen(surface.element_count(), false);
+  std::vector<int> points;
+  for (const int element : elements) {
+    if (seen[element]) continue;
+    seen[element] = true;
+    const int p = surface.patch_of_element(element);
+    const nurbs::Space<2>& patch = surface.patch(p);
+    const auto at = patch.element_indices(element - surface.first_element(p));
+    int first[2], end[2];
+    for (int d = 0; d < 2; ++d) {
+      const nurbs::KnotVector& knots = patch.knots(d);
+      first[d] = knots.span_of_element(std::max(at[d] - 1, 0)) - knots.degree();
+      end[d] = knots.span_of_element(std::min(at[d] + 1, knots.element_count() - 1)) + 1;
+    }
+    for (int j = first[1]; j < end[1]; ++j)
+      for (int i = first[0]; i < end[0]; ++i) {
+        const int point = surface.first_control_point(p) + i + patch.control_point_count(0) * j;
+        if (!taken[point]) points.push_back(point);
+        taken[point] = true;
+      }
+  }
+  std::sort(points.begin(), points.end());
+  return points;
+}
+
 }  // namespace
 
 SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver)
-    : comm_(comm), solver_(solver), map_(solver.surface().map.on(solver.nodes())) {
+    : comm_(comm),
+      solver_(solver),
+      map_(solver.is_in_parts() ? solver.surface().map.on(solver.nodes(), solver.owned_node_count())
+                                : solver.surface().map.on(solver.nodes())) {
   int ranks = 1;
   MPI_Comm_size(comm_, &ranks);
   all_counts_.resize(ranks);
   counts_.resize(ranks);
   offset_.resize(ranks);
-  surface_forces_.setZero(3, solver.surface().topology.control_point_count());
+  const int control_points = solver.surface().topology.control_point_count();
+  for (int c = 0; c < control_points; ++c)
+    if (map_.hangs(c)) own_.push_back(c);
+  if (solver.is_in_parts()) {
+    owners_ = std::make_unique<SurfaceOwners>(comm_, own_, control_points);
+    to_rank_.resize(ranks);
+  }
+  followed_.resize(control_points);
+  std::iota(followed_.begin(), followed_.end(), 0);
+  if (owners_) owners_->want(followed_);
+  surface_forces_.setZero(3, control_points);
   nodal_forces_.setZero(3, map_.node_count());
+  is_touched_.resize(control_points, false);
+  positions_.setZero(3, control_points);
+  velocities_.setZero(3, control_points);
   import_surface();
 }
 
+void SurfaceExchange::import_own() {
+  map_.to_surface(own_, solver_.positions(), positions_);
+  map_.to_surface(own_, solver_.velocities(), velocities_);
+}
+
 void SurfaceExchange::import_surface() {
-  map_.to_surface(solver_.positions(), positions_);
-  map_.to_surface(solver_.velocities(), velocities_);
+  import_own();
+  if (owners_) owners_->bring_all(positions_, velocities_);
+}
+
+void SurfaceExchange::import_followed() {
+  import_own();
+  if (owners_) owners_->bring_wanted(positions_, velocities_);
+}
+
+void SurfaceExchange::follow(const std::vector<int>& elements) {
+  if (!owners_) return;
+  followed_ = control_points_around(elements, solver_.surface().topology);
+  owners_->want(followed_);
+}
+
+double SurfaceExchange::largest_motion(const NodalVectors& then) const {
+  NURBS_ASSERT(then.cols() == positions_.cols(), then.cols(), positions_.cols());
+  double largest = 0.0;
+  for (const int c : own_) {
+    const double motion = (positions_.col(c) - then.col(c)).squaredNorm();
+    if (!(motion <= largest)) largest = motion;  // which it stays if it is not a number
+  }
+  return std::sqrt(owners_ ? owners_->largest(largest) : largest);
+}
+
+bool SurfaceExchange::any(bool here) const {
+  return owners_ ? owners_->largest(here ? 1.0 : 0.0) > 0.0 : here;
 }
 
 const NodalVectors& SurfaceExchange::export_add(const std::vector<ContactForce>& local) {
-  gather(local);
+  forget_forces();
+  contacts_.clear();
+  if (owners_)
+    send_to_owners(local);
+  else
+    gather(local);
   std::sort(contacts_.begin(), contacts_.end(), [](const ContactForce& a, const ContactForce& b) {
     return std::tie(a.tag, a.branch) < std::tie(b.tag, b.branch);
   });
-
-  surface_forces_.setZero();
   for (const ContactForce& contact : contacts_) {
     NURBS_ASSERT(Vector3::Map(contact.F).allFinite(), contact.tag, contact.F[0], contact.F[1], contact.F[2]);
-    const FootBasis foot(solver_.surface().topology, {contact.patch, {contact.xi[0], contact.xi[1]}});
+    const FootBasis foot = basis_of(contact, solver_.surface().topology);
     foot.distribute(Vector3::Map(contact.F), surface_forces_);
+    foot.for_each_control_point([&](int c) {
+      if (!is_touched_[c]) touched_.push_back(c);
+      is_touched_[c] = true;
+    });
   }
-  nodal_forces_.setZero();
-  map_.add_to_nodes(surface_forces_, nodal_forces_);
+  std::sort(touched_.begin(), touched_.end());
+  map_.add_to_nodes(touched_, surface_forces_, nodal_forces_);
   return nodal_forces_;
+}
+
+void SurfaceExchange::forget_forces() {
+  map_.clear_nodes(touched_, nodal_forces_);
+  for (const int c : touched_) {
+    surface_forces_.col(c).setZero();
+    is_touched_[c] = false;
+  }
+  touched_.clear();
+}
+
+void SurfaceExchange::send_to_owners(const std::vector<ContactForce>& local) {
+  for (std::vector<ContactForce>& contacts : to_rank_) contacts.clear();
+  int me = 0;
+  MPI_Comm_rank(comm_, &me);
+  for (const ContactForce& contact : local) {
+    std::vector<int>& owners = owners_of_contact_;
+    owners.clear();
+    basis_of(contact, solver_.surface().topology).for_each_control_point([&](int c) {
+      const int owner = owners_->owner(c);
+      if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
+    });
+    for (const int owner : owners) (owner == me ? contacts_ : to_rank_[owner]).push_back(contact);
+  }
+  owners_->exchange(to_rank_, contacts_);
 }
 
 void SurfaceExchange::gather(const std::vector<ContactForce>& local) {

@@ -1,53 +1,71 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// All transfer between the ranks of the particles and the ranks of the structure.
-// Today's plan is "every rank integrates the whole structure and needs the whole surface": import is a local
-// copy, export gathers the contacts of all ranks.  Nothing outside this class may rely on that.
+// All transfer between the ranks of the particles and the ranks of the structure.  Where every rank holds the
+// whole structure, import is a local copy and contacts go to all ranks; of a structure in parts, contacts go
+// to the owners of their element, and its place and velocity come back for elements that particles are near.
+// Nothing outside this class may rely on either.
 #pragma once
 
 #include <mpi.h>
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "coupling/contact_force.h"
 #include "coupling/structure_solver.h"
+#include "coupling/surface_owners.h"
 
 namespace coupling {
 
-/// One contact as the rank of its particle reports it.  Plain data: it travels as one piece of bytes.
-struct ContactForce {
-  long tag;      ///< particle's global id
-  int branch;    ///< which of the particle's contacts with this wall
-  int patch;     ///< of the foot
-  double xi[2];  ///< foot on the patch
-  double F[3];   ///< force on the surface [force]
-};
-
 class SurfaceExchange {
  public:
-  /// The solver must outlive the exchange.
+  /// The solver must outlive the exchange.  Collective, as everything here is.
   SurfaceExchange(MPI_Comm comm, StructureSolver& solver);
 
-  /// Brings positions and velocities of the surface's control points to this rank; call after every change of
-  /// the solver's state.
+  /// Brings positions and velocities of all of the surface's control points to this rank: when lists of
+  /// candidates are built, and for output.
   void import_surface();
+  /// From now on contacts are with these elements (of the surface, in any order) alone, until the next call.
+  void follow(const std::vector<int>& elements);
+  /// The same as import_surface() for these elements and those around them; call after every change of the
+  /// solver's state.  What is farther away stays as it was.
+  void import_followed();
   const NodalVectors& positions() const { return positions_; }    ///< 3 x n_control_points [length]
   const NodalVectors& velocities() const { return velocities_; }  ///< 3 x n_control_points [length/time]
+  /// The control points that import_followed() brings to this rank, rising; all, if there are no parts.
+  const std::vector<int>& followed() const { return followed_; }
+  /// Largest distance of a control point from where it was `then` (3 x n_control_points), of the whole
+  /// surface; not a number if one is none [length].
+  double largest_motion(const NodalVectors& then) const;
 
-  /// Collective.  Returns the forces on the nodes that this rank holds, of the contacts of all ranks: each is
-  /// spread to its control points (eq. 34) in the order of (tag, branch), so the sums do not depend on how
-  /// many ranks there are.  Throws std::runtime_error on every rank if there are more contacts than MPI
-  /// counts.
+  /// Whether it is so on any rank, as far as they must agree.
+  bool any(bool here) const;
+
+  /// Returns the forces on the nodes that this rank owns, zero for others: each contact is spread to its
+  /// control points (eq. 34) in the order of (tag, branch), so the sums do not depend on how many ranks there
+  /// are.  Takes as long as there are contacts.  Throws std::runtime_error on every rank if there are more
+  /// contacts than MPI counts.
   const NodalVectors& export_add(const std::vector<ContactForce>& local);
 
  private:
+  void import_own();
   void gather(const std::vector<ContactForce>& local);
+  void send_to_owners(const std::vector<ContactForce>& local);
+  void forget_forces();
 
   MPI_Comm comm_;
   StructureSolver& solver_;
-  SurfaceMap map_;  ///< from the nodes that this rank holds
+  SurfaceMap map_;  ///< from the columns of this rank's nodal arrays, of the control points that it owns
+  std::vector<int> own_;                   ///< these control points
+  std::unique_ptr<SurfaceOwners> owners_;  ///< of a structure in parts
+  std::vector<int> followed_;
   NodalVectors positions_, velocities_;
-  NodalVectors surface_forces_, nodal_forces_;
-  std::vector<ContactForce> contacts_;    ///< of all ranks
+  NodalVectors surface_forces_, nodal_forces_;  ///< zero but where contacts are
+  std::vector<int> touched_;                    ///< control points with forces, rising
+  std::vector<bool> is_touched_;
+  std::vector<ContactForce> contacts_;  ///< of all ranks, with what this one owns
+  std::vector<std::vector<ContactForce>> to_rank_;
+  std::vector<int> owners_of_contact_;
   std::vector<std::int64_t> all_counts_;  ///< of contacts per rank
   std::vector<int> counts_, offset_;      ///< the same as MPI takes them
 };

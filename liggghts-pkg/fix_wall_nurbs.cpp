@@ -225,6 +225,7 @@ void FixWallNurbs::final_integrate() {
 
 void FixWallNurbs::end_of_step() {
   or_fail([&] {
+    loop_.wall().import_all();
     output_->write(update->ntimestep, update->get_cur_time(), exchange_.positions(), loop_.wall().frame());
   });
 }
@@ -259,6 +260,7 @@ void FixWallNurbs::restart(char* buffer) {
 
 int FixWallNurbs::getCreateMeshTriCount() {
   or_fail([&] {
+    loop_.wall().import_all();
     twin_.build(world, options_.file, loop_.wall().surface(), exchange_.positions(), structure_.frame(),
                 options_.twin);
   });

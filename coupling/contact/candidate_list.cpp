@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/contact/candidate_list.h"
 
-#include <cmath>
-
-#include "nurbs/assert.h"
-
 namespace contact {
 
 using nurbs::Vector3;
@@ -33,14 +29,6 @@ void CandidateList::build(const coupling::RigidFrame& frame, const std::vector<V
     const int image_count = static_cast<int>(image_elements_.size()) - first_image;
     if (image_count > 0) candidates_.push_back({i, first_image, image_count});
   }
-}
-
-double CandidateList::motion_since_build(const nurbs::NodalVectors& control_points, bool deforms,
-                                         const coupling::RigidFrame& frame) const {
-  if (!deforms) return frame.max_displacement(frame_at_build_, wall_bounds());
-  NURBS_ASSERT(control_points.cols() == control_points_at_build_.cols(), control_points.cols());
-  return std::sqrt(
-      (control_points - control_points_at_build_).colwise().squaredNorm().maxCoeff<Eigen::PropagateNaN>());
 }
 
 }  // namespace contact

@@ -53,10 +53,12 @@ class CandidateList {
     return elements_.data() + e.first;
   }
 
-  /// Largest distance that any point of the surface has moved since build, at most: a surface point is a
-  /// convex combination of control points [length].
-  double motion_since_build(const nurbs::NodalVectors& control_points, bool deforms,
-                            const coupling::RigidFrame& frame) const;
+  /// All elements of all candidates, each perhaps many times.
+  const std::vector<int>& all_elements() const { return elements_; }
+
+  /// Where the wall was when it was built.
+  const nurbs::NodalVectors& control_points_at_build() const { return control_points_at_build_; }
+  const coupling::RigidFrame& frame_at_build() const { return frame_at_build_; }
 
  private:
   std::vector<Candidate> candidates_;

@@ -26,6 +26,7 @@ void ContactLoop::forget_reports() {
 /* ---------------------------------------------------------------------- the list of candidates */
 
 void ContactLoop::build_list(const ParticleView& particles, const ListReach& reach) {
+  if (wall_.deforms()) wall_.import_all();
   if (wall_.deforms() || !candidates_.has_surface()) {
     candidates_.set_surface(wall_.surface(), wall_.control_points());
     wall_.projector().begin_list();
@@ -45,6 +46,7 @@ void ContactLoop::build_list(const ParticleView& particles, const ListReach& rea
   const std::vector<Vector3> images = wall_images(reach.box, bounds, wall_.frame(), largest);
   expect_images_to_stay(images);
   candidates_.build(wall_.frame(), images, {particles.count, particles.x, list_reach_.data()});
+  if (wall_.deforms()) wall_.follow(candidates_.all_elements());
   tracker_.list_is_new();
   surface_motion_ = 0.0;
   forget_lost_contacts(particles);
@@ -68,17 +70,17 @@ void ContactLoop::forget_lost_contacts(const ParticleView& particles) {
     if (!is_candidate_[i]) particles.memory.of(i).clear();
 }
 
+// A point of the surface is a convex combination of control points.
 double ContactLoop::wall_motion() {
-  const double motion =
-      candidates_.motion_since_build(wall_.control_points(), wall_.deforms(), wall_.frame());
-  surface_motion_ = wall_.deforms() ? motion : 0.0;
-  return motion;
+  if (!wall_.deforms())
+    return wall_.frame().max_displacement(candidates_.frame_at_build(), candidates_.wall_bounds());
+  return surface_motion_ = wall_.motion_since(candidates_.control_points_at_build());
 }
 
 bool ContactLoop::has_outgrown_list(const ParticleView& particles) const {
   bool outgrown = false;  // no way out of the loop, so that it is vectorised
   for (int i = 0; i < particles.count; ++i) outgrown |= particles.radius[i] > radius_limit_[i];
-  return outgrown;
+  return wall_.any(outgrown);
 }
 
 /* ---------------------------------------------------------------------- one step */

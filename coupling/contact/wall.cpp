@@ -34,7 +34,13 @@ void Wall::import() {
   needs_forces_ = structure_.needs_forces();
   is_turned_ = !frame_.rotation.isIdentity(0.0);
   stands_ = !deforms_ && !slides_ && frame_.velocity.isZero(0.0) && frame_.angular_velocity.isZero(0.0);
-  if (imported_ && !deforms_) return;
+  if (!imported_) return import_all();
+  if (!deforms_) return;
+  exchange_.import_followed();
+  projector_.set_control_points(control_points());
+}
+
+void Wall::import_all() {
   exchange_.import_surface();
   projector_.set_control_points(control_points());
   imported_ = true;

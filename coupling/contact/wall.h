@@ -23,8 +23,17 @@ class Wall {
   /// A rigid wall that spans a periodic box has no edge there: welds what meets after a shift by one of these
   /// periods, in space [length].
   void weld_across(const std::vector<Vector3>& periods);
-  /// Takes place and shape from the structure.
+  /// Takes place and shape from the structure, near the elements that are followed.  Collective, as are the
+  /// next four.
   void import();
+  /// Of a wall that deforms: all of its shape.
+  void import_all();
+  /// From now on contacts are with these elements alone.
+  void follow(const std::vector<int>& elements) { exchange_.follow(elements); }
+  /// Largest distance of a control point of the whole wall, in its frame, from where it was [length].
+  double motion_since(const nurbs::NodalVectors& then) const { return exchange_.largest_motion(then); }
+  /// Whether it is so on any rank, as far as they must agree.
+  bool any(bool here) const { return exchange_.any(here); }
   /// The box of all elements, in the wall's frame, when the list of candidates was built.
   void set_bounds(const search::Box& bounds);
 

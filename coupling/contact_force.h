@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+namespace coupling {
+
+/// One contact as the rank of its particle reports it.  Plain data: it travels as one piece of bytes.
+struct ContactForce {
+  long tag;      ///< particle's global id
+  int branch;    ///< which of the particle's contacts with this wall
+  int patch;     ///< of the foot
+  double xi[2];  ///< foot on the patch
+  double F[3];   ///< force on the surface [force]
+};
+
+}  // namespace coupling
