@@ -32,7 +32,7 @@ ContactSurface surface_of(const structure::Body& body, const std::vector<structu
   std::vector<int> outward_sign;
   for (const structure::SkinPiece& piece : skin) {
     const nurbs::BoundarySurface face = body.skin(piece);
-    patches.push_back({face.space, body.reference()(Eigen::all, face.volume_control_point)});
+    patches.push_back({face.space, body.whole_reference()(Eigen::all, face.volume_control_point)});
     nodes.insert(nodes.end(), face.volume_control_point.begin(), face.volume_control_point.end());
     outward_sign.push_back(face.outward_sign);
     faces.push_back(face);
@@ -45,7 +45,8 @@ ContactSurface surface_of(const structure::Body& body, const std::vector<structu
   constexpr double kTolerance = 1e-9;
   nurbs::MultiPatch topology = nurbs::join(patches).topology;
   topology.set_borders(nurbs::find_borders(patches, kTolerance, {}, same_nodes));
-  return {std::move(topology), SurfaceMap::selection(nodes, body.node_count()), std::move(outward_sign)};
+  return {std::move(topology), SurfaceMap::selection(nodes, body.whole_reference().cols()),
+          std::move(outward_sign)};
 }
 
 /// "zeta+" as in model files; of a further patch "1 zeta+".
@@ -70,13 +71,22 @@ FingerprintPart material_part(const structure::Material& material) {
   return part;
 }
 
+FingerprintPart supports_part(const std::vector<structure::Id>& fixed) {
+  return {"supports",
+          fmt::format("{} fixed degrees of freedom", fixed.size()),
+          {static_cast<double>(fixed.size()), checksum({fixed.begin(), fixed.end()})}};
+}
+
 }  // namespace
 
 IgaStructure::IgaStructure(structure::ExplicitSolver solver, std::vector<structure::SkinPiece> skin,
-                           std::vector<structure::Probe> probes, const std::optional<Vector3>& gravity)
+                           std::vector<structure::Probe> probes, const std::optional<Vector3>& gravity,
+                           bool in_parts)
     : solver_(std::move(solver)),
       skin_(std::move(skin)),
       nodes_(solver_.node_ids()),
+      in_parts_(in_parts),
+      supports_(supports_part(solver_.fixed_dofs())),
       surface_(surface_of(solver_.body(), skin_)),
       probes_(std::move(probes)),
       gravity_(gravity) {}
@@ -117,25 +127,19 @@ Work IgaStructure::work() const {
 
 std::vector<Probe> IgaStructure::probes() const {
   std::vector<Probe> values;
-  for (const structure::Probe& probe : probes_)
-    values.push_back({probe.name, probe.value(solver_.displacements())});
+  for (const structure::Probe& probe : probes_) values.push_back({probe.name, solver_.displacement(probe)});
   return values;
 }
 
 Fingerprint IgaStructure::fingerprint() const {
   const structure::Body& body = solver_.body();
   const structure::Material& material = body.material();
-  const std::vector<Eigen::Index>& fixed = solver_.supports().fixed_dofs();
   std::vector<std::string> faces;
   for (const structure::SkinPiece& piece : skin_) faces.emplace_back(name_of(piece));
-  const auto geometry = [&](const auto& patches) { return geometry_part(patches, body.reference()); };
-  Fingerprint fingerprint{std::visit(geometry, body.patches()),
-                          word_part("surface", fmt::format("{}", fmt::join(faces, ", "))),
-                          word_part("law of the material", material.law()),
-                          material_part(material),
-                          {"supports",
-                           fmt::format("{} fixed degrees of freedom", fixed.size()),
-                           {static_cast<double>(fixed.size()), checksum({fixed.begin(), fixed.end()})}}};
+  const auto geometry = [&](const auto& patches) { return geometry_part(patches, body.whole_reference()); };
+  Fingerprint fingerprint{
+      std::visit(geometry, body.patches()), word_part("surface", fmt::format("{}", fmt::join(faces, ", "))),
+      word_part("law of the material", material.law()), material_part(material), supports_};
   if (!body.discretisation().empty()) fingerprint.push_back(word_part("quadrature", body.discretisation()));
   return fingerprint;
 }

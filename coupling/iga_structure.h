@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "coupling/shared_history.h"
 #include "coupling/structure_solver.h"
 #include "nurbs/boundary.h"
+#include "parallel/shared_history.h"
 #include "structure/conditions/probe.h"
 #include "structure/time/explicit_solver.h"
 
@@ -18,15 +18,21 @@ namespace coupling {
 class IgaStructure final : public StructureSolver {
  public:
   /// Particles see the given pieces of the body's skin; pieces that share an edge are welded there.
+  /// `in_parts`: every rank has a solver of a part of its own; then all is collective.
   IgaStructure(structure::ExplicitSolver solver, std::vector<structure::SkinPiece> skin,
-               std::vector<structure::Probe> probes = {}, const std::optional<Vector3>& gravity = {});
+               std::vector<structure::Probe> probes = {}, const std::optional<Vector3>& gravity = {},
+               bool in_parts = false);
   /// From now on writes histories; before the first run.
-  void write_history(SharedHistory history) { history_.emplace(std::move(history)); }
+  void write_history(parallel::SharedHistory history) { history_.emplace(std::move(history)); }
 
   structure::ExplicitSolver& solver() { return solver_; }
 
   const ContactSurface& surface() const override { return surface_; }
   const std::vector<NodeId>& nodes() const override { return nodes_; }
+  bool is_in_parts() const override { return in_parts_; }
+  Eigen::Index owned_node_count() const override {
+    return solver_.halo().owned(static_cast<Eigen::Index>(nodes_.size()));
+  }
   const NodalVectors& positions() const override { return solver_.positions(); }
   const NodalVectors& velocities() const override { return solver_.velocities(); }
 
@@ -55,10 +61,12 @@ class IgaStructure final : public StructureSolver {
   structure::ExplicitSolver solver_;
   std::vector<structure::SkinPiece> skin_;
   std::vector<NodeId> nodes_;
+  bool in_parts_;
+  FingerprintPart supports_;
   ContactSurface surface_;
   std::vector<structure::Probe> probes_;
   std::optional<Vector3> gravity_;
-  std::optional<SharedHistory> history_;
+  std::optional<parallel::SharedHistory> history_;
 };
 
 }  // namespace coupling

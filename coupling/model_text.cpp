@@ -4,10 +4,10 @@
 #include <limits>
 #include <new>
 
-#include "coupling/all_or_none.h"
 #include "geometry_io/geometry_io.h"
 #include "geometry_io/input_error.h"
 #include "geometry_io/regular_file.h"
+#include "parallel/all_or_none.h"
 
 namespace coupling {
 namespace {
@@ -23,13 +23,13 @@ std::string read(const std::string& path, std::string& text) try {
   }
   return text.size() > std::numeric_limits<int>::max() ? path + ": holds more than 2 GiB" : std::string();
 } catch (const std::bad_alloc&) {
-  return out_of_memory(path);
+  return parallel::out_of_memory(path);
 }
 
 void broadcast(MPI_Comm comm, const std::string& path, std::string& text) {
   int length = static_cast<int>(text.size());
   MPI_Bcast(&length, 1, MPI_INT, 0, comm);
-  on_every_rank(comm, path, [&] { return text.resize(length), true; });
+  parallel::on_every_rank(comm, path, [&] { return text.resize(length), true; });
   MPI_Bcast(text.data(), length, MPI_CHAR, 0, comm);
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
-#include "coupling/all_or_none.h"
 #include "coupling/iga_structure.h"
 #include "coupling/model_text.h"
 #include "coupling/open_structure.h"
 #include "io/model_file.h"
+#include "parallel/all_or_none.h"
+#include "parallel/session.h"
 
 namespace coupling {
 
@@ -17,17 +18,18 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
   std::vector<structure::SkinPiece> skin;
   for (const geometry_io::SurfacePiece& piece : model.geometry.surfaces.at(surface))
     skin.push_back({piece.patch, *piece.face});
-  auto solver =
-      std::make_unique<IgaStructure>(io::build_solver(model), std::move(skin), model.probes, model.gravity);
+  const io::Cut cut = parallel::cut_among(comm);
+  auto solver = std::make_unique<IgaStructure>(io::build_solver(model, cut), std::move(skin), model.probes,
+                                               model.gravity, cut.parts > 1);
   if (model.output)
-    solver->write_history(SharedHistory(comm, *model.output, model.geometry.units, model.probes));
+    solver->write_history(parallel::SharedHistory(comm, *model.output, model.geometry.units, model.probes));
   return {std::move(solver), model.geometry.units};
 }
 
 }  // namespace
 
 OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface) {
-  return on_every_rank(comm, path, [&] { return read_iga_structure(comm, path, surface); });
+  return parallel::on_every_rank(comm, path, [&] { return read_iga_structure(comm, path, surface); });
 }
 
 }  // namespace coupling

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
-#include "coupling/all_or_none.h"
 #include "coupling/model_text.h"
 #include "coupling/open_structure.h"
 #include "coupling/rigid/rigid_surface.h"
 #include "geometry_io/geometry_io.h"
 #include "nurbs/memory.h"
+#include "parallel/all_or_none.h"
 
 namespace coupling {
 
@@ -40,7 +40,8 @@ OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const
 
 OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
                                    RigidDrive drive) {
-  OpenedStructure opened = on_every_rank(comm, path, [&] { return read_rigid_surface(comm, path, surface); });
+  OpenedStructure opened =
+      parallel::on_every_rank(comm, path, [&] { return read_rigid_surface(comm, path, surface); });
   static_cast<RigidSurface&>(*opened.solver).drive(std::move(drive));
   return opened;
 }

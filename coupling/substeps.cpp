@@ -39,7 +39,8 @@ std::vector<Eigen::Index> surface_nodes(const StructureSolver& body) {
   map.add_to_nodes(NodalVectors::Ones(3, map.control_point_count()), marks);
   std::vector<Eigen::Index> columns;
   for (std::size_t i = 0; i < body.nodes().size(); ++i)
-    if (marks(0, body.nodes()[i]) != 0.0) columns.push_back(static_cast<Eigen::Index>(i));
+    if (body.nodes()[i] >= 0 && marks(0, body.nodes()[i]) != 0.0)
+      columns.push_back(static_cast<Eigen::Index>(i));
   return columns;
 }
 

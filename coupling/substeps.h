@@ -28,6 +28,8 @@ class Substeps final : public StructureSolver {
 
   const ContactSurface& surface() const override { return body_->surface(); }
   const std::vector<NodeId>& nodes() const override { return body_->nodes(); }
+  bool is_in_parts() const override { return body_->is_in_parts(); }
+  Eigen::Index owned_node_count() const override { return body_->owned_node_count(); }
   /// Of nodes that the surface does not hang on they are those at the end of the body's last own step.
   const NodalVectors& positions() const override { return particles_fast() ? x_ : body_->positions(); }
   const NodalVectors& velocities() const override { return particles_fast() ? v_ : body_->velocities(); }

@@ -195,7 +195,13 @@ void FixWallNurbs::post_force(int vflag) {
   array_local = columns_.local_rows();
   nodal_forces_ = &no_forces_;
   if (structure_.needs_forces())
-    in_step([&] { nodal_forces_ = &exchange_.export_add(loop_.forces_on_body()); });
+    in_step([&] {
+      try {
+        nodal_forces_ = &exchange_.export_add(loop_.forces_on_body());
+      } catch (const std::logic_error& problem) {
+        messages_.fail_on_this_rank(problem.what());
+      }
+    });
 }
 
 void FixWallNurbs::post_force_primitive(int) {

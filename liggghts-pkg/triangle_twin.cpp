@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "coupling/all_or_none.h"
 #include "nurbs/memory.h"
+#include "parallel/all_or_none.h"
 
 namespace liggghts_pkg {
 
@@ -15,7 +15,7 @@ void TriangleTwin::build(MPI_Comm comm, const std::string& file, const nurbs::Mu
   // another.
   constexpr double kBytesPerTriangle = 1500.0;
   const double triangles = 2.0 * cells * cells * surface.element_count();
-  coupling::on_every_rank(comm, file, [&] {
+  parallel::on_every_rank(comm, file, [&] {
     nurbs::expect_memory(kBytesPerTriangle * triangles,
                          fmt::format("twin {} of a wall of {} elements: {:.3g} triangles", cells,
                                      surface.element_count(), triangles));

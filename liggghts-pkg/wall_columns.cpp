@@ -19,10 +19,7 @@ static_assert(offsetof(WallContact, torque) == WallColumns::kLocalColumns * size
 
 }  // namespace
 
-int WallColumns::count() const {
-  return kTotalColumns + kStructureColumns + 3 * static_cast<int>(structure_.probes().size()) + 1 +
-         kWorkColumns;
-}
+int WallColumns::count() const { return kTotalColumns + kStructureColumns + 3 * probes_ + 1 + kWorkColumns; }
 
 double WallColumns::operator[](int column) {
   const int power = count() - 1 - kWorkColumns;

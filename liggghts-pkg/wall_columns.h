@@ -18,7 +18,10 @@ class WallColumns {
   static constexpr int kLocalColumns = 11;
 
   WallColumns(const coupling::StructureSolver& structure, const contact::ContactLoop& loop, MPI_Comm comm)
-      : structure_(structure), loop_(loop), comm_(comm) {}
+      : structure_(structure),
+        loop_(loop),
+        comm_(comm),
+        probes_(static_cast<int>(structure.probes().size())) {}
 
   int count() const;
   /// From 0; collective.
@@ -37,6 +40,7 @@ class WallColumns {
   const coupling::StructureSolver& structure_;
   const contact::ContactLoop& loop_;
   MPI_Comm comm_;
+  int probes_;
   contact::ContactSums sums_;
   contact::ContactTotals totals_{};
   bool totals_are_summed_ = false;

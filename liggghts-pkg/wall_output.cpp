@@ -3,11 +3,11 @@
 
 #include <utility>
 
-#include "coupling/all_or_none.h"
+#include "parallel/all_or_none.h"
 
 namespace liggghts_pkg {
 
-using coupling::on_first_rank;
+using parallel::on_first_rank;
 
 WallOutput::WallOutput(MPI_Comm comm, OutputOptions options, const nurbs::MultiPatch& surface,
                        const coupling::NodalVectors& control_points)

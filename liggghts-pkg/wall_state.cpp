@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "coupling/all_or_none.h"
+#include "parallel/all_or_none.h"
 
 namespace liggghts_pkg {
 
@@ -99,7 +99,7 @@ void check_origin(const WallState::Origin& saved, const WallState::Origin& now, 
 
 void write_block(MPI_Comm world, std::FILE* file, const std::vector<double>& numbers) {
   const int bytes = static_cast<int>(numbers.size() * sizeof(double));
-  coupling::on_first_rank(world, [&] {
+  parallel::on_first_rank(world, [&] {
     if (std::fwrite(&bytes, sizeof(int), 1, file) != 1 ||
         std::fwrite(numbers.data(), sizeof(double), numbers.size(), file) != numbers.size() ||
         std::fflush(file) != 0)

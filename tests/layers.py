@@ -27,7 +27,7 @@ MAY_LINK = {
     "iga-solver/geometry_io": [KERNEL],
     "iga-solver/vtk": [KERNEL, "iga-solver/geometry_io"],
     "iga-solver/structure": [KERNEL],
-    "iga-solver/parallel": [KERNEL, "iga-solver/structure"],
+    "iga-solver/parallel": [KERNEL, "iga-solver/geometry_io", "iga-solver/structure", "iga-solver/io"],
     "iga-solver/io": [KERNEL, "iga-solver/geometry_io", "iga-solver/structure"],
     "iga-solver/app": SOLVER,
     "coupling": SOLVER,
@@ -35,7 +35,7 @@ MAY_LINK = {
 }
 # targets that a rigid wall needs, and what they must not have
 RIGID = ("coupling", "coupling_contact")
-STRUCTURAL = ("iga-solver/structure", "iga-solver/parallel", "iga-solver/io")
+STRUCTURAL = ("iga-solver/structure", "iga-solver/io")
 # header of a library -> what links it
 LIBRARIES = {
     r"mpi\.h": "MPI::MPI_C",

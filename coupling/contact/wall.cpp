@@ -41,6 +41,7 @@ void Wall::import() {
 }
 
 void Wall::import_all() {
+  if (imported_ && !deforms_) return;
   exchange_.import_surface();
   projector_.set_control_points(control_points());
   imported_ = true;

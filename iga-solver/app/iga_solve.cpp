@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// iga-solve: runs the model file of a solid without particles.
+// iga-solve: runs the model file of a solid without particles, on one rank or several.
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <new>
 #include <stdexcept>
 
 #include "command.h"
-#include "io/history.h"
 #include "io/model_file.h"
+#include "parallel/all_or_none.h"
+#include "parallel/session.h"
+#include "parallel/shared_history.h"
 
 namespace {
 
@@ -62,18 +65,34 @@ long step_count(double end, double largest_step) {
   return std::max(1L, std::lround(steps));
 }
 
+// Rank 0 prints; what is asked of all nodes is asked by all.
+bool is_first_rank() { return parallel::Ranks(MPI_COMM_WORLD).me == 0; }
+
+template <class... Values>
+void print_on_first(const char* format, const Values&... values) {
+  if (is_first_rank()) fmt::print(fmt::runtime(format), values...);
+}
+
 void print_model(const io::ModelFile& model, const ExplicitSolver& solver) {
+  const structure::Halo& halo = solver.halo();
+  const Eigen::Index owned = halo.owned(solver.body().node_count());
+  const std::vector<Eigen::Index>& fixed = solver.supports().fixed_dofs();
+  const double fixed_dofs = halo.sum(double(std::count_if(
+                   fixed.begin(), fixed.end(), [&](Eigen::Index dof) { return dof < 3 * owned; }))),
+               mass = halo.sum(solver.mass().nodal_mass().head(owned).sum());
+
   const nurbs::Space<3>& space = model.volume().space;
-  fmt::print("{} (units {})\n", model.file, geometry_io::units_name(model.geometry.units));
-  fmt::print("  elements     {} ({} x {} x {}), degrees {} {} {}\n", space.element_count(),
-             space.knots(0).element_count(), space.knots(1).element_count(), space.knots(2).element_count(),
-             space.degree(0), space.degree(1), space.degree(2));
-  fmt::print("  dof          {}, {} of them fixed\n", 3L * space.control_point_count(),
-             solver.supports().fixed_dofs().size());
-  fmt::print("  mass         {:.8g}\n", solver.mass().nodal_mass().sum());
+  print_on_first("{} (units {})\n", model.file, geometry_io::units_name(model.geometry.units));
+  print_on_first("  elements     {} ({} x {} x {}), degrees {} {} {}\n", space.element_count(),
+                 space.knots(0).element_count(), space.knots(1).element_count(),
+                 space.knots(2).element_count(), space.degree(0), space.degree(1), space.degree(2));
+  print_on_first("  dof          {}, {} of them fixed\n", 3L * space.control_point_count(),
+                 static_cast<long>(fixed_dofs));
+  print_on_first("  mass         {:.8g}\n", mass);
 }
 
 void print_progress(long step, long steps, double time) {
+  if (!is_first_rank()) return;
   fmt::print("\r  step {} of {}, time {:.6g}", step, steps, time);
   if (step == steps) fmt::print("\n");
   std::fflush(stdout);
@@ -81,14 +100,14 @@ void print_progress(long step, long steps, double time) {
 
 void print_energies(const ExplicitSolver& solver) {
   const double kinetic = solver.kinetic_energy(), strain = solver.strain_energy(), work = solver.load_work();
-  fmt::print(
+  print_on_first(
       "  energies at time {:.6g}: kinetic {:.8g}, strain {:.8g}, work of the loads {:.8g}, balance {:.8g}\n",
       solver.time(), kinetic, strain, work, kinetic + strain - work);
 }
 
 // One step; of a solid that blows up, names the file and what is left of the run.
 void advance(ExplicitSolver& solver, const structure::NodalVectors& no_forces, long step,
-             const io::ModelFile& model, const std::optional<io::History>& history) {
+             const io::ModelFile& model, const std::optional<parallel::SharedHistory>& history) {
   try {
     solver.begin_step();
     solver.end_step(no_forces);
@@ -99,22 +118,27 @@ void advance(ExplicitSolver& solver, const structure::NodalVectors& no_forces, l
   }
 }
 
+io::ModelFile read(const Options& options) {
+  return parallel::on_every_rank(MPI_COMM_WORLD, options.model,
+                                 [&] { return io::read_model_file(options.model); });
+}
+
 void run(const Options& options) {
-  const io::ModelFile model = io::read_model_file(options.model);
+  const io::ModelFile model = read(options);
   const double end = end_time(options, model);
-  ExplicitSolver solver = io::build_solver(model);
+  ExplicitSolver solver = io::build_solver(model, parallel::cut_among(MPI_COMM_WORLD));
   if (!options.quiet) print_model(model, solver);
   const double stable = with_name(model, [&] { return solver.stable_time_step(); });
-  if (!options.quiet) fmt::print("  stable step  {:.6g}\n", stable);
+  if (!options.quiet) print_on_first("  stable step  {:.6g}\n", stable);
   const double largest_step = time_step(options, model, stable);
   const long steps = with_name(model, [&] { return step_count(end, largest_step); });
   solver.set_time_step(end / steps);  // never longer than asked for, and the last step ends at `end`
-  if (!options.quiet) fmt::print("  time step    {:.6g}, {} steps\n", solver.time_step(), steps);
+  if (!options.quiet) print_on_first("  time step    {:.6g}, {} steps\n", solver.time_step(), steps);
 
   const structure::NodalVectors no_forces = structure::NodalVectors::Zero(3, solver.body().node_count());
   with_name(model, [&] { solver.initialise_forces(no_forces); });
-  std::optional<io::History> history;
-  if (model.output) history.emplace(*model.output, model.geometry.units, model.probes);
+  std::optional<parallel::SharedHistory> history;
+  if (model.output) history.emplace(MPI_COMM_WORLD, *model.output, model.geometry.units, model.probes);
   if (history) history->record_if_due(solver);
   const bool progress = !options.quiet && isatty(STDOUT_FILENO);
   for (long step = 1; step <= steps; ++step) {
@@ -125,13 +149,28 @@ void run(const Options& options) {
   }
   if (!options.quiet) {
     print_energies(solver);
-    if (history) fmt::print("  histories    {}\n", history->path());
+    if (history) print_on_first("  histories    {}\n", history->path());
+  }
+}
+
+// An error is the same on all ranks, and one tells it; but for memory, of which one may have less.
+void run_on_ranks(const Options& options) {
+  const parallel::Ranks ranks(MPI_COMM_WORLD);
+  try {
+    run(options);
+  } catch (const std::bad_alloc&) {
+    if (ranks.count == 1) throw;
+    app::print_error(nurbs::out_of_memory(options.model));
+    MPI_Abort(MPI_COMM_WORLD, 1);
+  } catch (const std::exception&) {
+    if (ranks.me == 0) throw;
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  const parallel::Session session(&argc, &argv);
   Options options;
   CLI::App command("Runs the model file of a NURBS solid without particles: explicit, isogeometric.");
   command.add_option("model", options.model, "model file (YAML)")->required();
@@ -142,5 +181,5 @@ int main(int argc, char** argv) {
                   "largest time step (else time: {step}, else 0.9 of the stable step)")
       ->check(CLI::PositiveNumber);
   command.add_flag("--quiet", options.quiet, "print nothing but errors");
-  return app::run_command(command, argc, argv, options.model, [&] { run(options); });
+  return app::run_command(command, argc, argv, options.model, [&] { run_on_ranks(options); });
 }

@@ -171,7 +171,7 @@ HistoryRow measure(const structure::ExplicitSolver& solver, const std::vector<st
                  solver.angular_momentum(Vector3::Zero()),
                  solver.largest_displacement(),
                  {}};
-  for (const structure::Probe& probe : probes) row.probes.push_back(probe.value(solver.displacements()));
+  for (const structure::Probe& probe : probes) row.probes.push_back(solver.displacement(probe));
   return row;
 }
 

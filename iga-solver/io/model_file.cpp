@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <new>
+
 #include "geometry_io/file_kind.h"
+#include "nurbs/memory.h"
 #include "structure/conditions/loads.h"
 #include "structure/material/laws.h"
 
@@ -164,26 +167,67 @@ ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& 
   return parse_model_file(text, path, read);
 }
 
-structure::ExplicitSolver build_solver(const ModelFile& model) {
-  const nurbs::Volume& volume = model.volume();
-  structure::Supports supports;
-  for (const FixedFaces& fixed : model.boundary)
-    for (nurbs::Face face : fixed.faces)
-      supports.fix(structure::nodes_on(volume.space, {face}), fixed.directions);
+namespace {
+
+std::unique_ptr<structure::Solid> build_solid(const ModelFile& model, const structure::Part* part) {
   try {
-    structure::ExplicitSolver solver(
-        std::make_unique<structure::Solid>(volume, model.material, model.integration), std::move(supports));
-    structure::NodalVectors f_ext =
-        structure::gravity_load(solver.body(), model.gravity.value_or(Vector3::Zero()));
-    for (const FaceTraction& traction : model.tractions)
-      f_ext += structure::traction_load(solver.body(), {0, traction.face}, traction.value);
-    solver.set_load(f_ext);
-    solver.set_velocities(model.initial_velocity.replicate(1, solver.body().node_count()));
-    return solver;
+    if (part)
+      return std::make_unique<structure::Solid>(model.volume(), model.material, model.integration, *part);
+    return std::make_unique<structure::Solid>(model.volume(), model.material, model.integration);
   } catch (const std::invalid_argument& error) {
     throw geometry_io::InputError(
         fmt::format("{}:{}: geometry: {}", model.file, model.geometry_line, error.what()));
   }
+}
+
+/// One that fails on one rank fails on all.
+std::unique_ptr<structure::Solid> build_part(const ModelFile& model, const Cut& cut,
+                                             const structure::Part& part) {
+  std::unique_ptr<structure::Solid> solid;
+  std::string problem;
+  try {
+    solid = build_solid(model, &part);
+  } catch (const std::bad_alloc&) {
+    problem = nurbs::out_of_memory(model.file);
+  } catch (const std::exception& error) {
+    problem = error.what();
+  }
+  cut.agree(problem);
+  return solid;
+}
+
+structure::ExplicitSolver build_solver_at_rest(const ModelFile& model, const Cut& cut) {
+  structure::Supports supports;
+  for (const FixedFaces& fixed : model.boundary)
+    for (nurbs::Face face : fixed.faces)
+      supports.fix(structure::nodes_on(model.volume().space, {face}), fixed.directions);
+  const nurbs::Space<3>& space = model.volume().space;
+  structure::Part part = structure::Partition(space, structure::box_cuts(space), cut.parts).part(cut.part);
+  if (cut.parts == 1)
+    return {build_solid(model, nullptr), std::move(supports),
+            std::make_unique<const structure::Halo>(part.runs)};
+  std::unique_ptr<structure::Solid> solid = build_part(model, cut, part);
+  return {std::move(solid), supports.on(part.nodes), cut.halo(std::move(part))};
+}
+
+}  // namespace
+
+structure::ExplicitSolver build_solver(const ModelFile& model, const Cut& cut) {
+  structure::ExplicitSolver solver = build_solver_at_rest(model, cut);
+  const std::vector<structure::Id>& nodes = solver.node_ids();
+  structure::NodalVectors f_ext =
+      model.gravity.value_or(Vector3::Zero()) * solver.mass().nodal_mass().transpose();
+  for (const FaceTraction& traction : model.tractions) {
+    const structure::NodalVectors whole =
+        structure::traction_load(solver.body(), {0, traction.face}, traction.value);
+    for (std::size_t column = 0; column < nodes.size(); ++column)
+      if (nodes[column] >= 0) f_ext.col(column) += whole.col(nodes[column]);
+  }
+  structure::NodalVectors v = structure::NodalVectors::Zero(3, nodes.size());
+  v.leftCols(solver.halo().held(v.cols())).colwise() = model.initial_velocity;
+  solver.set_load(f_ext);
+  solver.set_velocities(v);
+  return solver;
 }
 
 }  // namespace io

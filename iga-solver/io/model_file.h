@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "geometry_io/geometry_io.h"
 #include "structure/conditions/probe.h"
+#include "structure/partition.h"
 #include "structure/solid/solid.h"
 #include "structure/time/explicit_solver.h"
 
@@ -68,8 +70,16 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
 ModelFile read_model_file(const std::string& path,
                           const geometry_io::ReadFile& read = geometry_io::read_file);
 
-/// The solver in its initial state, loads applied, accelerations not yet worked out.  Throws
-/// geometry_io::InputError if the geometry is left-handed or folded.
-structure::ExplicitSolver build_solver(const ModelFile& model);
+/// Which part of a solid is wanted, of how many, and what ties them together.
+struct Cut {
+  int part = 0, parts = 1;
+  std::function<std::unique_ptr<const structure::Halo>(structure::Part part)> halo = {};
+  /// Called by all parts with what went wrong here, or nothing: throws on all if there is anything.
+  std::function<void(const std::string& problem)> agree = {};
+};
+
+/// The solver in its initial state, loads applied, accelerations not yet worked out; of one part, if the
+/// solid is cut (collective).  Throws geometry_io::InputError if the geometry is left-handed or folded.
+structure::ExplicitSolver build_solver(const ModelFile& model, const Cut& cut = {});
 
 }  // namespace io

@@ -35,6 +35,8 @@ MpiHalo::MpiHalo(MPI_Comm comm, structure::Part part)
   using structure::Neighbour;
   shares_ = std::make_unique<PointToPoint>(comm_, kShares,
                                            routes(part_, &Neighbour::shares_out, &Neighbour::shares_in));
+  part_.gather.clear();  // these are the body's
+  part_.scatter.clear();
   ghosts_ =
       std::make_unique<PointToPoint>(comm_, kGhosts, routes(part_, &Neighbour::own, &Neighbour::ghosts));
 }

@@ -5,11 +5,13 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "nurbs/boundary.h"
+#include "structure/exact_sum.h"
 #include "structure/material/material.h"
 
 namespace structure {
@@ -27,16 +29,19 @@ struct SkinPiece {
 using PatchSpaces = std::variant<std::vector<nurbs::Space<3>>, std::vector<nurbs::Space<2>>>;
 
 /// Nodal arrays are 3 x node_count, sized by the caller.  Displacements u [length] are those from
-/// `reference`.
+/// `reference`.  A part of a body has the nodes of its own elements, and columns for shares of forces behind
+/// them (halo.h); skins speak of nodes of the whole.
 class Body {
  public:
   virtual ~Body() = default;
 
   virtual int node_count() const = 0;
   virtual const NodalVectors& reference() const = 0;  ///< undeformed positions of the nodes [length]
+  /// Of all nodes of the whole body, whatever the part.
+  virtual const NodalVectors& whole_reference() const { return reference(); }
   virtual PatchSpaces patches() const = 0;
   virtual nurbs::BoundarySurface skin(const SkinPiece& piece) const = 0;
-  virtual double volume() const = 0;  ///< [length^3]
+  virtual ExactSum volume_sum() const = 0;  ///< [length^3]; of a part, to be summed over all
   virtual const Material& material() const = 0;
   /// Choices that a saved state depends on, beside patches and material, in words; empty for the usual ones.
   virtual std::string discretisation() const { return {}; }
@@ -49,15 +54,21 @@ class Body {
   /// The same at the end of a time step dt [time], over which the memory evolves from what it was at the last
   /// commit(): the step may be worked out again, and nothing else sees it before commit().  Velocities are
   /// not asked for: the mean one of the step is what u has moved since, over dt.
-  virtual void evolve(const NodalVectors& u, double dt, NodalVectors& f) = 0;
+  /// `shares_ready` is called as soon as f holds what other parts wait for (Halo::begin_sum).
+  virtual void evolve(
+      const NodalVectors& u, double dt, NodalVectors& f,
+      const std::function<void()>& shares_ready = [] {}) = 0;
   /// The end of a step: what points remember is now what evolve() found.
   virtual void commit() = 0;
   /// What points remember, element after element, equally much of each; empty for a law without memory.
   virtual const std::vector<double>& memory() const = 0;
   /// Throws std::invalid_argument if the size does not fit.
   virtual void set_memory(std::vector<double> memory) = 0;
-  /// Stored energy of the displacements [energy].
-  virtual double strain_energy(const NodalVectors& u) const = 0;
+  /// Stored energy of the displacements [energy]; of a part, to be summed over all.
+  virtual ExactSum strain_energy_sum(const NodalVectors& u) const = 0;
+
+  double volume() const { return volume_sum().value(); }
+  double strain_energy(const NodalVectors& u) const { return strain_energy_sum(u).value(); }
 
   // Single elements, for estimates that look at one element at a time.  Element values are
   // [3][padded_functions()], 0 beyond the functions: kernels go over whole vectors.

@@ -50,12 +50,16 @@ class Halo {
     return rows;
   }
 
+  /// Of what each part has added to its own.
+  double total(ExactSum own) const {
+    sum(&own, 1);
+    return own.value();
+  }
   /// Of one number from each part.
   double sum(double value) const {
-    ExactSum all;
-    all.add(value);
-    sum(&all, 1);
-    return all.value();
+    ExactSum own;
+    own.add(value);
+    return total(own);
   }
   /// visit(first, count) for each run of columns that the part owns, of an array's.
   template <class Visit>
@@ -70,8 +74,7 @@ class Halo {
   double sum_over_nodes(Eigen::Index columns, Run run) const {
     ExactSum all;
     for_each_run(columns, [&](Eigen::Index first, Eigen::Index count) { all.add(run(first, count)); });
-    sum(&all, 1);
-    return all.value();
+    return total(all);
   }
   /// Whether it is so on any part.
   bool any(bool here) const { return largest(here ? 1.0 : 0.0) > 0.0; }

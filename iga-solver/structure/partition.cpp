@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <stdexcept>
 
 namespace structure {
@@ -20,7 +21,6 @@ Partition::Axis Partition::axis(const nurbs::KnotVector& knots, const std::vecto
       throw std::invalid_argument(fmt::format(
           "Partition: a box of {} knot spans, expected at least {}: the degree", spans, knots.degree()));
     axis.spans.push_back(spans);
-    axis.first_span.push_back(cuts[piece]);
     axis.first.push_back(knots.span_of_element(cuts[piece]) - knots.degree());
     axis.end.push_back(knots.span_of_element(cuts[piece + 1] - 1) + 1);
     for (int node = axis.first.back(); node < axis.end.back(); ++node) {
@@ -35,9 +35,15 @@ Partition::Partition(const nurbs::Space<3>& space, const BoxCuts& cuts, int part
   for (int d = 0; d < 3; ++d) {
     axes_[d] = axis(space.knots(d), cuts[d]);
     nodes_[d] = space.control_point_count(d);
-    elements_[d] = space.knots(d).element_count();
   }
   part_.resize(std::size_t(piece_count(0)) * piece_count(1) * piece_count(2));
+  first_element_.assign(1, 0);
+  for (int box = 0; box < box_count(); ++box) {
+    const std::array<int, 3> piece = pieces_of(box);
+    Id elements = 1;
+    for (int d = 0; d < 3; ++d) elements *= axes_[d].spans[piece[d]];
+    first_element_.push_back(first_element_.back() + elements);
+  }
   divide({{{0, piece_count(0)}, {0, piece_count(1)}, {0, piece_count(2)}}}, 0, parts);
 }
 
@@ -83,39 +89,24 @@ Partition::Boxes Partition::boxes_of(Id node) const {
   return boxes;
 }
 
-namespace {
-
-/// Numbers of a brick from `first` to `end`, of a grid of n per direction, the first direction fastest.
-std::vector<Id> numbers(const std::array<int, 3>& first, const std::array<int, 3>& end,
-                        const std::array<int, 3>& n) {
-  std::vector<Id> numbers;
-  for (int k = first[2]; k < end[2]; ++k)
-    for (int j = first[1]; j < end[1]; ++j)
-      for (int i = first[0]; i < end[0]; ++i) numbers.push_back(i + n[0] * (j + Id(n[1]) * k));
-  return numbers;
-}
-
-}  // namespace
-
 std::array<int, 3> Partition::pieces_of(int box) const {
   return {box % piece_count(0), box / piece_count(0) % piece_count(1), box / piece_count(0) / piece_count(1)};
 }
 
 std::vector<Id> Partition::nodes_of(int box) const {
-  const std::array<int, 3> piece = pieces_of(box);
-  std::array<int, 3> first, end;
-  for (int d = 0; d < 3; ++d) first[d] = axes_[d].first[piece[d]], end[d] = axes_[d].end[piece[d]];
-  return numbers(first, end, nodes_);
+  const auto [a, b, c] = pieces_of(box);
+  const auto& [x, y, z] = axes_;
+  std::vector<Id> nodes;
+  for (int k = z.first[c]; k < z.end[c]; ++k)
+    for (int j = y.first[b]; j < y.end[b]; ++j)
+      for (int i = x.first[a]; i < x.end[a]; ++i) nodes.push_back(i + nodes_[0] * (j + Id(nodes_[1]) * k));
+  return nodes;
 }
 
 std::vector<Id> Partition::elements_of(int box) const {
-  const std::array<int, 3> piece = pieces_of(box);
-  std::array<int, 3> first, end;
-  for (int d = 0; d < 3; ++d) {
-    first[d] = axes_[d].first_span[piece[d]];
-    end[d] = first[d] + axes_[d].spans[piece[d]];
-  }
-  return numbers(first, end, elements_);
+  std::vector<Id> elements(first_element_[box + 1] - first_element_[box]);
+  std::iota(elements.begin(), elements.end(), first_element_[box]);
+  return elements;
 }
 
 bool Partition::has_ghosts(int box) const {

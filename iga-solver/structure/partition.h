@@ -73,6 +73,7 @@ class Partition {
   int owner(Id node) const { return part_[boxes_of(node).box[0]]; }
   /// Of a box, the first direction fastest.
   std::vector<Id> nodes_of(int box) const;
+  /// Elements are counted box after box, the first direction fastest.
   std::vector<Id> elements_of(int box) const;
   /// Everything that part p of them knows.  Takes time and memory in proportion to what it holds.
   Part part(int p) const;
@@ -80,7 +81,7 @@ class Partition {
  private:
   /// One direction: nodes [first, end) of each piece, and for each node the first and last piece with it.
   struct Axis {
-    std::vector<int> spans, first_span, first, end, low, high;
+    std::vector<int> spans, first, end, low, high;
   };
   static Axis axis(const nurbs::KnotVector& knots, const std::vector<int>& cuts);
   using Range = std::array<std::array<int, 2>, 3>;
@@ -91,8 +92,9 @@ class Partition {
   bool has_ghosts(int box) const;
 
   std::array<Axis, 3> axes_;
-  std::array<int, 3> nodes_, elements_;  // per direction
-  std::vector<int> part_;                // per box
+  std::array<int, 3> nodes_;       // per direction
+  std::vector<Id> first_element_;  // of each box, and of one beyond
+  std::vector<int> part_;          // per box
 };
 
 }  // namespace structure

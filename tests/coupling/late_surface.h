@@ -36,6 +36,8 @@ class LateSurface final : public coupling::StructureSolver {
 
   // The solver's own.
   const std::vector<coupling::NodeId>& nodes() const override { return solver_->nodes(); }
+  bool is_in_parts() const override { return solver_->is_in_parts(); }
+  Eigen::Index owned_node_count() const override { return solver_->owned_node_count(); }
   const coupling::ContactSurface& surface() const override { return solver_->surface(); }
   coupling::RigidFrame frame() const override { return solver_->frame(); }
   void begin_run() override { solver_->begin_run(); }

@@ -21,18 +21,22 @@ class OneMode final : public structure::Body {
   nurbs::BoundarySurface skin(const structure::SkinPiece&) const override {
     return {plane_.space, {0, 1, 2, 3}, 1};
   }
-  double volume() const override { return 1.0; }
+  structure::ExactSum volume_sum() const override { return sum_of(1.0); }
   const structure::Material& material() const override { return material_; }
   const Eigen::VectorXd& row_sum_mass() const override { return mass_; }
   void internal_force(const nurbs::NodalVectors& u, nurbs::NodalVectors& f) const override {
     f = 0.25 * omega_ * omega_ * u;
   }
-  void evolve(const nurbs::NodalVectors& u, double, nurbs::NodalVectors& f) override { internal_force(u, f); }
+  void evolve(const nurbs::NodalVectors& u, double, nurbs::NodalVectors& f,
+              const std::function<void()>& shares_ready) override {
+    internal_force(u, f);
+    shares_ready();
+  }
   void commit() override {}
   const std::vector<double>& memory() const override { return memory_; }
   void set_memory(std::vector<double>) override {}
-  double strain_energy(const nurbs::NodalVectors& u) const override {
-    return 0.125 * omega_ * omega_ * u.squaredNorm();
+  structure::ExactSum strain_energy_sum(const nurbs::NodalVectors& u) const override {
+    return sum_of(0.125 * omega_ * omega_ * u.squaredNorm());
   }
   int element_count() const override { return 1; }
   int padded_functions() const override { return 4; }
@@ -48,6 +52,12 @@ class OneMode final : public structure::Body {
   std::string describe_element(int) const override { return "the element"; }
 
  private:
+  static structure::ExactSum sum_of(double energy) {
+    structure::ExactSum sum;
+    sum.add(energy);
+    return sum;
+  }
+
   double omega_;
   nurbs::Surface plane_ = nurbs::plane({0, 0, 0}, {1, 0, 0}, {0, 1, 0},
                                        {nurbs::KnotVector::uniform(1, 1), nurbs::KnotVector::uniform(1, 1)});

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""1, 2 and 4 ranks give the same run of balls on a bending plate."""
+"""1, 2 and 4 ranks give the same run of balls on a bending plate, which is cut into 2 x 2 boxes."""
 
 import unittest
 
@@ -7,14 +7,13 @@ import ball_on_block as bob
 import decks
 
 PLATE = bob.block(
-    size=(16e-3, 12e-3, 1e-3), elements=(16, 12, 1), youngs_modulus=74.6e9, nu=0.2285, density=2480.0,
+    size=(16e-3, 12e-3, 1e-3), elements=(34, 18, 1), youngs_modulus=74.6e9, nu=0.2285, density=2480.0,
     fixed=("xi-", "xi+", "eta-", "eta+"),
 )
 GLASS = (74.6e9, 0.2285)
 # one on the border of all ranks, the others on ranks of their own, at their own times
 BALLS = ((0.0, 0.0, 1e-3), (-4e-3, 3e-3, 1.0003e-3), (5e-3, 3.1e-3, 1.0008e-3), (4e-3, -3e-3, 1.0005e-3), (-5e-3, -2e-3, 1e-3))
 COLUMNS = tuple(range(1, 22))
-WALL_SUMS = [f"plate{k}" for k in (1, 2, 3, 4, 5, 6, 7, 8, 21)]  # force, torque, contacts, overlap, power
 
 
 class Ranks(unittest.TestCase):
@@ -35,7 +34,7 @@ class Ranks(unittest.TestCase):
             for column, reference in one.items():
                 with self.subTest(ranks=ranks, column=column):
                     self.assertLessEqual(decks.largest_difference(more[column], reference), 1e-11)
-                    if column in WALL_SUMS:  # balls do not touch each other
+                    if column.startswith("plate"):  # balls do not touch each other
                         self.assertTrue((more[column] == reference).all(), "to the last bit")
 
 

@@ -7,6 +7,7 @@
 
 #include "nurbs/types.h"
 #include "structure/conditions/node_set.h"
+#include "structure/id.h"
 
 namespace structure {
 
@@ -19,6 +20,8 @@ class Supports {
  public:
   /// Fixes nodes in the given directions.
   void fix(const NodeSet& nodes, const Directions& directions);
+  /// The same of arrays whose columns belong to these nodes (-1: to none).
+  Supports on(const std::vector<Id>& nodes) const;
   /// Sets the fixed entries of nodal values (3 x n) to zero: velocities, accelerations, trial vectors.
   void apply(NodalVectors& values) const;
   /// Fixed degrees of freedom 3 A + direction, rising, each once.

@@ -22,9 +22,14 @@ int first_node(const nurbs::KnotVector& knots, int element) {
 
 }  // namespace
 
+BoxCuts box_cuts(const nurbs::Space<3>& space) {
+  BoxCuts all;
+  for (int d = 0; d < 3; ++d) all[d] = cuts(space.knots(d), kBoxSpans[d]);
+  return all;
+}
+
 std::vector<SpanBox> box_grid(const nurbs::Space<3>& space) {
-  const std::vector<int> x = cuts(space.knots(0), kBoxSpans[0]), y = cuts(space.knots(1), kBoxSpans[1]),
-                         z = cuts(space.knots(2), kBoxSpans[2]);
+  const auto [x, y, z] = box_cuts(space);
   std::vector<SpanBox> boxes;
   for (std::size_t k = 0; k + 1 < z.size(); ++k)
     for (std::size_t j = 0; j + 1 < y.size(); ++j)
@@ -60,6 +65,16 @@ std::vector<int> box_nodes(const nurbs::Space<3>& space, const SpanBox& box) {
 std::vector<PlacedBox> whole_patch(const nurbs::Space<3>& space) {
   std::vector<PlacedBox> boxes;
   for (const SpanBox& box : box_grid(space)) boxes.push_back({box, box_nodes(space, box)});
+  return boxes;
+}
+
+std::vector<PlacedBox> boxes_of(const Part& part, const nurbs::Space<3>& space) {
+  const std::vector<SpanBox> grid = box_grid(space);
+  std::vector<PlacedBox> boxes;
+  for (std::size_t b = 0; b < part.boxes.size(); ++b) {
+    const SpanBox& box = grid[part.boxes[b]];
+    boxes.push_back({box, box_nodes(space, box), part.gather[b], part.scatter[b]});
+  }
   return boxes;
 }
 

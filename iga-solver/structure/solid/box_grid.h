@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "nurbs/patch.h"
+#include "structure/partition.h"
 
 namespace structure {
 
@@ -34,9 +35,10 @@ struct SpanBox {
 /// processor; many ranks have one each.
 constexpr std::array<int, 3> kBoxSpans = {32, 16, 16};
 
-/// Boxes, the first direction fastest.  A direction is cut into pieces of kBoxSpans; the last has what is
-/// left, but no fewer spans than the degree: so a control point has elements in at most two boxes per
-/// direction.
+/// A direction is cut into pieces of kBoxSpans; the last has what is left, but no fewer spans than the
+/// degree: so a control point has elements in at most two boxes per direction.
+BoxCuts box_cuts(const nurbs::Space<3>& space);
+/// Boxes, the first direction fastest.
 std::vector<SpanBox> box_grid(const nurbs::Space<3>& space);
 
 /// Control points of the elements of a box, the first direction fastest.
@@ -58,5 +60,7 @@ struct PlacedBox {
 
 /// All boxes of a patch that is held whole.
 std::vector<PlacedBox> whole_patch(const nurbs::Space<3>& space);
+/// Those of a part of it, cut at box_cuts, in the order in which the part has them.
+std::vector<PlacedBox> boxes_of(const Part& part, const nurbs::Space<3>& space);
 
 }  // namespace structure

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <numeric>
+
 #include "nurbs/memory.h"
 
 namespace structure {
@@ -51,15 +54,21 @@ ElementLoop::ElementLoop(const nurbs::Volume& patch, const std::vector<PlacedBox
                        fmt::format("a solid of {} elements of degrees {}, {}, {}", count, space.degree(0),
                                    space.degree(1), space.degree(2)));
   elements_.reserve(count);
-  for (const PlacedBox& box : boxes)
+  for (const PlacedBox& box : boxes) {
+    std::vector<int> local(box.nodes.size());
+    std::iota(local.begin(), local.end(), 0);
+    const std::size_t first = elements_.size();
     for (int k = box.spans.begin[2]; k < box.spans.end[2]; ++k)
       for (int j = box.spans.begin[1]; j < box.spans.end[1]; ++j)
         for (int i = box.spans.begin[0]; i < box.spans.end[0]; ++i) {
           Element& element = elements_.emplace_back();
           element.read = element_columns(space, box.spans, box.read(), {i, j, k});
-          element.write = element_columns(space, box.spans, box.write(), {i, j, k});
+          element.write = element_columns(space, box.spans, local, {i, j, k});
           tabulate(space.element_index({i, j, k}), element.tables);
         }
+    boxes_.push_back({first, elements_.size(), box.write()});
+    share_.resize(3, std::max<Eigen::Index>(share_.cols(), static_cast<Eigen::Index>(local.size())));
+  }
 }
 
 ElementMemory ElementLoop::memory_of(std::size_t element, const PointMemory& memory) const {
@@ -68,29 +77,29 @@ ElementMemory ElementLoop::memory_of(std::size_t element, const PointMemory& mem
           memory.dt};
 }
 
-void ElementLoop::internal_force(const PointMemory& memory, const nurbs::NodalVectors& u,
-                                 nurbs::NodalVectors& f) const {
+void ElementLoop::add_forces(int first, int end, const PointMemory& memory, const nurbs::NodalVectors& u,
+                             nurbs::NodalVectors& f) const {
   double u_element[kMaxElementValues], f_element[kMaxElementValues];
-  f.setZero();
-  for (std::size_t e = 0; e < elements_.size(); ++e) {
-    const Element& element = elements_[e];
-    const int padded = element.tables.padded;
-    gather(element.read, padded, u, u_element);
-    force_kernel_(material_, element.tables.geometry(), memory_of(e, memory), u_element, f_element);
-    for (std::size_t a = 0; a < element.write.size(); ++a)
-      for (int i = 0; i < 3; ++i) f(i, element.write[a]) += f_element[i * padded + a];
+  for (int b = first; b < end; ++b) {
+    share_.setZero();
+    for (std::size_t e = boxes_[b].first; e < boxes_[b].end; ++e) {
+      const Element& element = elements_[e];
+      const int padded = element.tables.padded;
+      gather(element.read, padded, u, u_element);
+      force_kernel_(material_, element.tables.geometry(), memory_of(e, memory), u_element, f_element);
+      for (std::size_t a = 0; a < element.write.size(); ++a)
+        for (int i = 0; i < 3; ++i) share_(i, element.write[a]) += f_element[i * padded + a];
+    }
+    for (std::size_t a = 0; a < boxes_[b].write.size(); ++a) f.col(boxes_[b].write[a]) += share_.col(a);
   }
 }
 
-double ElementLoop::strain_energy(const PointMemory& memory, const nurbs::NodalVectors& u) const {
+void ElementLoop::add_energies(const PointMemory& memory, const nurbs::NodalVectors& u, ExactSum& sum) const {
   double u_element[kMaxElementValues];
-  double energy = 0.0;
   for (std::size_t e = 0; e < elements_.size(); ++e) {
     gather(elements_[e].read, elements_[e].tables.padded, u, u_element);
-    energy +=
-        element_energy(material_, elements_[e].tables.geometry(), memory_of(e, memory).state, u_element);
+    sum.add(element_energy(material_, elements_[e].tables.geometry(), memory_of(e, memory).state, u_element));
   }
-  return energy;
 }
 
 double ElementLoop::table_bytes() const {

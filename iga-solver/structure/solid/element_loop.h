@@ -17,15 +17,20 @@ class ElementLoop final : public Integrals {
   ElementLoop(const nurbs::Volume& patch, const std::vector<PlacedBox>& boxes, const Material& material,
               Quadrature quadrature);
 
-  void internal_force(const PointMemory& memory, const nurbs::NodalVectors& u,
-                      nurbs::NodalVectors& f) const override;
-  double strain_energy(const PointMemory& memory, const nurbs::NodalVectors& u) const override;
+  int box_count() const override { return static_cast<int>(boxes_.size()); }
+  void add_forces(int first, int end, const PointMemory& memory, const nurbs::NodalVectors& u,
+                  nurbs::NodalVectors& f) const override;
+  void add_energies(const PointMemory& memory, const nurbs::NodalVectors& u, ExactSum& sum) const override;
   double table_bytes() const override;
 
  private:
   struct Element {
-    std::vector<int> read, write;  // columns
+    std::vector<int> read, write;  // columns, and nodes of the box
     ElementTables tables;
+  };
+  struct Box {
+    std::size_t first, end;  // elements
+    std::vector<int> write;  // columns
   };
   ElementMemory memory_of(std::size_t element, const PointMemory& memory) const;
 
@@ -33,6 +38,8 @@ class ElementLoop final : public Integrals {
   std::size_t remembered_;  // numbers per element
   ForceKernel force_kernel_;
   std::vector<Element> elements_;
+  std::vector<Box> boxes_;
+  mutable nurbs::NodalVectors share_;  // forces of one box
 };
 
 /// Columns of an element's control points, the first direction fastest, from those of its box.

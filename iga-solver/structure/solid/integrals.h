@@ -4,6 +4,7 @@
 #pragma once
 
 #include "nurbs/types.h"
+#include "structure/exact_sum.h"
 
 namespace structure {
 
@@ -18,12 +19,25 @@ struct PointMemory {
 class Integrals {
  public:
   virtual ~Integrals() = default;
-  /// f = internal forces [force] of the displacements u [length], both 3 x nodes.  No allocation.
-  virtual void internal_force(const PointMemory& memory, const nurbs::NodalVectors& u,
-                              nurbs::NodalVectors& f) const = 0;
-  virtual double strain_energy(const PointMemory& memory, const nurbs::NodalVectors& u) const = 0;
+  virtual int box_count() const = 0;
+  /// Adds the internal forces [force] of boxes [first, end), each as one share, to f; of the displacements u
+  /// [length], both 3 x columns.  No allocation.
+  virtual void add_forces(int first, int end, const PointMemory& memory, const nurbs::NodalVectors& u,
+                          nurbs::NodalVectors& f) const = 0;
+  /// Adds the stored energy of each box.
+  virtual void add_energies(const PointMemory& memory, const nurbs::NodalVectors& u, ExactSum& sum) const = 0;
   /// Memory of the tables that it keeps [bytes].
   virtual double table_bytes() const = 0;
+
+  void internal_force(const PointMemory& memory, const nurbs::NodalVectors& u, nurbs::NodalVectors& f) const {
+    f.setZero();
+    add_forces(0, box_count(), memory, u, f);
+  }
+  double strain_energy(const PointMemory& memory, const nurbs::NodalVectors& u) const {
+    ExactSum sum;
+    add_energies(memory, u, sum);
+    return sum.value();
+  }
 };
 
 }  // namespace structure

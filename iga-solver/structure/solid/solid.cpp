@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "nurbs/assert.h"
@@ -46,16 +47,38 @@ IntegrationMethod integration_method_from_name(const std::string& word) {
 }
 
 Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration)
-    : patch_(std::make_unique<const nurbs::Volume>(std::move(patch))),
+    : Solid(std::make_unique<const nurbs::Volume>(std::move(patch)), std::move(material), integration) {
+  boxes_ = whole_patch(patch_->space);
+  columns_ = patch_->space.control_point_count();
+  set_up();
+}
+
+Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration,
+             const Part& part)
+    : Solid(std::make_unique<const nurbs::Volume>(std::move(patch)), std::move(material), integration) {
+  boxes_ = boxes_of(part, patch_->space);
+  columns_ = part.columns;
+  border_boxes_ = part.border_boxes;
+  part_reference_ = NodalVectors::Zero(3, columns_);
+  for (int column = 0; column < part.held(); ++column)
+    part_reference_->col(column) = patch_->control_points.col(part.nodes[column]);
+  set_up();
+}
+
+Solid::Solid(std::unique_ptr<const nurbs::Volume> patch, std::shared_ptr<const Material> material,
+             const Integration& integration)
+    : patch_(std::move(patch)),
       material_(std::move(material)),
       integration_(integration),
-      boxes_(whole_patch(patch_->space)),
       first_element_{0},
       functions_(patch_->space.functions_per_element()),
       padded_(padded(functions_)),
       tabulate_(*patch_, integration.quadrature),
       tabulate_fully_(*patch_, Quadrature::full) {
   nurbs::check_patch(*patch_);
+}
+
+void Solid::set_up() {
   for (const PlacedBox& box : boxes_)
     first_element_.push_back(first_element_.back() + box.spans.element_count());
   choose_method();
@@ -98,36 +121,48 @@ void Solid::integrate_mass() {
   double least_det = -1.0;  // not known
   if (PatchSweep::can_sweep(patch_->space)) {
     const PatchSweep sweep(*patch_, boxes_, *material_, Quadrature::full, GeometryMode::recomputed);
-    const PatchSweep::Volume volume = sweep.add_row_sums(row_sum_mass_);
+    const PatchSweep::Volume volume = sweep.add_row_sums(row_sum_mass_, material_->density());
     volume_ = volume.volume;
     least_det = volume.least_det;
   }
-  if (!(least_det > 0.0)) {  // degrees that are not swept, or a fold: found again, with its place
-    row_sum_mass_.setZero();
-    for (int e = 0; e < element_count(); ++e) {
-      const OneElement& element = one(e);
-      for (int a = 0; a < functions_; ++a) row_sum_mass_[element.columns[a]] += element.mass[a];
+  // Degrees that are not swept, or a fold: found again, with its place.
+  if (!(least_det > 0.0)) integrate_mass_of_elements();
+}
+
+void Solid::integrate_mass_of_elements() {
+  row_sum_mass_.setZero();
+  volume_ = ExactSum();
+  for (std::size_t b = 0; b < boxes_.size(); ++b) {
+    Eigen::VectorXd share = Eigen::VectorXd::Zero(boxes_[b].nodes.size());
+    std::vector<int> local(boxes_[b].nodes.size());
+    std::iota(local.begin(), local.end(), 0);
+    for (int e = first_element_[b]; e < first_element_[b + 1]; ++e) {
+      const std::vector<int> nodes = element_columns(patch_->space, boxes_[b].spans, local, spans_of(e));
+      const std::vector<double>& mass = one(e).mass;
+      for (int a = 0; a < functions_; ++a) share[nodes[a]] += mass[a];
+      volume_.add(std::accumulate(mass.begin(), mass.end(), 0.0) / material_->density());
     }
-    volume_ = row_sum_mass_.sum() / material_->density();
-    return;
+    for (std::size_t a = 0; a < local.size(); ++a) row_sum_mass_[boxes_[b].write()[a]] += share[a];
   }
-  row_sum_mass_ *= material_->density();
 }
 
 std::array<int, 3> Solid::spans_of(int element) const {
   NURBS_ASSERT(0 <= element && element < element_count(), element, element_count());
-  const std::size_t b =
-      std::upper_bound(first_element_.begin(), first_element_.end(), element) - first_element_.begin() - 1;
-  const SpanBox& box = boxes_[b].spans;
-  return box.span(element - first_element_[b]);
+  const std::size_t b = box_of(element);
+  return boxes_[b].spans.span(element - first_element_[b]);
+}
+
+std::size_t Solid::box_of(int element) const {
+  return std::upper_bound(first_element_.begin(), first_element_.end(), element) - first_element_.begin() - 1;
 }
 
 const Solid::OneElement& Solid::one(int element) const {
   if (one_.element == element) return one_;
   one_.element = -1;  // until all is known
-  const int in_patch = patch_->space.element_index(spans_of(element));
-  one_.columns.resize(functions_);
-  patch_->space.element_control_points(in_patch, one_.columns.data());
+  const std::array<int, 3> spans = spans_of(element);
+  const int in_patch = patch_->space.element_index(spans);
+  const PlacedBox& box = boxes_[box_of(element)];
+  one_.columns = element_columns(patch_->space, box.spans, box.read(), spans);
   tabulate_(in_patch, one_.tables);
   one_.mass.assign(padded_, 0.0);
   tabulate_fully_.add_row_sums(in_patch, one_.mass.data());
@@ -193,13 +228,21 @@ void Solid::internal_force(const NodalVectors& u, NodalVectors& f) const {
   integrals_->internal_force({memory_.data()}, u, f);
 }
 
-void Solid::evolve(const NodalVectors& u, double dt, NodalVectors& f) {
-  if (remembered_ == 0) return internal_force(u, f);
-  integrals_->internal_force({memory_.data(), next_memory_.data(), dt}, u, f);
+void Solid::evolve(const NodalVectors& u, double dt, NodalVectors& f,
+                   const std::function<void()>& shares_ready) {
+  NURBS_ASSERT(u.cols() == node_count() && f.cols() == node_count(), u.cols(), f.cols(), node_count());
+  PointMemory memory{memory_.data()};
+  if (remembered_ > 0) memory = {memory_.data(), next_memory_.data(), dt};
+  f.setZero();
+  integrals_->add_forces(0, border_boxes_, memory, u, f);
+  shares_ready();
+  integrals_->add_forces(border_boxes_, integrals_->box_count(), memory, u, f);
 }
 
-double Solid::strain_energy(const NodalVectors& u) const {
-  return integrals_->strain_energy({memory_.data()}, u);
+ExactSum Solid::strain_energy_sum(const NodalVectors& u) const {
+  ExactSum sum;
+  integrals_->add_energies({memory_.data()}, u, sum);
+  return sum;
 }
 
 void Solid::set_memory(std::vector<double> memory) {

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,9 @@ class Solid final : public Body {
   /// if the Jacobian determinant of some element is not positive (a left-handed or folded patch), or if the
   /// integration is not for it.
   Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration = {});
+  /// A part of it, cut at box_cuts.  The patch itself stays whole on every rank.
+  Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration,
+        const Part& part);
 
   const nurbs::Volume& patch() const { return *patch_; }
   const Integration& integration() const { return integration_; }  ///< the method that was chosen
@@ -52,22 +56,27 @@ class Solid final : public Body {
   /// A law with memory takes that of the nearest quadrature point.
   Matrix3 stress(const NodalVectors& u, const nurbs::Parameter<3>& xi) const;
 
-  int node_count() const override { return patch_->space.control_point_count(); }
-  const NodalVectors& reference() const override { return patch_->control_points; }
+  int node_count() const override { return columns_; }
+  const NodalVectors& reference() const override {
+    return part_reference_ ? *part_reference_ : patch_->control_points;
+  }
+  const NodalVectors& whole_reference() const override { return patch_->control_points; }
   PatchSpaces patches() const override { return std::vector{patch_->space}; }
   /// Throws std::invalid_argument unless it is a face of patch 0.
   nurbs::BoundarySurface skin(const SkinPiece& piece) const override;
-  double volume() const override { return volume_; }
+  ExactSum volume_sum() const override { return volume_; }
   const Material& material() const override { return *material_; }
   std::string discretisation() const override;
   const Eigen::VectorXd& row_sum_mass() const override { return row_sum_mass_; }
 
   void internal_force(const NodalVectors& u, NodalVectors& f) const override;
-  void evolve(const NodalVectors& u, double dt, NodalVectors& f) override;
+  void evolve(
+      const NodalVectors& u, double dt, NodalVectors& f,
+      const std::function<void()>& shares_ready = [] {}) override;
   void commit() override { memory_.swap(next_memory_); }
   const std::vector<double>& memory() const override { return memory_; }
   void set_memory(std::vector<double> memory) override;
-  double strain_energy(const NodalVectors& u) const override;
+  ExactSum strain_energy_sum(const NodalVectors& u) const override;
 
   int element_count() const override { return first_element_.back(); }
   int padded_functions() const override { return padded_; }
@@ -79,6 +88,8 @@ class Solid final : public Body {
   std::vector<std::array<int, 2>> net_edges() const override;
 
  private:
+  Solid(std::unique_ptr<const nurbs::Volume> patch, std::shared_ptr<const Material> material,
+        const Integration& integration);
   /// One element, worked out when it is asked for.
   struct OneElement {
     int element = -1;
@@ -88,22 +99,27 @@ class Solid final : public Body {
   };
   const OneElement& one(int element) const;
   std::array<int, 3> spans_of(int element) const;
+  std::size_t box_of(int element) const;
+  void set_up();
   void choose_method();
   void integrate_mass();
+  void integrate_mass_of_elements();
   std::size_t nearest_memory(const nurbs::Parameter<3>& xi) const;
 
   std::unique_ptr<const nurbs::Volume> patch_;  // tables refer to it
   std::shared_ptr<const Material> material_;
   Integration integration_;
   std::vector<PlacedBox> boxes_;
-  std::vector<int> first_element_;  // of each box, and of one beyond
-  int functions_, padded_;          // per element
+  int columns_, border_boxes_ = 0;              // of nodal arrays; boxes with shares for others come first
+  std::optional<NodalVectors> part_reference_;  // of a part
+  std::vector<int> first_element_;              // of each box, and of one beyond
+  int functions_, padded_;                      // per element
   ElementTabulator tabulate_, tabulate_fully_;
   std::unique_ptr<const Integrals> integrals_;
   std::size_t remembered_;                    // numbers per element
   std::vector<double> memory_, next_memory_;  // as PointMemory
   Eigen::VectorXd row_sum_mass_;
-  double volume_ = 0.0;
+  ExactSum volume_;
   mutable OneElement one_;
 };
 

@@ -275,14 +275,16 @@ double BoxSweep::energy(const LawAtPoints& law, const NodalVectors& X, const Nod
   return pass.sums.sum;
 }
 
-PointSums BoxSweep::add_row_sums(const NodalVectors& X, Eigen::VectorXd& sums, SweepSpace& space) const {
+PointSums BoxSweep::add_row_sums(const NodalVectors& X, double density, Eigen::VectorXd& sums,
+                                 SweepSpace& space) const {
   read_geometry(X, space.nodes.data());
   Pass pass{geometry_fields(), 1, true, geometry_loops_->mass};
   sweep(pass, space);
   const int* column = write_columns().data();
   const double* weight = weights_.data();
   for (std::size_t start = 0; start < field_; start += row_)
-    for (int i = 0; i < nx_; ++i) sums[*column++] += (rational_ ? *weight++ : 1.0) * space.forces[start + i];
+    for (int i = 0; i < nx_; ++i)
+      sums[*column++] += density * ((rational_ ? *weight++ : 1.0) * space.forces[start + i]);
   return pass.sums;
 }
 

@@ -56,8 +56,9 @@ class BoxSweep {
                   SweepSpace& space) const;
   double energy(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
                 SweepSpace& space) const;
-  /// Adds integrals of R_A to one number per column; the sum of it is the volume.
-  PointSums add_row_sums(const NodalVectors& X, Eigen::VectorXd& sums, SweepSpace& space) const;
+  /// Adds density times integrals of R_A to one number per column; the sum of it is the volume.
+  PointSums add_row_sums(const NodalVectors& X, double density, Eigen::VectorXd& sums,
+                         SweepSpace& space) const;
   double table_bytes() const { return sizeof(double) * static_cast<double>(table_.size()); }
 
  private:

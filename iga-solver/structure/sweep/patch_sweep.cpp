@@ -44,24 +44,22 @@ BoxSweep::LawAtPoints PatchSweep::law_with(const PointMemory& memory) const {
   return law;
 }
 
-void PatchSweep::internal_force(const PointMemory& memory, const NodalVectors& u, NodalVectors& f) const {
-  f.setZero();
+void PatchSweep::add_forces(int first, int end, const PointMemory& memory, const NodalVectors& u,
+                            NodalVectors& f) const {
   const BoxSweep::LawAtPoints law = law_with(memory);
-  for (const BoxSweep& box : boxes_) box.add_forces(law, X_, u, f, space_);
+  for (int b = first; b < end; ++b) boxes_[b].add_forces(law, X_, u, f, space_);
 }
 
-double PatchSweep::strain_energy(const PointMemory& memory, const NodalVectors& u) const {
+void PatchSweep::add_energies(const PointMemory& memory, const NodalVectors& u, ExactSum& sum) const {
   const BoxSweep::LawAtPoints law = law_with(memory);
-  double energy = 0.0;
-  for (const BoxSweep& box : boxes_) energy += box.energy(law, X_, u, space_);
-  return energy;
+  for (const BoxSweep& box : boxes_) sum.add(box.energy(law, X_, u, space_));
 }
 
-PatchSweep::Volume PatchSweep::add_row_sums(Eigen::VectorXd& sums) const {
-  Volume volume{0.0, std::numeric_limits<double>::infinity()};
+PatchSweep::Volume PatchSweep::add_row_sums(Eigen::VectorXd& sums, double density) const {
+  Volume volume{{}, std::numeric_limits<double>::infinity()};
   for (const BoxSweep& box : boxes_) {
-    const PointSums own = box.add_row_sums(X_, sums, space_);
-    volume.volume += own.sum;
+    const PointSums own = box.add_row_sums(X_, density, sums, space_);
+    volume.volume.add(own.sum);
     volume.least_det = std::isnan(own.least_det) ? own.least_det : std::min(volume.least_det, own.least_det);
   }
   return volume;

@@ -25,16 +25,18 @@ class PatchSweep final : public Integrals {
   PatchSweep(const nurbs::Volume& patch, const std::vector<PlacedBox>& boxes, const Material& material,
              Quadrature quadrature, GeometryMode mode, nurbs::SimdLevel level = nurbs::simd_level());
 
-  void internal_force(const PointMemory& memory, const NodalVectors& u, NodalVectors& f) const override;
-  double strain_energy(const PointMemory& memory, const NodalVectors& u) const override;
+  int box_count() const override { return static_cast<int>(boxes_.size()); }
+  void add_forces(int first, int end, const PointMemory& memory, const NodalVectors& u,
+                  NodalVectors& f) const override;
+  void add_energies(const PointMemory& memory, const NodalVectors& u, ExactSum& sum) const override;
   double table_bytes() const override;
 
   struct Volume {
-    double volume;     ///< [length^3]
+    ExactSum volume;   ///< [length^3]
     double least_det;  ///< smallest |dX/dxi| at the points
   };
-  /// Adds integrals of R_A (row sums of the mass matrix for density 1) [length^3] to one number per column.
-  Volume add_row_sums(Eigen::VectorXd& sums) const;
+  /// Adds integrals of R_A (row sums of the mass matrix) times density to one number per column.
+  Volume add_row_sums(Eigen::VectorXd& sums, double density = 1.0) const;
 
  private:
   BoxSweep::LawAtPoints law_with(const PointMemory& memory) const;

@@ -29,6 +29,7 @@ std::string symptom(const LastStep& step) {
         std::pair{&step.accelerations, "acceleration"}})
     if (const int node = first_not_finite(*values); node >= 0)
       return fmt::format("the {} is not finite at {}", name, node_text(step, node));
+  if (step.displacements.cols() == 0) return "in another part of it";
   int node = 0;
   const double largest = step.displacements.colwise().norm().maxCoeff(&node);
   if (largest > kLargestDisplacement)

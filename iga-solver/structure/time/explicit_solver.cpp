@@ -23,6 +23,12 @@ NodalVectors inverse_mass_of_dofs(const MassOperator& mass, const Supports& supp
   return inverse;
 }
 
+std::vector<Id> ids_of(const Halo& halo, Eigen::Index columns) {
+  std::vector<Id> ids(columns);
+  for (Eigen::Index i = 0; i < columns; ++i) ids[i] = halo.node_id(i);
+  return ids;
+}
+
 }  // namespace
 
 ExplicitSolver::ExplicitSolver(std::unique_ptr<Body> body, Supports supports,
@@ -30,6 +36,7 @@ ExplicitSolver::ExplicitSolver(std::unique_ptr<Body> body, Supports supports,
     : body_(std::move(body)),
       supports_(std::move(supports)),
       halo_(std::move(halo)),
+      node_ids_(ids_of(*halo_, body_->node_count())),
       mass_(std::make_unique<LumpedMass>(whole(*halo_, body_->row_sum_mass()))),
       inverse_mass_(inverse_mass_of_dofs(*mass_, supports_)),
       f_ext_(NodalVectors::Zero(3, body_->node_count())),
@@ -49,7 +56,6 @@ void ExplicitSolver::set_load(const NodalVectors& f_ext) {
   check_size(f_ext, "load");
   budget_.reset();
   f_ext_ = f_ext;
-  halo_->sum_to_owners(f_ext_);
 }
 
 void ExplicitSolver::set_velocities(const NodalVectors& v) {
@@ -69,6 +75,7 @@ void ExplicitSolver::set_time_step(double dt) {
 void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   check_size(F, "forces");
   body_->internal_force(led_displacements(), f_int_);
+  halo_->sum_to_owners(f_int_);
   accelerate(F, 0.0);
   largest_u_ = u_.lpNorm<Eigen::Infinity>();
   ledger_ = WorkLedger();
@@ -99,6 +106,8 @@ void ExplicitSolver::add_motion(const NodalVectors& displacements, const NodalVe
   });
   u_ += displacements;
   v_ += velocities;
+  halo_->owners_to_ghosts(u_);  // they have no forces of others
+  halo_->owners_to_ghosts(v_);
   x_ = body_->reference() + u_;
   largest_u_ = u_.lpNorm<Eigen::Infinity>();
   added_displacements_ = &displacements;
@@ -120,7 +129,8 @@ const NodalVectors& ExplicitSolver::led_displacements() {
 
 void ExplicitSolver::end_step(const NodalVectors& F) {
   check_size(F, "forces");
-  body_->evolve(led_displacements(), dt_, f_int_);
+  body_->evolve(led_displacements(), dt_, f_int_, [this] { halo_->begin_sum(f_int_); });
+  halo_->finish_sum(f_int_);
   accelerate(F, 0.5 * dt_);
   if (added_displacements_) add_strain_energy();
   for (const ForceSums& run : sums_) ledger_.half_kick(run.work_until_now(0.5 * dt_));
@@ -130,7 +140,6 @@ void ExplicitSolver::end_step(const NodalVectors& F) {
 }
 
 void ExplicitSolver::accelerate(const NodalVectors& F, double h) {
-  halo_->sum_to_owners(f_int_);
   sums_.clear();
   halo_->for_each_run(v_.cols(), [&](Eigen::Index first, Eigen::Index count) {
     sums_.push_back(accelerate_and_kick(h, {f_int_, f_ext_, F}, inverse_mass_, first, count, a_, v_));
@@ -146,8 +155,8 @@ void ExplicitSolver::start_energy_budget() {
   const double kinetic = kinetic_energy(), kick = 0.125 * dt_ * dt_ * nodal_sum(a_);
   kinetic_start_ = kinetic + work.internal - work.loads - work.forces;
   budget_.emplace(kinetic + strain_energy() + kick, body_->material().youngs_modulus() *
-                                                        halo_->sum(body_->volume()) * kNegligibleStrain *
-                                                        kNegligibleStrain);
+                                                        halo_->total(body_->volume_sum()) *
+                                                        kNegligibleStrain * kNegligibleStrain);
 }
 
 // One message of all ranks, and no pass over the nodes: the ledger knows the kinetic energy, and is not
@@ -196,11 +205,14 @@ double ExplicitSolver::nodal_sum(const NodalVectors& q) const {
   });
 }
 
-double ExplicitSolver::largest_displacement() const { return halo_->largest(u_.colwise().norm().maxCoeff()); }
+double ExplicitSolver::largest_displacement() const {
+  const Eigen::VectorXd lengths = halo_->own(u_).colwise().norm();
+  return halo_->largest(lengths.size() > 0 ? lengths.maxCoeff() : 0.0);
+}
 
 double ExplicitSolver::kinetic_energy() const { return 0.5 * nodal_sum(v_); }
 
-double ExplicitSolver::strain_energy() const { return halo_->sum(body_->strain_energy(u_)); }
+double ExplicitSolver::strain_energy() const { return halo_->total(body_->strain_energy_sum(u_)); }
 
 Work ExplicitSolver::work() const { return ledger_.work(*halo_); }
 
@@ -226,10 +238,28 @@ Vector3 ExplicitSolver::angular_momentum(const Vector3& about) const {
   });
 }
 
-std::vector<Id> ExplicitSolver::node_ids() const {
-  std::vector<Id> ids(u_.cols());
-  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = halo_->node_id(i);
-  return ids;
+Vector3 ExplicitSolver::displacement(const Probe& probe) const {
+  std::array<ExactSum, 3> sums;
+  const auto begin = node_ids_.begin(), end = begin + halo_->owned(u_.cols());
+  for (std::size_t a = 0; a < probe.nodes.size(); ++a) {
+    const auto own = std::lower_bound(begin, end, Id(probe.nodes[a]));
+    if (own == end || *own != probe.nodes[a]) continue;
+    for (int i = 0; i < 3; ++i) sums[i].add(probe.weights[a] * u_(i, own - begin));
+  }
+  halo_->sum(sums.data(), sums.size());
+  return {sums[0].value(), sums[1].value(), sums[2].value()};
+}
+
+std::vector<Id> ExplicitSolver::fixed_dofs() const {
+  const Eigen::Index owned = halo_->owned(u_.cols());
+  std::vector<double> is_fixed(3 * owned, 0.0);
+  for (const Eigen::Index dof : supports_.fixed_dofs())
+    if (dof < 3 * owned) is_fixed[dof] = 1.0;
+  const std::vector<double> all = halo_->in_order({node_ids_.begin(), node_ids_.begin() + owned}, is_fixed);
+  std::vector<Id> fixed;
+  for (std::size_t dof = 0; dof < all.size(); ++dof)
+    if (all[dof] != 0.0) fixed.push_back(static_cast<Id>(dof));
+  return fixed;
 }
 
 std::vector<Id> ExplicitSolver::element_ids() const {
@@ -247,14 +277,13 @@ std::size_t ExplicitSolver::state_size() const {
 }
 
 std::vector<double> ExplicitSolver::in_order(const NodalVectors& values) const {
-  std::vector<Id> nodes = node_ids();
-  nodes.resize(halo_->owned(u_.cols()));
+  const std::vector<Id> nodes(node_ids_.begin(), node_ids_.begin() + halo_->owned(u_.cols()));
   return halo_->in_order(nodes, {values.data(), values.data() + 3 * nodes.size()});
 }
 
 void ExplicitSolver::from_order(const double* rows, NodalVectors& values) const {
-  const std::vector<Id> nodes = node_ids();
-  for (std::size_t i = 0; i < nodes.size(); ++i) values.col(i) = Vector3::Map(rows + 3 * nodes[i]);
+  for (Eigen::Index i = 0; i < halo_->held(u_.cols()); ++i)
+    values.col(i) = Vector3::Map(rows + 3 * node_ids_[i]);
 }
 
 std::vector<double> ExplicitSolver::save() const {

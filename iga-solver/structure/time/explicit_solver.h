@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "structure/body.h"
+#include "structure/conditions/probe.h"
 #include "structure/conditions/supports.h"
 #include "structure/halo.h"
 #include "structure/time/divergence.h"
@@ -30,7 +31,7 @@ class ExplicitSolver {
   ExplicitSolver(std::unique_ptr<Body> body, Supports supports,
                  std::unique_ptr<const Halo> halo = std::make_unique<const Halo>());
 
-  /// Constant external nodal forces f_ext [force], of a cut body each part's share; throws
+  /// Constant external nodal forces f_ext [force], whole at the nodes that the part owns; throws
   /// std::invalid_argument if the size does not fit.
   void set_load(const NodalVectors& f_ext);
   /// Current velocities [length/time], set to 0 at fixed dofs; throws as above.
@@ -88,8 +89,14 @@ class ExplicitSolver {
   Vector3 linear_momentum() const;                       ///< sum m_A v_A
   Vector3 angular_momentum(const Vector3& about) const;  ///< sum (x_A - about) x m_A v_A
 
-  /// Ids of the nodes that the part holds, one per column of nodal arrays.
-  std::vector<Id> node_ids() const;
+  /// Displacement of a point whose nodes are those of the whole body.  Collective.
+  Vector3 displacement(const Probe& probe) const;
+
+  /// Ids of the nodes that the part holds, one per column of nodal arrays: those that it owns, rising, then
+  /// others; -1 for columns of no node.
+  const std::vector<Id>& node_ids() const { return node_ids_; }
+  /// Fixed degrees of freedom of the whole body, 3 node + direction, rising.  Collective.
+  std::vector<Id> fixed_dofs() const;
 
   /// The whole body's time, displacements, velocities and accelerations in the order of node ids, and what
   /// the material remembers in the order of element ids, to continue in parts cut in any way, to the last bit
@@ -109,7 +116,7 @@ class ExplicitSolver {
   void add_strain_energy();
   /// The displacements whose internal forces count.
   const NodalVectors& led_displacements();
-  /// From the part's share of f_int_: accelerations under F too, and a kick of `h` by them.
+  /// From f_int_, whole at own nodes: accelerations under F too, and a kick of `h` by them.
   void accelerate(const NodalVectors& F, double h);
   /// Sum of m_A |q_A|^2 over all nodes.
   double nodal_sum(const NodalVectors& q) const;
@@ -124,6 +131,7 @@ class ExplicitSolver {
   std::unique_ptr<Body> body_;
   Supports supports_;
   std::unique_ptr<const Halo> halo_;
+  std::vector<Id> node_ids_;
   std::unique_ptr<MassOperator> mass_;
   NodalVectors inverse_mass_;  // of each dof, 0 where it is fixed
   double dt_ = 0.0, time_ = 0.0;

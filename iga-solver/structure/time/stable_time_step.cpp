@@ -33,7 +33,7 @@ NodalVectors start_forces(const Eigen::VectorXd& nodal_mass, const Halo& halo) {
 }
 
 double mean_element_size(const Body& body, const Halo& halo) {
-  return std::cbrt(halo.sum(body.volume()) / halo.sum(double(body.element_count())));
+  return std::cbrt(halo.total(body.volume_sum()) / halo.sum(double(body.element_count())));
 }
 
 /// Of trial displacements for the derivative of the internal force [-]: any law is linear there, and rounding

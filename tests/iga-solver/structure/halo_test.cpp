@@ -14,7 +14,6 @@
 #include "models.h"
 #include "nurbs/primitives.h"
 #include "standard_linear_solid.h"
-#include "structure/conditions/loads.h"
 #include "structure/solid/solid.h"
 #include "structure/time/explicit_solver.h"
 
@@ -138,7 +137,7 @@ struct Results {
 Results run(ExplicitSolver solver, const NodalVectors& v, const NodalVectors& F, double dt, int steps,
             const std::vector<double>& state = {}) {
   Results r;
-  solver.set_load(structure::gravity_load(solver.body(), {0.01, 0.0, -0.02}));
+  solver.set_load(Vector3(0.01, 0.0, -0.02) * solver.mass().nodal_mass().transpose());
   solver.set_velocities(v);
   r.stable = solver.stable_time_step();
   solver.set_time_step(dt);

@@ -175,7 +175,7 @@ TEST(PatchSweep, SumsRowsOfTheMassMatrix) {
       Eigen::VectorXd sums = Eigen::VectorXd::Zero(expected.size());
       const PatchSweep::Volume volume = sweep.add_row_sums(sums);
       EXPECT_LT((sums - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.maxCoeff());
-      EXPECT_NEAR(volume.volume, expected.sum(), 1e-13 * expected.sum());
+      EXPECT_NEAR(volume.volume.value(), expected.sum(), 1e-13 * expected.sum());
       EXPECT_GT(volume.least_det, 0.0);
     }
   }

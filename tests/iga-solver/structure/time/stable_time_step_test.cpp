@@ -225,14 +225,16 @@ class CountingSolid final : public structure::Body {
   const NodalVectors& reference() const override { return solid_.reference(); }
   structure::PatchSpaces patches() const override { return solid_.patches(); }
   nurbs::BoundarySurface skin(const structure::SkinPiece& piece) const override { return solid_.skin(piece); }
-  double volume() const override { return solid_.volume(); }
+  structure::ExactSum volume_sum() const override { return solid_.volume_sum(); }
   const structure::Material& material() const override { return solid_.material(); }
   const Eigen::VectorXd& row_sum_mass() const override { return solid_.row_sum_mass(); }
-  void evolve(const NodalVectors&, double, NodalVectors&) override {}
+  void evolve(const NodalVectors&, double, NodalVectors&, const std::function<void()>&) override {}
   void commit() override {}
   const std::vector<double>& memory() const override { return solid_.memory(); }
   void set_memory(std::vector<double>) override {}
-  double strain_energy(const NodalVectors& u) const override { return solid_.strain_energy(u); }
+  structure::ExactSum strain_energy_sum(const NodalVectors& u) const override {
+    return solid_.strain_energy_sum(u);
+  }
   int element_count() const override { return solid_.element_count(); }
   int padded_functions() const override { return solid_.padded_functions(); }
   void gather(int, const NodalVectors&, double*) const override { ADD_FAILURE(); }

@@ -12,7 +12,7 @@
 
 #include "nurbs/memory.h"
 
-namespace coupling {
+namespace parallel {
 
 /// Collective.  Throws geometry_io::InputError on every rank if `problem` is not empty on one of them: the
 /// problem of the lowest such rank.
@@ -51,4 +51,4 @@ void on_first_rank(MPI_Comm comm, Action action) {
   agree_on_problem(comm, std::move(problem));
 }
 
-}  // namespace coupling
+}  // namespace parallel

@@ -6,13 +6,13 @@
 #include <new>
 #include <stdexcept>
 
-#include "coupling/all_or_none.h"
 #include "geometry_io/input_error.h"
+#include "parallel/all_or_none.h"
 
 namespace {
 
-using coupling::on_every_rank;
-using coupling::on_first_rank;
+using parallel::on_every_rank;
+using parallel::on_first_rank;
 using testing::HasSubstr;
 using testing::StrEq;
 using testing::ThrowsMessage;

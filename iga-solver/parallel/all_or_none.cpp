@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/all_or_none.h"
+#include "parallel/all_or_none.h"
 
 #include <new>
 
 #include "geometry_io/input_error.h"
 
-namespace coupling {
+namespace parallel {
 
 void agree_on_problem(MPI_Comm comm, std::string problem) {
   int rank, size, first;
@@ -29,4 +29,4 @@ std::string in_words(const std::exception& error, const std::string& file) {
   return words.empty() ? file + (file.empty() ? "" : ": ") + "an error without a message" : words;
 }
 
-}  // namespace coupling
+}  // namespace parallel

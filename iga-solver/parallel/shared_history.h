@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Histories (io/history.h) of a solid that every rank integrates: all know when a row is due, rank 0 writes
+// Histories (io/history.h) of a solid on all ranks: all know when a row is due, rank 0 writes
 // it.
 #pragma once
 
 #include <mpi.h>
 
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "io/history.h"
 
-namespace coupling {
+namespace parallel {
 
 class SharedHistory {
  public:
@@ -21,6 +22,8 @@ class SharedHistory {
 
   /// The solver has got a saved state: the first row goes on with the file of then, if it is there.
   void resume() { resumes_ = true; }
+  /// Of the file, on rank 0, once it is open; else empty.
+  std::string path() const { return history_ ? history_->path() : std::string(); }
   /// Collective, before the first step and after each.  The first call opens the file.  Throws
   /// std::runtime_error on every rank, naming the file, if rank 0 cannot write.
   void record_if_due(const structure::ExplicitSolver& solver);
@@ -37,4 +40,4 @@ class SharedHistory {
   std::optional<io::History> history_;    // the same, on rank 0
 };
 
-}  // namespace coupling
+}  // namespace parallel

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "coupling/shared_history.h"
+#include "parallel/shared_history.h"
 
 #include <cmath>
 #include <limits>
 
-#include "coupling/all_or_none.h"
+#include "parallel/all_or_none.h"
 
-namespace coupling {
+namespace parallel {
 
 void SharedHistory::open(double time) {
   double last = std::numeric_limits<double>::quiet_NaN();  // no row yet
@@ -26,4 +26,4 @@ void SharedHistory::record_if_due(const structure::ExplicitSolver& solver) {
   on_first_rank(comm_, [&] { history_->record(row); });
 }
 
-}  // namespace coupling
+}  // namespace parallel
