@@ -13,7 +13,7 @@ struct LinearElasticLaw {
 
   template <class Number>
   [[gnu::always_inline]] Tensor<Number> stress(const Tensor<Number>& H) const {
-    return hooke(lambda, mu, symmetric_part(H));
+    return hooke(lambda, mu, plus_transposed(H));
   }
   template <class Number>
   [[gnu::always_inline]] Number energy_density(const Tensor<Number>& H) const {

@@ -15,7 +15,7 @@ struct SaintVenantKirchhoffLaw {
 
   template <class Number>
   [[gnu::always_inline]] Tensor<Number> stress(const Tensor<Number>& H) const {
-    const Tensor<Number> S = hooke(lambda, mu, green_lagrange(H));
+    const Tensor<Number> S = hooke(lambda, mu, twice_green_lagrange(H));
     Tensor<Number> P = S;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) P(i, j) += H(i, 0) * S(0, j) + H(i, 1) * S(1, j) + H(i, 2) * S(2, j);
@@ -23,21 +23,21 @@ struct SaintVenantKirchhoffLaw {
   }
   template <class Number>
   [[gnu::always_inline]] Number energy_density(const Tensor<Number>& H) const {
-    const Tensor<Number> E = green_lagrange(H);
-    return 0.5 * double_dot(hooke(lambda, mu, E), E);
+    const Tensor<Number> twice_E = twice_green_lagrange(H);
+    return 0.25 * double_dot(hooke(lambda, mu, twice_E), twice_E);
   }
 
  private:
   // From H, not from F: no digits are lost where strains are small.
   template <class Number>
-  [[gnu::always_inline]] static Tensor<Number> green_lagrange(const Tensor<Number>& H) {
-    Tensor<Number> E = symmetric_part(H);
+  [[gnu::always_inline]] static Tensor<Number> twice_green_lagrange(const Tensor<Number>& H) {
+    Tensor<Number> A = plus_transposed(H);
     for (int i = 0; i < 3; ++i)
       for (int j = i; j < 3; ++j) {
-        E(i, j) += 0.5 * (H(0, i) * H(0, j) + H(1, i) * H(1, j) + H(2, i) * H(2, j));
-        E(j, i) = E(i, j);
+        A(i, j) += H(0, i) * H(0, j) + H(1, i) * H(1, j) + H(2, i) * H(2, j);
+        A(j, i) = A(i, j);
       }
-    return E;
+    return A;
   }
 };
 

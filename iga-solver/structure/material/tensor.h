@@ -12,12 +12,13 @@ struct Tensor {
   [[gnu::always_inline]] const Number& operator()(int i, int j) const { return m[i][j]; }
 };
 
+/// H + H^T
 template <class Number>
-[[gnu::always_inline]] inline Tensor<Number> symmetric_part(const Tensor<Number>& H) {
-  Tensor<Number> E;
+[[gnu::always_inline]] inline Tensor<Number> plus_transposed(const Tensor<Number>& H) {
+  Tensor<Number> A;
   for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) E(i, j) = E(j, i) = 0.5 * (H(i, j) + H(j, i));
-  return E;
+    for (int j = i; j < 3; ++j) A(i, j) = A(j, i) = H(i, j) + H(j, i);
+  return A;
 }
 
 /// A : B = sum A_ij B_ij
@@ -28,13 +29,14 @@ template <class Number>
   return sum;
 }
 
-/// lambda tr(strain) I + 2 mu strain, of a symmetric strain.
+/// lambda tr(strain) I + 2 mu strain, of twice a symmetric strain.
 template <class Number>
-[[gnu::always_inline]] inline Tensor<Number> hooke(double lambda, double mu, const Tensor<Number>& strain) {
-  const Number pressure = lambda * (strain(0, 0) + strain(1, 1) + strain(2, 2));
+[[gnu::always_inline]] inline Tensor<Number> hooke(double lambda, double mu,
+                                                   const Tensor<Number>& twice_strain) {
+  const Number pressure = 0.5 * lambda * (twice_strain(0, 0) + twice_strain(1, 1) + twice_strain(2, 2));
   Tensor<Number> stress;
   for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) stress(i, j) = stress(j, i) = 2.0 * mu * strain(i, j);
+    for (int j = i; j < 3; ++j) stress(i, j) = stress(j, i) = mu * twice_strain(i, j);
   for (int i = 0; i < 3; ++i) stress(i, i) += pressure;
   return stress;
 }
