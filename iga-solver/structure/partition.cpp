@@ -67,7 +67,8 @@ void Partition::divide(const Range& boxes, int first_part, int parts) {
     return;
   }
   const auto [begin, end] = boxes[d];
-  const double wanted = double(spans(d, begin, end)) * (parts / 2) / parts;
+  const int first_parts = parts / 2;
+  const double wanted = static_cast<double>(spans(d, begin, end)) * first_parts / parts;
   int cut = begin + 1;
   while (cut + 1 < end &&
          std::abs(spans(d, begin, cut + 1) - wanted) < std::abs(spans(d, begin, cut) - wanted))

@@ -98,7 +98,13 @@ MODEL_FILES = {
         GOOD, in_block("elements: [4, 4, 2]", "elements: [100000, 100000, 100]"),
         ["block.yaml:4", "elements", "control points would take", "TB of memory"]),
     "a solid that fits in no memory": (
-        GOOD, in_block("elements: [4, 4, 2]", "elements: [1000, 1000, 100]"), ["block.yaml:", "elements", "TB of memory"]),
+        GOOD, {"block.yaml": BLOCK.replace("[4, 4, 2]", "[300, 300, 200]") + "integration: {method: elements}\n"},
+        ["block.yaml:", "elements", "GB of memory"]),
+    "an unknown way to integrate": (
+        GOOD, {"block.yaml": BLOCK + "integration: {method: quick}\n"},
+        ["block.yaml:", "method is 'quick'", "auto, affine, stored, recomputed, elements"]),
+    "an unknown quadrature": (
+        GOOD, {"block.yaml": BLOCK + "integration: {quadrature: gauss}\n"}, ["quadrature is 'gauss'", "full, reduced, zou"]),
     "number beyond all sense": (GOOD, in_block("density: 1000.0", "density: 1e101"), ["block.yaml:5", "density", r"1e\+100"]),
     "degree too high": (GOOD, in_block("degree: 2", "degree: 7"), ["degree", "7", "6"]),
     "negative size": (GOOD, in_block("size: [0.004, 0.004", "size: [0.004, -0.004"), ["size", "-0.004"]),

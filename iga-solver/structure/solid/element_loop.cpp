@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "nurbs/memory.h"
-
 namespace structure {
 
 namespace {
@@ -49,10 +47,6 @@ ElementLoop::ElementLoop(const nurbs::Volume& patch, const std::vector<PlacedBox
   remembered_ = std::size_t(tabulate.slots()) * material.state_size();
   std::size_t count = 0;
   for (const PlacedBox& box : boxes) count += box.spans.element_count();
-  nurbs::expect_memory(sizeof(double) * (3.0 * padded(space.functions_per_element()) + 1.0) *
-                           tabulate.slots() * static_cast<double>(count),
-                       fmt::format("a solid of {} elements of degrees {}, {}, {}", count, space.degree(0),
-                                   space.degree(1), space.degree(2)));
   elements_.reserve(count);
   for (const PlacedBox& box : boxes) {
     std::vector<int> local(box.nodes.size());

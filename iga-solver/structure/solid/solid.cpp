@@ -48,16 +48,16 @@ IntegrationMethod integration_method_from_name(const std::string& word) {
 
 Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration)
     : Solid(std::make_unique<const nurbs::Volume>(std::move(patch)), std::move(material), integration) {
+  prepare(patch_->space.control_point_count(), patch_->space.element_count());
   boxes_ = whole_patch(patch_->space);
-  columns_ = patch_->space.control_point_count();
   set_up();
 }
 
 Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration,
              const Part& part)
     : Solid(std::make_unique<const nurbs::Volume>(std::move(patch)), std::move(material), integration) {
+  prepare(part.columns, part.elements.size());
   boxes_ = boxes_of(part, patch_->space);
-  columns_ = part.columns;
   border_boxes_ = part.border_boxes;
   part_reference_ = NodalVectors::Zero(3, columns_);
   for (int column = 0; column < part.held(); ++column)
@@ -81,18 +81,32 @@ Solid::Solid(std::unique_ptr<const nurbs::Volume> patch, std::shared_ptr<const M
 void Solid::set_up() {
   for (const PlacedBox& box : boxes_)
     first_element_.push_back(first_element_.back() + box.spans.element_count());
-  choose_method();
   integrate_mass();
   if (integration_.method == IntegrationMethod::elements)
     integrals_ = std::make_unique<ElementLoop>(*patch_, boxes_, *material_, integration_.quadrature);
   else
     integrals_ = std::make_unique<PatchSweep>(*patch_, boxes_, *material_, integration_.quadrature,
                                               geometry_mode(integration_.method));
-  remembered_ = std::size_t(tabulate_.slots()) * material_->state_size();
-  nurbs::expect_memory(2.0 * sizeof(double) * remembered_ * element_count(),
-                       fmt::format("the memory of a solid of {} elements", element_count()));
   memory_.assign(element_count() * remembered_, 0.0);
   next_memory_ = memory_;
+}
+
+/// How, and whether it fits into memory: solid, and a solver for it.
+void Solid::prepare(int columns, std::size_t elements) {
+  columns_ = columns;
+  remembered_ = std::size_t(tabulate_.slots()) * material_->state_size();
+  choose_method();
+  constexpr double kBytesPerNode = 230.0;  // as measured by tests/benchmark/structure/large_solid
+  const int points = tabulate_.slots();
+  double per_element = 2.0 * sizeof(double) * static_cast<double>(remembered_);
+  if (integration_.method == IntegrationMethod::stored)
+    per_element += sizeof(double) * table_numbers(patch_->space.rational()) * points;
+  if (integration_.method == IntegrationMethod::elements)
+    per_element += sizeof(double) * (3.0 * padded_ + 1.0) * points;
+  nurbs::expect_memory(
+      kBytesPerNode * columns_ + per_element * static_cast<double>(elements),
+      fmt::format("a solid of {} elements of degrees {}, {}, {}", elements, patch_->space.degree(0),
+                  patch_->space.degree(1), patch_->space.degree(2)));
 }
 
 void Solid::choose_method() {

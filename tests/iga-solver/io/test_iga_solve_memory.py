@@ -35,15 +35,20 @@ class Memory(IgaSolve):
         self.assert_error(self.limited(breaks(228), 300), "block.yaml:3: breaks: no memory for a box of so many elements")
 
     def test_solid(self):
-        # 27 points with 3 x 28 derivatives of 8 bytes: 18.4 kB per quadratic element, as the README of structure/ says
+        # 402 x 402 x 22 control points of 230 bytes
         self.assert_error(
-            self.limited(self.mesh("[100, 100, 20]"), 2000),
-            "block.yaml:[23]: geometry: a solid of 200000 elements of degrees 2, 2, 2 would take 3.67 GB of memory, this process "
+            self.limited(self.mesh("[400, 400, 20]"), 700),
+            "block.yaml:[23]: geometry: a solid of 3200000 elements of degrees 2, 2, 2 would take 818 MB of memory, this process "
+            "may have 717 MB")
+        # 27 points with 3 x 28 derivatives of 8 bytes and a weight: 18.4 kB per quadratic element in the plain loop
+        self.assert_error(
+            self.limited(self.mesh("[100, 100, 20]") + "integration: {method: elements}\n", 2000),
+            "block.yaml:[23]: geometry: a solid of 200000 elements of degrees 2, 2, 2 would take 3.72 GB of memory, this process "
             "may have 2.05 GB")
 
     def test_where_it_ends(self):
         # the solid alone would fit, but not with what is needed besides
-        self.assert_error(self.limited(self.mesh("[40, 40, 10]"), 300), "block.yaml: out of memory: .*307 MB")
+        self.assert_error(self.limited(self.mesh("[300, 300, 20]"), 480), "block.yaml: out of memory: .*492 MB")
 
 
 if __name__ == "__main__":
