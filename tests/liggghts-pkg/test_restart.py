@@ -66,6 +66,11 @@ SOLIDS = {
 }
 
 
+def ball_on_block_of_boxes() -> str:
+    """Four boxes, which meet under the ball."""
+    return bob.block(elements=(64, 32, 2))
+
+
 class Restart(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -106,6 +111,17 @@ class Restart(unittest.TestCase):
                 with self.subTest(name, ranks=ranks):
                     run = self.read(reader(wall=material), self.of_solid, ranks, block=text)
                     self.check_refused(run, "'block.yaml'", "another ID", *expected)
+
+    def test_a_solid_in_parts_continues_on_any_number_of_ranks(self):
+        block = ball_on_block_of_boxes()
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "contact"
+            deck = writer().replace("write_restart contact", f"write_restart {path}")
+            whole = decks.good(deck, files={"block.yaml": block}, ranks=2)
+            restart = path.read_bytes()
+        for ranks in (1, 2, 4):
+            with self.subTest(ranks=ranks):
+                self.check_continues(self.read(reader(), restart, ranks, block=block), whole)
 
     def test_another_rigid_wall_is_refused(self):
         for old, new in (("[4, 4]", "[8, 4]"), ("edges: [[0.004", "edges: [[0.005"), ("degree: 2", "degree: 3")):
