@@ -36,7 +36,7 @@ class ContactTracker {
 
   /// After the list was rebuilt.
   void list_is_new();
-  /// `surface_motion`: CandidateList::motion_since_build of a deforming wall, else 0 [length].
+  /// `surface_motion`: how far a deforming wall has moved since the list was built, else 0 [length].
   void begin_step(double surface_motion) { surface_motion_ = surface_motion; }
 
   /// A candidate of this step: where it is, and how far its contacts and its list reach [length].
