@@ -207,7 +207,8 @@ structure::ExplicitSolver build_solver_at_rest(const ModelFile& model, const Cut
     return {build_solid(model, nullptr), std::move(supports),
             std::make_unique<const structure::Halo>(part.runs)};
   std::unique_ptr<structure::Solid> solid = build_part(model, cut, part);
-  return {std::move(solid), supports.on(part.nodes), cut.halo(std::move(part))};
+  structure::Supports own_supports = supports.on(part.nodes);
+  return {std::move(solid), std::move(own_supports), cut.halo(std::move(part))};
 }
 
 }  // namespace
