@@ -26,6 +26,16 @@ class FootBasis {
 
   /// Adds R_A F to the control-point forces f (3 x n) [force].
   void distribute(const Vector3& F, NodalVectors& f) const { nurbs::distribute(values_, F, f); }
+  /// Sum of R_A^2 n . diag(q_A) n: what moves the foot along n under a force along n if q are inverse masses.
+  double sum_of_squares(const Vector3& n, const NodalVectors& q) const {
+    double sum = 0.0;
+    const double* R = values_.R;
+    for_each_control_point([&](int c) {
+      sum += *R * *R * n.cwiseAbs2().dot(q.col(c));
+      ++R;
+    });
+    return sum;
+  }
   /// f(index) for those that it spreads to.
   template <class Function>
   void for_each_control_point(Function f) const {

@@ -44,6 +44,7 @@ class IgaStructure final : public StructureSolver {
   double stable_time_step() const override { return solver_.stable_time_step(); }
 
   bool moves() const override { return true; }
+  NodalVectors inverse_node_mass() const override { return solver_.inverse_mass(); }
   Eigen::VectorXd control_node_mass() const override { return solver_.mass().nodal_mass(); }
   double kinetic_energy() const override { return solver_.kinetic_energy(); }
   double strain_energy() const override { return solver_.strain_energy(); }

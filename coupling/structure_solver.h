@@ -83,6 +83,9 @@ class StructureSolver {
   virtual bool deforms() const { return moves(); }
   /// Whether initialise_forces and end_step use the forces; if not, they may be called with forces of zero.
   virtual bool needs_forces() const { return moves(); }
+  /// 1 / mass of each degree of freedom of the nodes held [1/mass], 3 x nodes, 0 where it is fixed: for nodes
+  /// that are control points of the surface.  Empty if nothing is known, or nothing is integrated.
+  virtual NodalVectors inverse_node_mass() const { return {}; }
   virtual Eigen::VectorXd control_node_mass()
       const = 0;                                ///< [mass], one per node held; empty for a rigid surface
   virtual double kinetic_energy() const = 0;    ///< sum m_A |v_A|^2 / 2 [energy]

@@ -46,6 +46,7 @@ class Substeps final : public StructureSolver {
   std::string describe_step() const override;
 
   bool moves() const override { return true; }
+  NodalVectors inverse_node_mass() const override { return body_->inverse_node_mass(); }
   Eigen::VectorXd control_node_mass() const override { return body_->control_node_mass(); }
   double kinetic_energy() const override { return body_->kinetic_energy(); }
   double strain_energy() const override { return body_->strain_energy(); }

@@ -84,7 +84,17 @@ SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver)
   is_touched_.resize(control_points, false);
   positions_.setZero(3, control_points);
   velocities_.setZero(3, control_points);
+  import_masses();
   import_surface();
+}
+
+void SurfaceExchange::import_masses() {
+  const NodalVectors of_nodes = solver_.inverse_node_mass();
+  const bool known = of_nodes.cols() == map_.node_count() && of_nodes.cols() > 0;
+  if (owners_ ? owners_->largest(known ? 1.0 : 0.0) == 0.0 : !known) return;
+  inverse_masses_.setZero(3, positions_.cols());
+  map_.to_surface(own_, of_nodes, inverse_masses_);
+  if (owners_) owners_->bring_all(inverse_masses_, velocities_);  // which come anew
 }
 
 void SurfaceExchange::import_own() {

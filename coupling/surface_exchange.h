@@ -32,6 +32,8 @@ class SurfaceExchange {
   void import_followed();
   const NodalVectors& positions() const { return positions_; }    ///< 3 x n_control_points [length]
   const NodalVectors& velocities() const { return velocities_; }  ///< 3 x n_control_points [length/time]
+  /// StructureSolver::inverse_node_mass of all control points (3 x n_control_points), or empty.
+  const NodalVectors& inverse_masses() const { return inverse_masses_; }
   /// The control points that import_followed() brings to this rank, rising; all, if there are no parts.
   const std::vector<int>& followed() const { return followed_; }
   /// Largest distance of a control point from where it was `then` (3 x n_control_points), of the whole
@@ -49,6 +51,7 @@ class SurfaceExchange {
 
  private:
   void import_own();
+  void import_masses();
   void gather(const std::vector<ContactForce>& local);
   void send_to_owners(const std::vector<ContactForce>& local);
   void forget_forces();
@@ -59,7 +62,7 @@ class SurfaceExchange {
   std::vector<int> own_;                   ///< these control points
   std::unique_ptr<SurfaceOwners> owners_;  ///< of a structure in parts
   std::vector<int> followed_;
-  NodalVectors positions_, velocities_;
+  NodalVectors positions_, velocities_, inverse_masses_;
   NodalVectors surface_forces_, nodal_forces_;  ///< zero but where contacts are
   std::vector<int> touched_;                    ///< control points with forces, rising
   std::vector<bool> is_touched_;

@@ -221,8 +221,8 @@ void FixWallNurbs::post_force_primitive(int) {
 // LIGGGHTS' arrays as they now are: they move when the number of particles grows.
 contact::ParticleView FixWallNurbs::particles() {
   const auto rows = [this](double** array) { return atom->nlocal > 0 ? array[0] : nullptr; };
-  return {atom->nlocal,  atom->tag,          atom->radius, rows(atom->x), rows(atom->v),
-          rows(atom->f), rows(atom->torque), atom->mask,   groupbit,      memory_.rows()};
+  return {atom->nlocal,       atom->tag,  atom->radius, rows(atom->x),  rows(atom->v), rows(atom->f),
+          rows(atom->torque), atom->mask, groupbit,     memory_.rows(), atom->rmass};
 }
 
 void FixWallNurbs::final_integrate() {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/force_distribution.h"
 #include "nurbs/assert.h"
 
 namespace contact {
@@ -229,6 +230,7 @@ inline void ContactLoop::apply(const ParticleView& particles, const StepInfo& st
   if (contact.overlap < 0.0 && F.isZero(0.0)) return;
 
   if (wall_.needs_forces()) {
+    expect_stable(particles, step, contact);
     const Vector3 on_body = -(wall_.frame().rotation.transpose() * F);
     forces_on_body_.push_back({particles.tag[i],
                                contact.slot,
@@ -251,6 +253,34 @@ inline void ContactLoop::apply(const ParticleView& particles, const StepInfo& st
                                    (wall_torque + point.cross(F)).dot(wall_.frame().angular_velocity);
   row.slot = contact.slot;
   if (contact.inside) inside_.raise(particles.tag[i], particles.radius[i], particles.velocity(i).norm());
+}
+
+// A spring k between a particle and the surface has the squared frequency k (sum R_A^2 / m_A + 1 / m), and
+// the body's own stiffness only adds to the largest (Rayleigh's quotient): beyond 4 / dt^2 the run blows up
+// whatever the body.  k is the secant of the law, no more than its tangent as overlaps grow; in the first
+// step of a touch it is that over the way of a step.
+void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& step,
+                                const Contact& contact) const {
+  const nurbs::NodalVectors& inverse_masses = wall_.inverse_masses();
+  if (inverse_masses.cols() == 0) return;
+  const int i = contact.particle;
+  const Vector3 n = contact.delta / contact.distance, v = particles.velocity(i) - contact.wall_velocity;
+  const double depth = std::max(contact.overlap, step.dt * std::abs(n.dot(v)));
+  const double stiffness = n.dot(contact.force) / depth, limit = 4.0 / (step.dt * step.dt);
+  const double of_particle = particles.mass ? 1.0 / particles.mass[i] : 0.0;
+  if (!(stiffness * (wall_.largest_inverse_mass() + of_particle) > limit)) return;
+  const double of_wall = coupling::FootBasis(wall_.surface(), contact.foot).sum_of_squares(n, inverse_masses);
+  const double squared_frequency = stiffness * (of_wall + of_particle);
+  if (!(squared_frequency > limit)) return;
+  const double stable = 2.0 / std::sqrt(squared_frequency);
+  throw std::runtime_error(
+      fmt::format("the contact of particle {} is too stiff for the timestep {:.6g} at step {}: stiffness "
+                  "{:.4g} between a particle of "
+                  "mass {:.4g} and a surface that gives way there like a mass of {:.4g} is stable below "
+                  "{:.4g}; use a timestep of "
+                  "at most {:.2g}",
+                  particles.tag[i], step.dt, step.number, stiffness, 1.0 / of_particle, 1.0 / of_wall, stable,
+                  0.5 * stable));
 }
 
 void ContactLoop::fail_as_not_finite(const ParticleView& particles, const StepInfo& step,

@@ -87,7 +87,8 @@ class ContactLoop {
   long candidate_count() const { return static_cast<long>(candidates_.candidates().size()); }
 
   /// Adds the wall's forces to the particles, whose number and order are those of build_list.  Throws
-  /// TooManyContacts, and std::runtime_error if an answer of the model is not finite: particle, place, step.
+  /// TooManyContacts, and std::runtime_error if an answer of the model is not finite or a contact is so stiff
+  /// that no body could bear the time step: particle, place, step.
   void step(const ParticleView& particles, const StepInfo& step, ContactModel& model,
             ContactObserver* observer = nullptr);
 
@@ -118,6 +119,7 @@ class ContactLoop {
   void apply(const ParticleView& particles, const StepInfo& step, const Contact& contact);
   void answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,
               ContactObserver* observer);
+  void expect_stable(const ParticleView& particles, const StepInfo& step, const Contact& contact) const;
   [[noreturn]] static void fail_as_not_finite(const ParticleView& particles, const StepInfo& step,
                                               const Contact& contact);
 

@@ -18,7 +18,8 @@ struct ParticleView {
   double* torque;        ///< likewise, about the centres [force length]
   const int* mask;       ///< particles meet the wall if this has the bit `group`; null: all do
   int group;
-  ContactMemory memory;  ///< slots of contacts that go with their particle, from rank to rank, too
+  ContactMemory memory;          ///< slots of contacts that go with their particle, from rank to rank, too
+  const double* mass = nullptr;  ///< [mass]; null: as heavy as can be
 
   bool meets_wall(int i) const { return !mask || (mask[i] & group); }
   nurbs::Vector3 centre(int i) const { return nurbs::Vector3::Map(x + 3 * i); }

@@ -17,7 +17,9 @@ Wall::Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange
       exchange_(exchange),
       surface_(structure.surface().topology),
       projector_(surface_),
-      outward_sign_(structure.surface().outward_sign) {}
+      outward_sign_(structure.surface().outward_sign) {
+  if (inverse_masses().cols() > 0) largest_inverse_mass_ = inverse_masses().maxCoeff();
+}
 
 void Wall::weld_across(const std::vector<Vector3>& periods) {
   std::vector<Vector3> in_frame;

@@ -40,6 +40,9 @@ class Wall {
   const nurbs::MultiPatch& surface() const { return surface_; }
   const nurbs::NodalVectors& control_points() const { return exchange_.positions(); }
   const coupling::RigidFrame& frame() const { return frame_; }
+  /// Of the body's control points (SurfaceExchange), and the largest of them [1/mass].
+  const nurbs::NodalVectors& inverse_masses() const { return exchange_.inverse_masses(); }
+  double largest_inverse_mass() const { return largest_inverse_mass_; }
   search::MultiPatchProjector& projector() { return projector_; }
 
   bool deforms() const { return deforms_; }
@@ -90,7 +93,7 @@ class Wall {
   search::MultiPatchProjector projector_;
   const std::vector<int>& outward_sign_;  // of each patch
   coupling::RigidFrame frame_;
-  double resolution_ = 0.0;
+  double resolution_ = 0.0, largest_inverse_mass_ = 0.0;
   bool imported_ = false, needs_forces_ = false, deforms_ = false, slides_ = false, stands_ = false,
        is_turned_ = false;
 };

@@ -34,10 +34,11 @@ class Balls {
 
   contact::ParticleView view() {
     rows_.clear();
+    mass_.assign(count(), 1.0);
     for (std::vector<double>& rows : slots_) rows_.push_back(rows.data());
     const contact::ContactMemory memory{rows_.data(), static_cast<int>(rows_.size()), history_count_};
-    return {count(),  tag.data(),    radius.data(), x.data(), v.data(),
-            f.data(), torque.data(), mask.data(),   1,        memory};
+    return {count(),     tag.data(), radius.data(), x.data(),    v.data(), f.data(), torque.data(),
+            mask.data(), 1,          memory,        mass_.data()};
   }
 
   std::vector<int> tag, mask;
@@ -47,6 +48,7 @@ class Balls {
   int history_count_;
   std::vector<std::vector<double>> slots_;
   std::vector<double*> rows_;
+  std::vector<double> mass_;
 };
 
 /// F = stiffness * overlap along delta, no torque.  Counts in the history for how many steps a contact lasts.

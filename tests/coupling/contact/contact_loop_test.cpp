@@ -2,6 +2,7 @@
 // The contact loop without a deck: balls on springs against motions and forces known in closed form.
 #include "coupling/contact/contact_loop.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -170,6 +171,7 @@ class RisingSheet final : public coupling::StructureSolver {
   void initialise_forces(const coupling::NodalVectors&) override {}
   void end_step(const coupling::NodalVectors&) override {}
   double stable_time_step() const override { return 1.0; }
+  coupling::NodalVectors inverse_node_mass() const override { return inverse_mass; }
   Eigen::VectorXd control_node_mass() const override { return {}; }
   double kinetic_energy() const override { return 0.0; }
   double strain_energy() const override { return 0.0; }
@@ -180,6 +182,8 @@ class RisingSheet final : public coupling::StructureSolver {
   std::vector<double> save() const override { return {}; }
   void load(const std::vector<double>&) override {}
   coupling::Fingerprint fingerprint() const override { return {}; }
+
+  coupling::NodalVectors inverse_mass;
 
  private:
   coupling::ContactSurface surface_;
@@ -205,6 +209,32 @@ TEST(ContactLoop, FollowsASurfaceThatDeforms) {
     EXPECT_NEAR(scene.loop.contacts()[0].overlap, overlap, 1e-13);
     EXPECT_LT((scene.spring.seen[0].wall_velocity - Vector3(0, 0, kSpeed)).norm(), 1e-13);
   }
+}
+
+// Two masses on the spring: a ball of mass 1 and the sheet, which gives way along z alone.
+TEST(ContactLoop, StopsWhereAContactIsTooStiffForTheStep) {
+  constexpr double kStiffness = 100.0, kNodeMass = 0.2;
+  RisingSheet sheet(floor(), 0.0);
+  sheet.inverse_mass = Vector3(0, 0, 1.0 / kNodeMass).replicate(1, sheet.positions().cols());
+  const nurbs::SurfacePoint foot{0, {0.6, 0.7}};
+  const Vector3 place = nurbs::interpolate(sheet.surface().topology.patch(0), sheet.positions(), foot.xi);
+  nurbs::RationalBasis<2> basis;
+  nurbs::evaluate(sheet.surface().topology.patch(0), foot.xi, 0, basis);
+  double squares = 0.0;
+  for (int a = 0; a < basis.count; ++a) squares += basis.R[a] * basis.R[a];
+  const double stable = 2.0 / std::sqrt(kStiffness * (squares / kNodeMass + 1.0));
+  Balls balls;
+  balls.add(place + Vector3(0, 0, 0.9 * kRadius), kRadius);
+  EXPECT_NO_THROW(BallsOnWall(sheet, balls, kStiffness, 0.999 * stable));
+  try {
+    BallsOnWall(sheet, balls, kStiffness, 1.001 * stable);
+    FAIL() << "a step above the stable one";
+  } catch (const std::runtime_error& problem) {
+    EXPECT_THAT(problem.what(), HasSubstr("the contact of particle 1 is too stiff for the timestep"));
+    EXPECT_THAT(problem.what(), HasSubstr(fmt::format("is stable below {:.4g}", stable)));
+  }
+  sheet.inverse_mass.setZero();  // held
+  EXPECT_NO_THROW(BallsOnWall(sheet, balls, kStiffness, 1.001 * stable));
 }
 
 // The wall feels the opposite of what the balls feel, at the feet, and gives the power that its motion has.
