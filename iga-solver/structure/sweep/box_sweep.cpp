@@ -235,19 +235,24 @@ double BoxSweep::tabulate(const NodalVectors& X, SweepSpace& space) {
   return pass.sums.least_det;
 }
 
-void BoxSweep::add_forces(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
-                          NodalVectors& f, SweepSpace& space) const {
+double BoxSweep::sweep_law(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
+                           int fields_out, PointLoop loop, SweepSpace& space) const {
   const bool recomputed = mode_ == GeometryMode::recomputed;
   read(u, read_columns(), space.nodes.data());
   if (recomputed) read_geometry(X, space.nodes.data() + 3 * field_);
-  LawAtPoints own = law;
   Pass pass{3 + (recomputed ? geometry_fields() : 0),
-            3,
+            fields_out,
             rational_,
-            loops_->stress[law.loop],
+            loop,
             const_cast<double*>(table_.empty() ? nullptr : table_.data()),
-            &own};
+            &law};
   sweep(pass, space);
+  return pass.sums.sum;
+}
+
+void BoxSweep::add_forces(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
+                          NodalVectors& f, SweepSpace& space) const {
+  sweep_law(law, X, u, 3, loops_->stress[law.loop], space);
   const int *column = write_columns().data(), *const last = column + write_columns().size() - 1;
   const double* weight = weights_.data();
   for (std::size_t start = 0; start < field_; start += row_)
@@ -261,18 +266,7 @@ void BoxSweep::add_forces(const LawAtPoints& law, const NodalVectors& X, const N
 
 double BoxSweep::energy(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
                         SweepSpace& space) const {
-  const bool recomputed = mode_ == GeometryMode::recomputed;
-  read(u, read_columns(), space.nodes.data());
-  if (recomputed) read_geometry(X, space.nodes.data() + 3 * field_);
-  LawAtPoints own = law;
-  Pass pass{3 + (recomputed ? geometry_fields() : 0),
-            0,
-            rational_,
-            loops_->energy[law.loop],
-            const_cast<double*>(table_.empty() ? nullptr : table_.data()),
-            &own};
-  sweep(pass, space);
-  return pass.sums.sum;
+  return sweep_law(law, X, u, 0, loops_->energy[law.loop], space);
 }
 
 PointSums BoxSweep::add_row_sums(const NodalVectors& X, double density, Eigen::VectorXd& sums,

@@ -68,10 +68,13 @@ class BoxSweep {
     bool with_value;  // of the functions themselves
     PointLoop loop;
     double* table = nullptr;
-    LawAtPoints* law = nullptr;
+    const LawAtPoints* law = nullptr;
     PointSums sums = {0.0, std::numeric_limits<double>::infinity()};
   };
   void sweep(Pass& pass, SweepSpace& space) const;
+  /// Asks the law at all points; gives the sum that its loop leaves.
+  double sweep_law(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u, int fields_out,
+                   PointLoop loop, SweepSpace& space) const;
   void sweep_plane(int z, int z_point, Pass& pass, SweepSpace& space) const;
   void do_points(const std::array<int, 4>& place, Pass& pass, double* values) const;
   void place_memories(const SpanBox& box, std::size_t first_element, const SweepPlan& plan);
