@@ -148,8 +148,9 @@ Vector3 ContactTracker::nearest_image(const Candidate& candidate, const SurfaceP
                                       const Vector3& centre) const {
   const ImageElements* images = candidates_.image_elements(candidate);
   if (candidate.image_count == 1) return candidates_.images()[images[0].image];
-  const search::SurfaceProjector& patch = search_.projector().patch(at.patch);
-  const Vector3 S = nurbs::interpolate(patch.space(), patch.control_points(), at.xi);
+  nurbs::RationalBasis<2> basis;
+  nurbs::evaluate(search_.projector().surface(), at, 0, basis);
+  const Vector3 S = nurbs::interpolate(basis, search_.projector().control_points());
   const ImageElements* nearest = std::min_element(
       images, images + candidate.image_count, [&](const ImageElements& a, const ImageElements& b) {
         const auto distance = [&](const ImageElements& e) {

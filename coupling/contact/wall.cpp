@@ -16,7 +16,7 @@ Wall::Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange
     : structure_(structure),
       exchange_(exchange),
       surface_(structure.surface().topology),
-      projector_(surface_),
+      projector_(surface_, exchange.positions()),
       outward_sign_(structure.surface().outward_sign) {
   if (inverse_masses().cols() > 0) largest_inverse_mass_ = inverse_masses().maxCoeff();
 }
@@ -39,13 +39,13 @@ void Wall::import() {
   if (!imported_) return import_all();
   if (!deforms_) return;
   exchange_.import_followed();
-  projector_.set_control_points(control_points());
+  projector_.surface_moved();
 }
 
 void Wall::import_all() {
   if (imported_ && !deforms_) return;
   exchange_.import_surface();
-  projector_.set_control_points(control_points());
+  projector_.surface_moved();
   imported_ = true;
 }
 

@@ -28,7 +28,8 @@ struct Bernstein {
 
 }  // namespace
 
-void BezierElement::fetch(const Space<2>& space, const NodalVectors& control_points, int element) {
+void BezierElement::fetch(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points,
+                          int element) {
   NURBS_ASSERT(control_points.cols() == space.control_point_count(), control_points.cols(),
                space.control_point_count());
   const Indices<2> indices = space.element_indices(element);

@@ -10,7 +10,7 @@ namespace nurbs {
 class BezierElement {
  public:
   /// Fetches an element of the surface with these control points (3 x n).
-  void fetch(const Space<2>& space, const NodalVectors& control_points, int element);
+  void fetch(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points, int element);
 
   /// The closed element; a knot between two belongs to both.
   bool holds(const Parameter<2>& xi) const;

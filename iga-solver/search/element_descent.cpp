@@ -299,7 +299,7 @@ bool is_cached(int rows, int lines_per_row) {
 
 }  // namespace
 
-ElementStore::ElementStore(const Space<2>& space, SimdLevel level)
+ElementStore::ElementStore(const Space<2>& space, const PatchPoints& control_points, SimdLevel level)
     : space_(space),
       axes_{{space, 0}, {space, 1}},
       kernel_(element_kernel(space.degree(0), space.degree(1), space.rational(), level)),
@@ -307,6 +307,7 @@ ElementStore::ElementStore(const Space<2>& space, SimdLevel level)
       functions_(space.functions_per_element()),
       lines_per_row_((row_length(functions_, rational_) + 7) / 8),
       lines_to_fetch_(is_cached(space.element_count(), lines_per_row_) ? 0 : lines_per_row_),
+      control_points_(control_points),
       built_(space.element_count(), 0),
       lines_(new Line[static_cast<size_t>(space.element_count()) * lines_per_row_]) {}
 
@@ -318,9 +319,6 @@ void ElementStore::homogeneous_points(const int (&e)[2], Vector4* out) const {
 }
 
 void ElementStore::build(int e0, int e1, int index) const {
-  if (control_points_.cols() == 0) throw std::logic_error("no control points given before the first search");
-  NURBS_ASSERT(control_points_.cols() == space_.control_point_count(), control_points_.cols(),
-               space_.control_point_count());
   NURBS_ASSERT(0 <= e0 && e0 < count(0) && 0 <= e1 && e1 < count(1), e0, e1, count(0), count(1));
   kernel_.build(kernel_.p, kernel_.q, axis(0, e0).functions->power, axis(1, e1).functions->power, net(e0, e1),
                 row(index));

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "nurbs/processor.h"
+#include "search/patch_points.h"
 #include "search/power_element.h"
 #include "search/power_kernel.h"
 
@@ -17,16 +18,14 @@ namespace search {
 /// moved.
 class ElementStore {
  public:
-  explicit ElementStore(const Space<2>& space, SimdLevel level = simd_level());
-  void set_control_points(const Eigen::Ref<const NodalVectors>& control_points) {
-    control_points_ = control_points;
-    ++version_;
-  }
+  /// Looks at the control points when an element is converted.
+  ElementStore(const Space<2>& space, const PatchPoints& control_points, SimdLevel level = simd_level());
+  void surface_moved() { ++version_; }
   const ElementAxis& axis(int i) const { return axes_[i]; }
   const AxisElement& axis(int i, int e) const { return axes_[i][e]; }
   int count(int i) const { return axes_[i].count(); }
   const ElementKernel& kernel() const { return kernel_; }
-  const NodalVectors& control_points() const { return control_points_; }
+  const PatchPoints& control_points() const { return control_points_; }
   bool rational() const { return rational_; }
 
   struct Element {
@@ -64,7 +63,7 @@ class ElementStore {
   ElementKernel kernel_;
   bool rational_;
   int functions_, lines_per_row_, lines_to_fetch_;
-  NodalVectors control_points_;
+  PatchPoints control_points_;
   unsigned version_ = 1;
   mutable std::vector<unsigned> built_;
   std::unique_ptr<Line[]> lines_;  // rows of elements never used take no memory

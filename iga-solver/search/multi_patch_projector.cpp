@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "search/multi_patch_projector.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <stdexcept>
 
 #include "nurbs/assert.h"
 
@@ -12,14 +15,20 @@ constexpr double kEqual = 1.0 + 1e-14;  // of distances: round-off
 
 }  // namespace
 
-MultiPatchProjector::MultiPatchProjector(const MultiPatch& surface) : surface_(surface) {
-  for (int p = 0; p < surface.patch_count(); ++p)
-    patches_.push_back(std::make_unique<SurfaceProjector>(surface.patch(p)));
+MultiPatchProjector::MultiPatchProjector(const MultiPatch& surface, const NodalVectors& control_points)
+    : surface_(surface), control_points_(control_points) {
+  if (control_points.cols() != surface.control_point_count())
+    throw std::invalid_argument(fmt::format("{} control points given, expected {}", control_points.cols(),
+                                            surface.control_point_count()));
+  for (int p = 0; p < surface.patch_count(); ++p) {
+    const nurbs::Space<2>& patch = surface.patch(p);
+    const PatchPoints points(control_points, surface.first_control_point(p), patch.control_point_count());
+    patches_.push_back(std::make_unique<SurfaceProjector>(patch, points));
+  }
 }
 
-void MultiPatchProjector::set_control_points(const NodalVectors& control_points) {
-  for (int p = 0; p < surface_.patch_count(); ++p)
-    patches_[p]->set_control_points(surface_.control_points_of(p, control_points));
+void MultiPatchProjector::surface_moved() {
+  for (const std::unique_ptr<SurfaceProjector>& patch : patches_) patch->surface_moved();
 }
 
 void MultiPatchProjector::begin_list() {

@@ -14,14 +14,17 @@ namespace search {
 
 class MultiPatchProjector {
  public:
-  /// Keeps a reference to `surface`, which must outlive it.
-  explicit MultiPatchProjector(const MultiPatch& surface);
+  /// Keeps references to `surface` and the control points of all patches (3 x n), which must outlive it;
+  /// where these are stored may change.  Throws std::invalid_argument unless there is one column for each.
+  MultiPatchProjector(const MultiPatch& surface, const NodalVectors& control_points);
+  MultiPatchProjector(const MultiPatch& surface, const NodalVectors&& control_points) = delete;
 
-  /// New coordinates of all patches (3 x n, copied).
-  void set_control_points(const NodalVectors& control_points);
+  /// The control points have changed (SurfaceProjector::surface_moved).
+  void surface_moved();
   /// A list of candidates is new (SecondFoot::begin_list).
   void begin_list();
   const MultiPatch& surface() const { return surface_; }
+  const NodalVectors& control_points() const { return control_points_; }
   const SurfaceProjector& patch(int p) const { return *patches_[p]; }
 
   /// Local minimum reached from a point of the surface moved by `image`.
@@ -49,6 +52,7 @@ class MultiPatchProjector {
   bool leads_off_pole(const Vector3& d, const Foot& foot, int pole, Foot& beyond) const;
 
   const MultiPatch& surface_;
+  const NodalVectors& control_points_;
   std::vector<std::unique_ptr<SurfaceProjector>> patches_;
   mutable std::vector<Foot> found_;          // of one patch
   mutable std::vector<int> patch_elements_;  // candidates in the patch's own numbering

@@ -85,7 +85,7 @@ double sample_of(const KnotVector& knots, int element, int k) {
 
 /* ---------------------------------------------------------------------- now */
 
-SecondFoot::SecondFoot(const Space<2>& space, const NodalVectors& control_points)
+SecondFoot::SecondFoot(const Space<2>& space, const PatchPoints& control_points)
     : space_(space), control_points_(control_points) {
   for (int i = 0; i < 2; ++i) {
     const KnotVector& knots = space.knots(i);
@@ -143,13 +143,14 @@ double SecondFoot::reach(const ElementWindow& window) const {
                *factor_00 = axes_[0].second_factor.data() + begin[0];
   const double *factor_1 = &axes_[1].first_factor[begin[1]],
                *factor_11 = axes_[1].second_factor.data() + begin[1];
+  const Eigen::Map<const NodalVectors> points = control_points_.matrix();
   const auto index = [&](int k, int l) {
     return begin[0] + k + space_.control_point_count(0) * (begin[1] + l);
   };
   const int middle[2] = {count[0] / 2, count[1] / 2};  // not the first: there are two or more
-  const Vector3 origin = control_points_.col(index(middle[0], middle[1]));
-  const Eigen::Matrix3d to_frame = frame(origin - control_points_.col(index(middle[0] - 1, middle[1])),
-                                         origin - control_points_.col(index(middle[0], middle[1] - 1)));
+  const Vector3 origin = points.col(index(middle[0], middle[1]));
+  const Eigen::Matrix3d to_frame = frame(origin - points.col(index(middle[0] - 1, middle[1])),
+                                         origin - points.col(index(middle[0], middle[1] - 1)));
   if (!to_frame.allFinite() || !(to_frame.row(2).squaredNorm() > 0.0)) return 0.0;
 
   Derivatives x;
@@ -158,7 +159,7 @@ double SecondFoot::reach(const ElementWindow& window) const {
     Vector4 before = Vector4::Zero(), X_0_before = before, X_1_before = before;  // at k - 1
     for (int k = 0; k < count[0]; ++k) {
       const int a = index(k, l);
-      const Vector3 g = to_frame * (control_points_.col(a) - origin);
+      const Vector3 g = to_frame * (points.col(a) - origin);
       const double w = space_.weight(a);
       x.size2 = std::max(x.size2, g.squaredNorm());
       x.W_max = std::max(x.W_max, w);
@@ -230,7 +231,7 @@ void SecondFoot::measure(int element, Shape& shape) const {
 
 void SecondFoot::sample(int element, Shape& shape) const {
   const nurbs::SurfaceShape centre =
-      nurbs::shape_on_element(space_, control_points_, element, space_.element_centre(element));
+      nurbs::shape_on_element(space_, control_points_.matrix(), element, space_.element_centre(element));
   const Indices<2> e = space_.element_indices(element);
   shape.sampled = true;
   shape.centre = centre.point;
@@ -239,7 +240,8 @@ void SecondFoot::sample(int element, Shape& shape) const {
   for (int j = 0; j < kSamples; ++j)
     for (int i = 0; i < kSamples; ++i) {
       const Parameter<2> xi{sample_of(space_.knots(0), e[0], i), sample_of(space_.knots(1), e[1], j)};
-      const nurbs::SurfaceShape sample = nurbs::shape_on_element(space_, control_points_, element, xi);
+      const nurbs::SurfaceShape sample =
+          nurbs::shape_on_element(space_, control_points_.matrix(), element, xi);
       if (!std::isfinite(sample.curvature[0])) continue;  // a pole: a kink, see measure
       shape.least = std::min(shape.least, sample.curvature[0]);
       shape.greatest = std::max(shape.greatest, sample.curvature[1]);
@@ -278,7 +280,7 @@ bool SecondFoot::smooth_side(const Indices<2>& element, int side) const {
     xi[i] = knot;
     xi[1 - i] = sample_of(space_.knots(1 - i), element[1 - i], k);
     const auto normal = [&](const Indices<2>& e) {
-      return nurbs::shape_on_element(space_, control_points_, space_.element_index(e), xi).normal;
+      return nurbs::shape_on_element(space_, control_points_.matrix(), space_.element_index(e), xi).normal;
     };
     const Vector3 here = normal(element), there = normal(beyond);
     if (!(here.dot(there) > 0.0 && here.cross(there).norm() <= kFlush)) return false;

@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "search/box.h"
+#include "search/patch_points.h"
 #include "search/surface_tree.h"
 
 namespace search {
@@ -39,7 +40,7 @@ class SecondFoot {
  public:
   /// Of one patch.  Keeps references to both; the control points (3 x n) are looked at when an answer is
   /// worked out.
-  SecondFoot(const Space<2>& space, const NodalVectors& control_points);
+  SecondFoot(const Space<2>& space, const PatchPoints& control_points);
 
   /// Sine of an angle between tangent planes that counts as none.
   static constexpr double kFlush = 1e-6;
@@ -95,7 +96,7 @@ class SecondFoot {
   bool smooth_side(const Indices<2>& element, int side) const;
 
   const Space<2>& space_;
-  const NodalVectors& control_points_;
+  PatchPoints control_points_;
   Axis axes_[2];
   unsigned version_ = 1;
   int blocks_[kLevels];  // per row

@@ -26,7 +26,7 @@ constexpr int kMaxIterations = 25;
 // The squared distance and its half gradient as functions of x, the parameters in elements from the guess.
 class DistanceTo {
  public:
-  DistanceTo(const Vector3& d, const Space<2>& space, const NodalVectors& control_points,
+  DistanceTo(const Vector3& d, const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points,
              const Parameter<2>& guess)
       : d_(d), space_(space), control_points_(control_points) {
     for (int i = 0; i < 2; ++i) {
@@ -91,7 +91,7 @@ class DistanceTo {
 
   const Vector3& d_;
   const Space<2>& space_;
-  const NodalVectors& control_points_;
+  const Eigen::Ref<const NodalVectors>& control_points_;
   Vector2 origin_, unit_, low_, high_;
   mutable nurbs::BezierElement element_;  // the last one visited
 };
@@ -116,15 +116,16 @@ Foot brent_from(const DistanceTo& distance, const Vector2& start) {
 
 }  // namespace
 
-Foot closest_point_simplex_brent(const Space<2>& space, const NodalVectors& control_points, const Vector3& d,
-                                 const Parameter<2>& guess, bool warm) {
+Foot closest_point_simplex_brent(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points,
+                                 const Vector3& d, const Parameter<2>& guess, bool warm) {
   const DistanceTo distance(d, space, control_points, guess);
   const Vector2 origin = Vector2::Zero();
   if (warm) return brent_from(distance, origin);
   return brent_from(distance, simplex_minimum(distance, origin, kFirstEdge * distance.inward(), kHalvings));
 }
 
-Foot closest_point_simplex_brent_on_elements(const Space<2>& space, const NodalVectors& control_points,
+Foot closest_point_simplex_brent_on_elements(const Space<2>& space,
+                                             const Eigen::Ref<const NodalVectors>& control_points,
                                              const Vector3& d, const int* elements, int element_count) {
   if (element_count < 1) throw std::invalid_argument("no elements given, expected at least 1");
   Foot best{};

@@ -15,13 +15,14 @@ namespace search {
 /// Status `interior`: a minimum of the distance strictly inside the patch, not farther than the start;
 /// otherwise `not_converged`, with the start for a foot.  `iterations` are Brent's sweeps, as the paper
 /// counts. Lengths of parameters are relative to the guess's element.  No allocation.
-Foot closest_point_simplex_brent(const Space<2>& space, const NodalVectors& control_points, const Vector3& d,
-                                 const Parameter<2>& guess, bool warm);
+Foot closest_point_simplex_brent(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points,
+                                 const Vector3& d, const Parameter<2>& guess, bool warm);
 
 /// Nearest of the feet found from the centres of the given elements (cold search on candidates of a
 /// SurfaceTree); the first that is `not_converged` is returned at once, since the nearest may be missing
 /// then. Throws std::invalid_argument if there are no elements.
-Foot closest_point_simplex_brent_on_elements(const Space<2>& space, const NodalVectors& control_points,
+Foot closest_point_simplex_brent_on_elements(const Space<2>& space,
+                                             const Eigen::Ref<const NodalVectors>& control_points,
                                              const Vector3& d, const int* elements, int element_count);
 
 }  // namespace search

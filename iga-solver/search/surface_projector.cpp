@@ -47,16 +47,19 @@ DescentResult descend_past_poles(const ElementStore& elements, const Vector3& d,
 
 }  // namespace
 
-SurfaceProjector::SurfaceProjector(const Space<2>& space, SimdLevel level)
+SurfaceProjector::SurfaceProjector(const Space<2>& space, const PatchPoints& control_points, SimdLevel level)
     : space_(space),
-      elements_(space, level),
+      elements_(space, control_points, level),
       products_(product_terms(space.degree(0), space.degree(1))),
       tree_(space),
-      second_foot_(space, elements_.control_points()),
+      second_foot_(space, control_points),
       box_version_(space.element_count(), 0),
       net_version_(space.element_count(), 0),
       boxes_(new Box[space.element_count()]),
       nets_(static_cast<size_t>(space.element_count()) * space.functions_per_element()) {
+  if (control_points.cols() != space.control_point_count())
+    throw std::invalid_argument(fmt::format("{} control points given, expected {}", control_points.cols(),
+                                            space.control_point_count()));
   const int p = space.degree(0), q = space.degree(1);
   for (int j = 0; j <= q; ++j)
     for (int i = 0; i <= p; ++i) binomials_.push_back(nurbs::binomial(p, i) * nurbs::binomial(q, j));
@@ -64,11 +67,8 @@ SurfaceProjector::SurfaceProjector(const Space<2>& space, SimdLevel level)
 
 SurfaceProjector::~SurfaceProjector() = default;
 
-void SurfaceProjector::set_control_points(const Eigen::Ref<const NodalVectors>& control_points) {
-  if (control_points.cols() != space_.control_point_count())
-    throw std::invalid_argument(fmt::format("{} control points given, expected {}", control_points.cols(),
-                                            space_.control_point_count()));
-  elements_.set_control_points(control_points);
+void SurfaceProjector::surface_moved() {
+  elements_.surface_moved();
   second_foot_.surface_moved();
   tree_current_ = false;
   ++version_;

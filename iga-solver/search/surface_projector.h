@@ -28,8 +28,9 @@ struct ProductTerm;
 struct Reached;
 struct Search;
 
-/// All lengths in those of the control points.  Results do not depend on earlier calls.  Elements and tree
-/// are brought up to date when first used, by const members too: one object must not be shared by threads.
+/// All lengths in those of the control points, which the caller keeps and moves.  Results do not depend on
+/// earlier calls.  Elements and tree are brought up to date when first used, by const members too: one object
+/// must not be shared by threads.
 /// Tolerances are relative to the size of the surface and the round-off of its evaluation.  A search ends as
 /// not_converged if lengths are not finite, and never else.  None allocates, but for the list of
 /// all_minima and the first search over the tree after the surface moved.
@@ -40,16 +41,17 @@ struct Search;
 /// same arguments: batches give what single searches give, bit by bit.
 class SurfaceProjector {
  public:
-  /// Keeps a reference to `space`, which must outlive it.  Results of different instruction sets differ by
-  /// round-off.  Throws std::invalid_argument if `level` is not available.
-  explicit SurfaceProjector(const Space<2>& space, SimdLevel level = simd_level());
+  /// Keeps references to `space` and to the control points (3 x n), which must outlive it.  Results of
+  /// different instruction sets differ by round-off.  Throws std::invalid_argument unless there is one column
+  /// per control point, or if `level` is not available.
+  SurfaceProjector(const Space<2>& space, const PatchPoints& control_points, SimdLevel level = simd_level());
   SurfaceProjector(const SurfaceProjector&) = delete;
   SurfaceProjector& operator=(const SurfaceProjector&) = delete;
   ~SurfaceProjector();
 
-  /// New coordinates (3 x n, copied).  Throws std::invalid_argument unless there is one column per control
-  /// point.
-  void set_control_points(const Eigen::Ref<const NodalVectors>& control_points);
+  /// The control points have changed: whatever was worked out of them is out of date.  None is looked at
+  /// here, and later those alone that a search needs.
+  void surface_moved();
 
   /// Local minimum reached from `guess`, not above it; the global one where the descent gets stuck.
   Foot warm(const Vector3& d, const Parameter<2>& guess) const { return warm_from(d, start(guess)); }
@@ -96,8 +98,7 @@ class SurfaceProjector {
   /// Where there is no second foot; begin_list() is up to the caller.
   SecondFoot& second_foot() { return second_foot_; }
   const SecondFoot& second_foot() const { return second_foot_; }
-  /// Those given last.
-  const NodalVectors& control_points() const { return elements_.control_points(); }
+  Eigen::Map<const NodalVectors> control_points() const { return elements_.control_points().matrix(); }
 
  private:
   LocalPoint local(const Parameter<2>& xi) const {

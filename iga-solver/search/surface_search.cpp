@@ -19,8 +19,7 @@ constexpr double kReach = 1.0 - 1e-6;      // of a proved reach: safe from round
 // The nearest foot, from search.best if there is one, or all within the bound.
 void SurfaceProjector::search_tree(Search& search) const {
   if (!tree_current_) {
-    elements_.element({0, 0});  // throws if there are no control points
-    tree_.refit(elements_.control_points());
+    tree_.refit(control_points());
     tree_current_ = true;
   }
   if (!search.d.allFinite()) return;
@@ -32,7 +31,6 @@ void SurfaceProjector::search_tree(Search& search) const {
 // The same on some elements.
 void SurfaceProjector::search_elements(const int* elements, int count, Search& search) const {
   if (count < 1) return;
-  elements_.element({0, 0});  // throws if there are no control points
   Box bounds = box(elements[0]);
   int first = 0;
   double least = Search::kInfinity;
@@ -57,7 +55,7 @@ void SurfaceProjector::search_elements(const int* elements, int count, Search& s
 const Box& SurfaceProjector::box(int element) const {
   NURBS_ASSERT(0 <= element && element < space_.element_count(), element, space_.element_count());
   if (box_version_[element] != version_) {
-    boxes_[element] = element_box(space_, elements_.control_points(), element);
+    boxes_[element] = element_box(space_, control_points(), element);
     box_version_[element] = version_;
   }
   return boxes_[element];
@@ -152,7 +150,7 @@ bool SurfaceProjector::beyond(int element, const Search& search) const {
   int indices[power(kMaxDegree + 1, 2)];
   space_.element_control_points(element, indices);
   const int count = space_.functions_per_element();
-  const NodalVectors& points = elements_.control_points();
+  const PatchPoints& points = elements_.control_points();
   const Vector3 direction = points.col(indices[count / 2]) - search.d;
   double least = Search::kInfinity;
   for (int a = 0; a < count; ++a) least = std::min(least, direction.dot(points.col(indices[a]) - search.d));

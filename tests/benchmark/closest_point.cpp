@@ -39,9 +39,8 @@ struct Case {
         n(n),
         surface(make_surface(name, n)),
         queries(make_queries(surface, kPoints)),
-        ours(surface.space),
+        ours(surface.space, surface.control_points),
         opencascade(surface) {
-    ours.set_control_points(surface.control_points);
     for (const Query& query : queries) points.push_back(query.d), guesses.push_back(query.guess);
   }
 
@@ -140,9 +139,9 @@ void add_batch(Case& c, const std::string& name, const search::SurfaceProjector&
 void add_levels(Case& c) {
   for (const SimdLevel level : {SimdLevel::portable, SimdLevel::avx2, SimdLevel::avx512}) {
     if (!nurbs::available(level)) continue;
-    c.levels.push_back(std::make_unique<search::SurfaceProjector>(c.surface.space, level));
+    c.levels.push_back(
+        std::make_unique<search::SurfaceProjector>(c.surface.space, c.surface.control_points, level));
     const search::SurfaceProjector& ours = *c.levels.back();
-    c.levels.back()->set_control_points(c.surface.control_points);
     add_warm(c, std::string("warm/") + nurbs::name(level), ours);
     add_batch(c, std::string("batch/") + nurbs::name(level), ours);
   }
@@ -165,9 +164,9 @@ void add_searches(Case& c) {
 /// Power form of all elements; the projector does the same, for each element when it is first used.
 void add_rebuild(Case& c) {
   benchmark::RegisterBenchmark(("rebuild/ours" + c.label).c_str(), [&c](benchmark::State& state) {
-    search::ElementStore elements(c.surface.space);
+    search::ElementStore elements(c.surface.space, c.surface.control_points);
     while (state.KeepRunningBatch(c.surface.space.element_count())) {
-      elements.set_control_points(c.surface.control_points);
+      elements.surface_moved();
       for (int j = 0; j < c.n; ++j)
         for (int i = 0; i < c.n; ++i) benchmark::DoNotOptimize(elements.element({i, j}).row);
     }
@@ -178,7 +177,7 @@ void add_rebuild(Case& c) {
 void add_refit(Case& c) {
   benchmark::RegisterBenchmark(("refit/ours" + c.label).c_str(), [&c](benchmark::State& state) {
     while (state.KeepRunningBatch(c.surface.space.element_count())) {
-      c.ours.set_control_points(c.surface.control_points);
+      c.ours.surface_moved();
       benchmark::DoNotOptimize(c.ours.cold(c.queries.front().d));
     }
   });
@@ -204,7 +203,7 @@ void add_steps(Case& c) {
   benchmark::RegisterBenchmark(("step/ours" + c.label).c_str(), [&c](benchmark::State& state) {
     nurbs::NodalVectors f(3, c.surface.space.control_point_count());
     while (state.KeepRunningBatch(kPoints)) {
-      c.ours.set_control_points(c.surface.control_points);
+      c.ours.surface_moved();
       f.setZero();
       search::SurfaceProjector::Start start = c.ours.start(c.queries[0].guess);
       for (size_t i = 0; i < c.queries.size(); ++i) {
@@ -221,7 +220,7 @@ void add_steps(Case& c) {
     nurbs::NodalVectors f(3, c.surface.space.control_point_count());
     Batch batch;
     while (state.KeepRunningBatch(kPoints)) {
-      c.ours.set_control_points(c.surface.control_points);
+      c.ours.surface_moved();
       f.setZero();
       for (int i = 0; i < kPoints; i += kBatch) {
         const search::Foot* feet = batch.feet(c, c.ours, i);

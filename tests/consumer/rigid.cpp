@@ -9,8 +9,7 @@
 int main() {
   const auto knots = nurbs::KnotVector::uniform(3, 4);
   const coupling::RigidSurface plane({nurbs::plane({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {knots, knots})});
-  search::SurfaceProjector projector(plane.surface().topology.patch(0));
-  projector.set_control_points(plane.positions());
+  const search::SurfaceProjector projector(plane.surface().topology.patch(0), plane.positions());
   const search::Foot foot = projector.cold({0.3, 0.6, 0.25});
   return std::abs(foot.distance - 0.25) < 1e-14 ? 0 : 1;
 }

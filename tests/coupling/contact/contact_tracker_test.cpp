@@ -25,13 +25,12 @@ class Scene {
   Scene(const std::vector<nurbs::Surface>& patches, std::vector<Vector3> centres, double touch, double list,
         std::vector<Vector3> images = {Vector3::Zero()}, int slot_count = 2)
       : surface_(nurbs::join(patches)),
-        projector_(surface_.topology),
+        projector_(surface_.topology, surface_.control_points),
         search_(SearchMethod::newton, projector_),
         tracker_(search_, candidates_),
         centres_(std::move(centres)),
         touch_(touch),
         list_(list) {
-    projector_.set_control_points(surface_.control_points);
     projector_.begin_list();
     candidates_.set_surface(surface_.topology, surface_.control_points);
     std::vector<double> empty = {ContactSlot::kEmpty, 0.0, 0.0};

@@ -102,8 +102,7 @@ class BruteForce {
 int expect_all_minima(const Surface& surface, const Vector3& low, const Vector3& high, double reach) {
   constexpr int kPoints = 40;
   Random random(31);
-  SurfaceProjector projector(surface.space);
-  projector.set_control_points(surface.control_points);
+  const SurfaceProjector projector(surface.space, surface.control_points);
   const judge::DistanceBound bound(surface);
   std::vector<int> elements(surface.space.element_count());
   std::iota(elements.begin(), elements.end(), 0);

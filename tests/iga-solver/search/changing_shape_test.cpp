@@ -59,13 +59,13 @@ TEST(ChangingShape, EverySearchIsThatOfANewProjector) {
           Space<2>(sheet.space.knots(), shapes::random_weights(random, sheet.space.control_point_count()));
     const std::vector<int> elements = all_elements(sheet.space.element_count());
     const int count = static_cast<int>(elements.size());
-    SurfaceProjector old(sheet.space);
+    NodalVectors points = sheet.control_points;
+    SurfaceProjector old(sheet.space, points);
     for (int step = 0; step < 24; ++step) {
       SCOPED_TRACE(testing::Message() << "step " << step << (rational ? ", rational" : ""));
-      const NodalVectors points = shape(sheet, step);
-      SurfaceProjector fresh(sheet.space);
-      fresh.set_control_points(points);
-      old.set_control_points(points);
+      points = shape(sheet, step);
+      const SurfaceProjector fresh(sheet.space, points);
+      old.surface_moved();
       std::vector<Vector3> d;
       std::vector<Parameter<2>> guesses;
       for (int k = 0; k < 20; ++k) {
@@ -114,12 +114,12 @@ TEST(ChangingShape, EverySearchIsThatOfANewProjector) {
 TEST(ChangingShape, ATroughHasTwoFeetWhereTheFlatSheetHadOne) {
   const Surface strip =
       plane({0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {KnotVector::uniform(2, 32), KnotVector::uniform(2, 8)});
-  SurfaceProjector projector(strip.space);
+  NodalVectors points = strip.control_points;
+  SurfaceProjector projector(strip.space, points);
   const auto bend = [&](double depth) {
-    NodalVectors points = strip.control_points;
     for (Eigen::Index a = 0; a < points.cols(); ++a)
       points(2, a) = depth * std::pow(2.0 * points(0, a) - 1.0, 2);
-    projector.set_control_points(points);
+    projector.surface_moved();
   };
   std::vector<Foot> feet;
   for (int turn = 0; turn < 3; ++turn) {
@@ -151,13 +151,14 @@ TEST(ChangingShape, PatchesFollowTogether) {
   const PatchedSurface ball = join(patches);
   const std::vector<int> elements = all_elements(ball.topology.element_count());
   const int count = static_cast<int>(elements.size());
-  MultiPatchProjector old(ball.topology);
+  NodalVectors points = ball.control_points;
+  MultiPatchProjector old(ball.topology, points);
   shapes::Random random(52);
   for (int step = 0; step < 12; ++step) {
     const Vector3 axes(1.0 + 0.3 * (step % 3), 1.0 - 0.2 * (step % 2), 1.0 + 0.5 * (step % 4));
-    const NodalVectors points = axes.asDiagonal() * ball.control_points;
-    MultiPatchProjector fresh(ball.topology);
-    for (MultiPatchProjector* projector : {&old, &fresh}) projector->set_control_points(points);
+    points = axes.asDiagonal() * ball.control_points;
+    const MultiPatchProjector fresh(ball.topology, points);
+    old.surface_moved();
     for (int k = 0; k < 40; ++k) {
       const Vector3 d = 2.0 * Vector3::NullaryExpr([&] { return shapes::uniform(random, -1.0, 1.0); });
       std::vector<Foot> feet, expected;

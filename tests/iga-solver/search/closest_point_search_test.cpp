@@ -133,8 +133,7 @@ TEST(ClosestPointSearch, CandidatesOfATree) {
       shapes::random_hills(random, {KnotVector::uniform(2, 12), KnotVector::uniform(2, 9)}, 0.2, true);
   SurfaceTree tree(hills.space);
   tree.refit(hills.control_points);
-  SurfaceProjector projector(hills.space);
-  projector.set_control_points(hills.control_points);
+  const SurfaceProjector projector(hills.space, hills.control_points);
   std::vector<int> candidates;
   int within_reach = 0;
   for (int k = 0; k < 500; ++k) {
@@ -158,8 +157,7 @@ TEST(ClosestPointSearch, WarmStartsFollow) {
   shapes::Random random(15);
   const Surface hills =
       shapes::random_hills(random, {KnotVector::uniform(2, 8), KnotVector::uniform(3, 8)}, 0.005, true);
-  SurfaceProjector projector(hills.space);
-  projector.set_control_points(hills.control_points);
+  const SurfaceProjector projector(hills.space, hills.control_points);
   Parameter<2> xi = projector.cold({0.5, 0.5, 0.08}).xi;
   constexpr int steps = 2000;
   int most = 0;

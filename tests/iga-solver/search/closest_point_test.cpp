@@ -242,8 +242,7 @@ TEST(ClosestPoint, EveryElementIsSearchedForItself) {
       0, 0, 0, 1, 1, 1,                       //
       0, 0, 4, 0, 0, 4;
   const int elements[] = {1, 0};
-  SurfaceProjector projector(fold.space);
-  projector.set_control_points(fold.control_points);
+  const SurfaceProjector projector(fold.space, fold.control_points);
   const Foot p = projector.cold_on({8, 0.4, 1.5}, elements, 2);
   EXPECT_NEAR(p.distance, 1.5, 1e-15);
   EXPECT_NEAR(p.xi[0], 0.8, 1e-15);

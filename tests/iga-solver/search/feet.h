@@ -9,14 +9,12 @@
 namespace search {
 
 inline Foot closest(const nurbs::Surface& surface, const Vector3& d) {
-  SurfaceProjector projector(surface.space);
-  projector.set_control_points(surface.control_points);
+  const SurfaceProjector projector(surface.space, surface.control_points);
   return projector.cold(d);
 }
 
 inline Foot closest_from(const nurbs::Surface& surface, const Vector3& d, const Parameter<2>& guess) {
-  SurfaceProjector projector(surface.space);
-  projector.set_control_points(surface.control_points);
+  const SurfaceProjector projector(surface.space, surface.control_points);
   return projector.warm(d, guess);
 }
 

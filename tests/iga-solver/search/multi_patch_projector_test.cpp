@@ -35,8 +35,7 @@ TEST(MultiPatchProjector, MinimaAtASeam) {
       return sphere(place, 1.0, refined(arc(from, to), 8, 2), refined(arc(-90, 0), 4, 2));
     };
     for (const PatchedSurface& ball : {join({part(0, 360)}), join({part(0, 180), part(180, 360)})}) {
-      MultiPatchProjector projector(ball.topology);
-      projector.set_control_points(ball.control_points);
+      const MultiPatchProjector projector(ball.topology, ball.control_points);
       for (const double off : {0.0, 1e-19, 1e-17, 1e-16, 2e-16, 3e-16, 1e-15, 1e-13, 1e-9})
         for (const double y : {-off, off})
           for (int k = 1; k < 200; ++k) {
@@ -67,8 +66,7 @@ TEST(MultiPatchProjector, MinimaAtASharedPole) {
   for (const int meridians : {4, 12})
     for (const int open : {0, 1}) {
       const PatchedSurface ball = ball_of(2, meridians, meridians - open);
-      MultiPatchProjector projector(ball.topology);
-      projector.set_control_points(ball.control_points);
+      const MultiPatchProjector projector(ball.topology, ball.control_points);
       for (const double pole : {-1.0, 1.0})
         for (const double distance : {0.92, 0.999, 1.001, 1.08})
           for (int k = 0; k < 40; ++k) {
@@ -100,8 +98,7 @@ TEST(MultiPatchProjector, MinimaAtAPoleOnAPeriodicFace) {
   const std::vector<Surface> halves = {half({0, 0, 0}, -90), half(period, 90)};
   PatchedSurface ball = join(halves);
   ball.topology.set_borders(find_borders(halves, 1e-9, {period}));
-  MultiPatchProjector projector(ball.topology);
-  projector.set_control_points(ball.control_points);
+  const MultiPatchProjector projector(ball.topology, ball.control_points);
   for (const double pole : {-1.0, 1.0})
     for (const double distance : {0.92, 1.08})
       for (int k = 0; k < 40; ++k) {
@@ -119,8 +116,7 @@ TEST(MultiPatchProjector, MinimaAtAPoleOnAPeriodicFace) {
 // feet, followed together from patch to patch, are where theory has them.
 TEST(MultiPatchProjector, FollowsManyAcrossBorders) {
   const PatchedSurface ball = ball_of(3);
-  MultiPatchProjector projector(ball.topology);
-  projector.set_control_points(ball.control_points);
+  const MultiPatchProjector projector(ball.topology, ball.control_points);
   constexpr int kPoints = 150, kSteps = 60;  // more than are taken at a time
   const Vector3 images[2] = {Vector3::Zero(), Vector3(40.0, -30.0, 20.0)};
   std::vector<Vector3> d(kPoints);
@@ -172,8 +168,7 @@ TEST(MultiPatchProjector, OneFootOutsideACube) {
     faces.push_back({face.space, solid.control_points(Eigen::all, face.volume_control_point)});
   }
   const PatchedSurface surface = join(faces);
-  MultiPatchProjector projector(surface.topology);
-  projector.set_control_points(surface.control_points);
+  const MultiPatchProjector projector(surface.topology, surface.control_points);
   shapes::Random random(61);
   int on_faces_edges_corners[4] = {};
   for (int k = 0; k < 1000; ++k) {
@@ -197,8 +192,7 @@ TEST(MultiPatchProjector, FootOnAPeriodicFloor) {
                                         plane({2, 1, 0}, {-1, 0, 0}, {0, -1, 0}, knots)};
   PatchedSurface floor = join(patches);
   floor.topology.set_borders(find_borders(patches, 1e-9, {period_x, period_y}));
-  MultiPatchProjector projector(floor.topology);
-  projector.set_control_points(floor.control_points);
+  const MultiPatchProjector projector(floor.topology, floor.control_points);
   for (const double way : {-1.0, 1.0}) {
     SurfacePoint at{0, {0.5, 0.5}};
     Vector3 image = Vector3::Zero();

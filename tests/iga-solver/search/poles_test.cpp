@@ -19,8 +19,7 @@ using namespace nurbs;
 using Status = FootStatus;
 
 std::vector<Foot> minima(const Surface& surface, const Vector3& d) {
-  SurfaceProjector projector(surface.space);
-  projector.set_control_points(surface.control_points);
+  const SurfaceProjector projector(surface.space, surface.control_points);
   std::vector<Foot> all;
   projector.all_minima(d, 100.0, all);
   return all;
@@ -109,8 +108,7 @@ TEST(Poles, SeamOfACylinder) {
   constexpr double kRadius = 10.0;
   const Surface tube =
       cylinder(frame({0, 0, 0}, {0, 0, 1}), kRadius, 20, sector(360, 4), KnotVector::uniform(2, 3));
-  SurfaceProjector projector(tube.space);
-  projector.set_control_points(tube.control_points);
+  const SurfaceProjector projector(tube.space, tube.control_points);
   std::vector<int> elements(tube.space.element_count());
   std::iota(elements.begin(), elements.end(), 0);
   shapes::Random random(41);
@@ -155,8 +153,7 @@ TEST(Poles, BesideTheCentreOfASphere) {
   const Vector3 centre(0.3, -0.2, 0.1);
   const Surface ball =
       sphere(frame(centre, {1, 2, 2}), kRadius, refined(arc(0, 360), 8, 3), refined(arc(-90, 90), 4, 3));
-  SurfaceProjector projector(ball.space);
-  projector.set_control_points(ball.control_points);
+  const SurfaceProjector projector(ball.space, ball.control_points);
   std::vector<int> elements(ball.space.element_count());
   std::iota(elements.begin(), elements.end(), 0);
   shapes::Random random(43);

@@ -29,8 +29,8 @@ constexpr double kTolerance = 1e-9;  // of distances, relative
 
 // A projector that owns its surface.
 struct Projector {
-  explicit Projector(Surface given) : surface(std::move(given)), search(surface.space), tree(surface.space) {
-    search.set_control_points(surface.control_points);
+  explicit Projector(Surface given)
+      : surface(std::move(given)), search(surface.space, surface.control_points), tree(surface.space) {
     tree.refit(surface.control_points);
   }
   Surface surface;

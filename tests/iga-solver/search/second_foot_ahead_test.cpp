@@ -20,8 +20,9 @@ using namespace nurbs;
 // A surface, at the moment of a new list; the element by the parameters of a point in it.
 class Subject {
  public:
-  explicit Subject(PatchedSurface surface) : surface_(std::move(surface)), projector_(surface_.topology) {
-    move(surface_.control_points);
+  explicit Subject(PatchedSurface surface)
+      : surface_(std::move(surface)), projector_(surface_.topology, surface_.control_points) {
+    projector_.begin_list();
   }
   bool excluded(const Vector3& d, double reach, const Parameter<2>& xi, int patch = 0) const {
     const int element =
@@ -29,7 +30,8 @@ class Subject {
     return projector_.excludes_second_foot(d, reach, element);
   }
   void move(const NodalVectors& points) {
-    projector_.set_control_points(points);
+    surface_.control_points = points;
+    projector_.surface_moved();
     projector_.begin_list();
   }
 

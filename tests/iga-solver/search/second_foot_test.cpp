@@ -23,8 +23,7 @@ struct Subject {
   PatchedSurface surface;
   MultiPatchProjector projector;
   explicit Subject(const std::vector<Surface>& patches)
-      : surface(join(patches)), projector(surface.topology) {
-    projector.set_control_points(surface.control_points);
+      : surface(join(patches)), projector(surface.topology, surface.control_points) {
     projector.begin_list();
   }
   double now(int level, const Parameter<2>& xi, int patch = 0) const {

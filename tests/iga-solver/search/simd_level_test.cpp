@@ -47,8 +47,7 @@ struct Query {
 
 // Near the surface and far from it, above edges, corners and knot lines, guesses up to two elements off.
 std::vector<Query> queries(shapes::Random& random, const TrialSurface& trial, int count) {
-  SurfaceProjector projector(trial.surface.space);
-  projector.set_control_points(trial.surface.control_points);
+  const SurfaceProjector projector(trial.surface.space, trial.surface.control_points);
   std::vector<Query> result(count);
   constexpr double kOff[] = {0.0, 0.01, 0.2, 2.0};
   for (int k = 0; k < count; ++k) {
@@ -71,8 +70,7 @@ TEST(SimdLevel, BatchesFindTheFeetOfSinglePoints) {
     std::vector<Parameter<2>> guesses;
     for (const Query& query : given) d.push_back(query.d), guesses.push_back(query.guess);
     for (const SimdLevel level : levels()) {
-      SurfaceProjector projector(trial.surface.space, level);
-      projector.set_control_points(trial.surface.control_points);
+      const SurfaceProjector projector(trial.surface.space, trial.surface.control_points, level);
       const std::vector<Foot> batch = closest_from(projector, d, guesses);
       for (size_t i = 0; i < given.size(); ++i) {
         const Foot one = projector.warm(d[i], guesses[i]);
@@ -95,11 +93,9 @@ TEST(SimdLevel, LevelsAgree) {
     std::seed_seq seeds{42, k};
     shapes::Random random(seeds);
     const TrialSurface trial = random_surface(random, static_cast<Family>(k % kFamilies));
-    SurfaceProjector portable(trial.surface.space, SimdLevel::portable);
-    portable.set_control_points(trial.surface.control_points);
+    const SurfaceProjector portable(trial.surface.space, trial.surface.control_points, SimdLevel::portable);
     for (const SimdLevel level : levels()) {
-      SurfaceProjector projector(trial.surface.space, level);
-      projector.set_control_points(trial.surface.control_points);
+      const SurfaceProjector projector(trial.surface.space, trial.surface.control_points, level);
       for (const Query& query : queries(random, trial, 12)) {
         const Foot expected = portable.cold(query.d), found = projector.cold(query.d);
         SCOPED_TRACE(testing::Message() << name(level) << ", surface " << k);

@@ -39,8 +39,7 @@ TEST(SurfaceProjector, PowerFormIsTheSurface) {
   shapes::Random random(21);
   for (int k = 0; k < 40; ++k) {
     const Surface surface = shapes::random_patch<2>(random, 5, 3, k % 2 == 1);
-    ElementStore elements(surface.space);
-    elements.set_control_points(surface.control_points);
+    const ElementStore elements(surface.space, surface.control_points);
     const Indices<2> e = {k % 3, k % 2};
     const int local[2] = {e[0], e[1]};
     const double s[2] = {shapes::uniform(random, -1, 1), shapes::uniform(random, -1, 1)};
@@ -83,8 +82,7 @@ TEST(SurfaceProjector, ColdIsTheNearest) {
     if (k % 10 == 4)  // a pole
       for (int i = 0; i < surface.space.control_point_count(0); ++i)
         surface.control_points.col(i) = surface.control_points.col(0);
-    SurfaceProjector projector(surface.space);
-    projector.set_control_points(surface.control_points);
+    const SurfaceProjector projector(surface.space, surface.control_points);
     const judge::DistanceBound bound(surface);
     const std::vector<int> elements = all_elements(surface);
     for (int trial = 0; trial < 5; ++trial) {
@@ -114,8 +112,7 @@ TEST(SurfaceProjector, AllMinimaHoldsEveryWarmResult) {
   std::vector<Foot> minima;
   for (int k = 0; k < 20; ++k) {
     const Surface surface = shapes::random_patch<2>(random, 4, 1 + k % 3, k % 2 > 0);
-    SurfaceProjector projector(surface.space);
-    projector.set_control_points(surface.control_points);
+    const SurfaceProjector projector(surface.space, surface.control_points);
     const Vector3 d = random_point(random);
     const double nearest = projector.cold(d).distance, reach = 1.5 * nearest;
     projector.all_minima(d, reach, minima);
@@ -139,13 +136,13 @@ TEST(SurfaceProjector, AllMinimaHoldsEveryWarmResult) {
 // Elements and boxes follow the control points; a shift moves the feet and nothing else.
 TEST(SurfaceProjector, FollowsMovedControlPoints) {
   shapes::Random random(24);
-  const Surface hills =
+  Surface hills =
       shapes::random_hills(random, {KnotVector::uniform(2, 8), KnotVector::uniform(3, 8)}, 0.1, true);
-  SurfaceProjector projector(hills.space);
-  projector.set_control_points(hills.control_points);
+  SurfaceProjector projector(hills.space, hills.control_points);
   const Vector3 d(0.4, 0.6, 0.3), shift(512.0, -1024.0, 256.0);
   const Foot before = projector.cold(d);
-  projector.set_control_points(hills.control_points.colwise() + shift);
+  hills.control_points.colwise() += shift;
+  projector.surface_moved();
   for (const Foot& p : {projector.cold(d + shift), projector.warm(d + shift, before.xi)}) {
     EXPECT_NEAR(p.distance, before.distance, 1e-12);
     EXPECT_NEAR((p.point - shift - before.point).norm(), 0.0, 1e-11);
@@ -156,13 +153,9 @@ TEST(SurfaceProjector, WrongArguments) {
   shapes::Random random(25);
   const Surface hills =
       shapes::random_hills(random, {KnotVector::uniform(2, 2), KnotVector::uniform(2, 2)}, 0.1, false);
-  SurfaceProjector projector(hills.space);
-  const int first = 0;
-  EXPECT_THROW(projector.warm({0, 0, 0}, {0.5, 0.5}), std::logic_error);
-  EXPECT_THROW(projector.cold({0, 0, 0}), std::logic_error);
-  EXPECT_THROW(projector.cold_on({0, 0, 0}, &first, 1), std::logic_error);
-  EXPECT_THROW(projector.set_control_points(NodalVectors::Zero(3, 5)), std::invalid_argument);
-  projector.set_control_points(hills.control_points);
+  const NodalVectors few = NodalVectors::Zero(3, 5);
+  EXPECT_THROW(SurfaceProjector(hills.space, few), std::invalid_argument);
+  const SurfaceProjector projector(hills.space, hills.control_points);
   EXPECT_THROW(projector.cold_on({0, 0, 0}, nullptr, 0), std::invalid_argument);
   const Foot p = projector.cold({0, 0, std::nan("")});
   EXPECT_EQ(p.status, FootStatus::not_converged);
