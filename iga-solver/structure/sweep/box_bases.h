@@ -28,8 +28,6 @@ class SpanBases {
   /// First control point of a span, counted from the box's first.
   int first(int span) const { return first_[span]; }
   SpanBasis at(int span) const { return {points_[span], &basis_[begin_[span]]}; }
-  /// B and dB of one point, as LineKernel::to_plane takes them.
-  const double* point(int span, int q) const { return &basis_[begin_[span] + std::size_t(q) * length_]; }
   double weight(int span, int q) const { return weights_[begin_[span] / length_ + q]; }
   int most_points() const { return most_points_; }
 

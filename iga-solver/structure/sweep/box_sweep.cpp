@@ -128,8 +128,8 @@ void BoxSweep::reserve(SweepSpace& space) const {
   const int most = rational_ ? 7 : 6;  // fields, of recomputed geometry
   grow(space.nodes, most * field_);
   grow(space.forces, 3 * field_);
-  grow(space.planes_in, 2 * most * plane_);
-  grow(space.planes_out, 6 * plane_);
+  grow(space.planes_in, z_.most_points() * 2 * most * plane_);
+  grow(space.planes_out, z_.most_points() * 6 * plane_);
   grow(space.rows_in, std::size_t(y_.most_points()) * 3 * most * row_);
   grow(space.rows_out, std::size_t(y_.most_points()) * 9 * row_);
   grow(space.values, std::size_t(x_.point_words()) * 4 * most * kernel_x_->lanes);
@@ -188,11 +188,13 @@ void BoxSweep::do_points(const std::array<int, 4>& place, Pass& pass, double* va
 
 void BoxSweep::sweep_plane(int z, int z_point, Pass& pass, SweepSpace& space) const {
   const LaneBasis x = x_.basis(space.scratch.data());
+  const double* const planes_in = space.planes_in.data() + z_point * 2 * pass.fields_in * plane_;
+  double* const planes_out = space.planes_out.data() + z_point * 2 * pass.fields_out * plane_;
   const std::size_t stride = std::size_t(pass.fields_in) * (pass.with_value ? 4 : 3) * kernel_x_->lanes;
   for (int span = 0; span < y_.spans(); ++span) {
     const SpanBasis y = y_.at(span);
     const std::size_t first = y_.first(span) * row_;
-    kernel_y_->to_rows(y, space.planes_in.data() + first, row_, plane_, pass.fields_in, space.rows_in.data());
+    kernel_y_->to_rows(y, planes_in + first, row_, plane_, pass.fields_in, space.rows_in.data());
     for (int q = 0; q < y.points; ++q) {
       kernel_x_->to_points(x, space.rows_in.data() + q * 3 * pass.fields_in * row_, pass.fields_in,
                            pass.with_value, space.values.data());
@@ -202,23 +204,23 @@ void BoxSweep::sweep_plane(int z, int z_point, Pass& pass, SweepSpace& space) co
                                space.rows_out.data() + q * 3 * pass.fields_out * row_);
     }
     if (pass.fields_out > 0)
-      kernel_y_->from_rows(y, space.rows_out.data(), row_, plane_, pass.fields_out,
-                           space.planes_out.data() + first);
+      kernel_y_->from_rows(y, space.rows_out.data(), row_, plane_, pass.fields_out, planes_out + first);
   }
 }
 
 void BoxSweep::sweep(Pass& pass, SweepSpace& space) const {
   std::fill_n(space.forces.data(), pass.fields_out * field_, 0.0);
-  for (int z = 0; z < z_.spans(); ++z)
-    for (int q = 0; q < z_.at(z).points; ++q) {
-      const std::size_t first = z_.first(z) * plane_;
-      kernel_z_->to_plane(z_.point(z, q), space.nodes.data() + first, plane_, field_, pass.fields_in,
-                          space.planes_in.data());
-      std::fill_n(space.planes_out.data(), 2 * pass.fields_out * plane_, 0.0);
-      sweep_plane(z, q, pass, space);
-      kernel_z_->from_plane(z_.point(z, q), space.planes_out.data(), plane_, field_, pass.fields_out,
-                            space.forces.data() + first);
-    }
+  for (int span = 0; span < z_.spans(); ++span) {
+    const SpanBasis z = z_.at(span);
+    const std::size_t first = z_.first(span) * plane_;
+    kernel_z_->to_planes(z, space.nodes.data() + first, plane_, field_, pass.fields_in,
+                         space.planes_in.data());
+    std::fill_n(space.planes_out.data(), z.points * 2 * pass.fields_out * plane_, 0.0);
+    for (int q = 0; q < z.points; ++q) sweep_plane(span, q, pass, space);
+    if (pass.fields_out > 0)
+      kernel_z_->from_planes(z, space.planes_out.data(), plane_, field_, pass.fields_out,
+                             space.forces.data() + first);
+  }
 }
 
 double BoxSweep::tabulate(const NodalVectors& X, SweepSpace& space) {

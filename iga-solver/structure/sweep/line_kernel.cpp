@@ -11,98 +11,142 @@
 namespace structure {
 namespace {
 
-template <int P>
-void to_plane(const double* basis, const double* nodes, std::size_t plane, std::size_t field, int fields,
-              double* planes) {
-  const double *B = basis, *dB = basis + P + 1;
-  for (int c = 0; c < fields; ++c, nodes += field, planes += 2 * plane)
-    for (std::size_t i = 0; i < plane; i += kLanes) {
-      Lanes value{}, slope{};
-      for (int a = 0; a <= P; ++a) {
-        const Lanes u = load(nodes + a * plane + i);
-        value += B[a] * u;
-        slope += dB[a] * u;
-      }
-      store(value, planes + i);
-      store(slope, planes + plane + i);
-    }
-}
-
-template <int P>
-void from_plane(const double* basis, const double* planes, std::size_t plane, std::size_t field, int fields,
-                double* nodes) {
-  const double *B = basis, *dB = basis + P + 1;
-  for (int c = 0; c < fields; ++c, nodes += field, planes += 2 * plane)
-    for (std::size_t i = 0; i < plane; i += kLanes) {
-      const Lanes value = load(planes + i), slope = load(planes + plane + i);
-      for (int a = 0; a <= P; ++a) {
-        double* f = nodes + a * plane + i;
-        store(load(f) + B[a] * value + dB[a] * slope, f);
-      }
-    }
-}
-
+/// Functions at some points, B or dB, in registers.
 template <int P, int Points>
-void to_rows(const double* basis, const double* planes, std::size_t row, std::size_t plane, int fields,
-             double* rows) {
-  for (int c = 0; c < fields; ++c, planes += 2 * plane)
-    for (std::size_t i = 0; i < row; i += kLanes) {
-      Lanes u[P + 1], u_z[P + 1];
-      for (int a = 0; a <= P; ++a) {
-        u[a] = load(planes + a * row + i);
-        u_z[a] = load(planes + plane + a * row + i);
-      }
-      for (int q = 0; q < Points; ++q) {
-        const double *B = basis + 2 * (P + 1) * q, *dB = B + P + 1;
-        Lanes value{}, d_y{}, d_z{};
-        for (int a = 0; a <= P; ++a) {
-          value += B[a] * u[a];
-          d_y += dB[a] * u[a];
-          d_z += B[a] * u_z[a];
-        }
-        double* out = rows + 3 * (c + std::size_t(fields) * q) * row + i;
-        store(value, out);
-        store(d_y, out + row);
-        store(d_z, out + 2 * row);
-      }
-    }
+struct PointBasis {
+  Lanes of[Points][P + 1];
+};
+/// Of one knot span, for a direction across words: the same in all lanes.
+template <int P, int Points>
+[[gnu::always_inline]] inline PointBasis<P, Points> of_span(const double* basis, int derivative) {
+  PointBasis<P, Points> B;
+  for (int q = 0; q < Points; ++q)
+    for (int a = 0; a <= P; ++a) B.of[q][a] = Lanes{} + basis[(2 * q + derivative) * (P + 1) + a];
+  return B;
+}
+/// Of a word of spans, for the direction along it.
+template <int P, int Points>
+[[gnu::always_inline]] inline PointBasis<P, Points> of_word(const double* basis, int derivative) {
+  PointBasis<P, Points> B;
+  for (int q = 0; q < Points; ++q)
+    for (int a = 0; a <= P; ++a) B.of[q][a] = load(basis + ((2 * q + derivative) * (P + 1) + a) * kLanes);
+  return B;
 }
 
+/// Sums over control values, to points `point` apart.
 template <int P, int Points>
-void from_rows(const double* basis, const double* rows, std::size_t row, std::size_t plane, int fields,
+[[gnu::always_inline]] inline void to(const PointBasis<P, Points>& B, const Lanes (&value)[P + 1],
+                                      double* out, std::size_t point) {
+  for (int q = 0; q < Points; ++q) {
+    Lanes sum = B.of[q][0] * value[0];
+    for (int a = 1; a <= P; ++a) sum += B.of[q][a] * value[a];
+    store(sum, out + q * point);
+  }
+}
+/// The same of control values `step` apart.
+template <int P, int Points>
+[[gnu::always_inline]] inline void to(const PointBasis<P, Points>& B, const double* u, std::size_t step,
+                                      double* out, std::size_t point) {
+  Lanes value[P + 1];
+  for (int a = 0; a <= P; ++a) value[a] = load(u + a * step);
+  to(B, value, out, point);
+}
+/// Transposed, added to them.
+template <int P, int Points>
+[[gnu::always_inline]] inline void from(const PointBasis<P, Points>& B, const double* t, std::size_t point,
+                                        double* f, std::size_t step) {
+  Lanes value[Points];
+  for (int q = 0; q < Points; ++q) value[q] = load_once(t + q * point);
+  for (int a = 0; a <= P; ++a) {
+    Lanes sum = load(f + a * step);
+    for (int q = 0; q < Points; ++q) sum += B.of[q][a] * value[q];
+    store(sum, f + a * step);
+  }
+}
+
+/// with(number of points); spans have p - 1, p or p + 1 (quadrature.h).
+template <int P, class With>
+[[gnu::always_inline]] inline void with_points(int points, const With& with) {
+  if (points == P + 1)
+    with(std::integral_constant<int, P + 1>());
+  else if (points == P)
+    with(std::integral_constant<int, P>());
+  else
+    with(std::integral_constant<int, P - 1>());
+}
+
+// Everywhere B for all that it is needed for, then dB: one of them has room in the registers.
+
+template <int P>
+void to_planes(const SpanBasis& z, const double* nodes, std::size_t plane, std::size_t field, int fields,
                double* planes) {
-  for (int c = 0; c < fields; ++c, planes += 2 * plane)
-    for (int a = 0; a <= P; ++a)
-      for (std::size_t i = 0; i < row; i += kLanes) {
-        double* const f = planes + a * row + i;
-        Lanes value = load(f), d_z = load(f + plane);
-        for (int q = 0; q < Points; ++q) {
-          const double *B = basis + 2 * (P + 1) * q, *dB = B + P + 1;
-          const double* t = rows + 3 * (c + std::size_t(fields) * q) * row + i;
-          value += B[a] * load(t) + dB[a] * load(t + row);
-          d_z += B[a] * load(t + 2 * row);
+  with_points<P>(
+      z.points, [&](auto points) __attribute__((always_inline)) {
+        for (int derivative = 0; derivative < 2; ++derivative) {
+          const auto B = of_span<P, points>(z.basis, derivative);
+          for (int c = 0; c < fields; ++c)
+            for (std::size_t i = 0; i < plane; i += kLanes)
+              to(B, nodes + c * field + i, plane, planes + (2 * c + derivative) * plane + i,
+                 2 * fields * plane);
         }
-        store(value, f);
-        store(d_z, f + plane);
-      }
+      });
 }
 
-// Spans have p - 1, p or p + 1 points (quadrature.h).
+template <int P>
+void from_planes(const SpanBasis& z, const double* planes, std::size_t plane, std::size_t field, int fields,
+                 double* nodes) {
+  with_points<P>(
+      z.points, [&](auto points) __attribute__((always_inline)) {
+        for (int derivative = 0; derivative < 2; ++derivative) {
+          const auto B = of_span<P, points>(z.basis, derivative);
+          for (int c = 0; c < fields; ++c)
+            for (std::size_t i = 0; i < plane; i += kLanes)
+              from(B, planes + (2 * c + derivative) * plane + i, 2 * fields * plane, nodes + c * field + i,
+                   plane);
+        }
+      });
+}
+
 template <int P>
 void to_rows(const SpanBasis& y, const double* planes, std::size_t row, std::size_t plane, int fields,
              double* rows) {
-  const auto contract = y.points == P + 1 ? to_rows<P, P + 1>
-                        : y.points == P   ? to_rows<P, P>
-                                          : to_rows<P, P - 1>;
-  contract(y.basis, planes, row, plane, fields, rows);
+  const std::size_t point = 3 * std::size_t(fields) * row;
+  with_points<P>(
+      y.points, [&](auto points) __attribute__((always_inline)) {
+        const auto B = of_span<P, points>(y.basis, 0);
+        for (int c = 0; c < fields; ++c)
+          for (std::size_t i = 0; i < row; i += kLanes) {
+            const double* const u = planes + 2 * c * plane + i;
+            double* const out = rows + 3 * c * row + i;
+            to(B, u, row, out, point);
+            to(B, u + plane, row, out + 2 * row, point);
+          }
+        const auto dB = of_span<P, points>(y.basis, 1);
+        for (int c = 0; c < fields; ++c)
+          for (std::size_t i = 0; i < row; i += kLanes)
+            to(dB, planes + 2 * c * plane + i, row, rows + (3 * c + 1) * row + i, point);
+      });
 }
+
 template <int P>
 void from_rows(const SpanBasis& y, const double* rows, std::size_t row, std::size_t plane, int fields,
                double* planes) {
-  const auto contract = y.points == P + 1 ? from_rows<P, P + 1>
-                        : y.points == P   ? from_rows<P, P>
-                                          : from_rows<P, P - 1>;
-  contract(y.basis, rows, row, plane, fields, planes);
+  const std::size_t point = 3 * std::size_t(fields) * row;
+  with_points<P>(
+      y.points, [&](auto points) __attribute__((always_inline)) {
+        const auto B = of_span<P, points>(y.basis, 0);
+        for (int c = 0; c < fields; ++c)
+          for (std::size_t i = 0; i < row; i += kLanes) {
+            const double* const t = rows + 3 * c * row + i;
+            double* const f = planes + 2 * c * plane + i;
+            from(B, t, point, f, row);
+            from(B, t + 2 * row, point, f + plane, row);
+          }
+        const auto dB = of_span<P, points>(y.basis, 1);
+        for (int c = 0; c < fields; ++c)
+          for (std::size_t i = 0; i < row; i += kLanes)
+            from(dB, rows + (3 * c + 1) * row + i, point, planes + 2 * c * plane + i, row);
+      });
 }
 
 /// Lanes A, ..., A + kLanes - 1, counted from the first of `now`; those from kLanes on are in the word after.
@@ -148,95 +192,72 @@ struct Expanded {
   }
 };
 
-/// Functions at the points of a word of spans: B or dB.
-template <int P, int Points>
-struct WordBasis {
-  Lanes of[Points][P + 1];
-  WordBasis(const double* basis, int derivative) {
-    for (int q = 0; q < Points; ++q)
-      for (int a = 0; a <= P; ++a) of[q][a] = load(basis + ((2 * q + derivative) * (P + 1) + a) * kLanes);
-  }
-};
-
-/// Sums over control values, to points `point` apart.
-template <int P, int Points, class Values>
-[[gnu::always_inline]] inline void contract(const WordBasis<P, Points>& basis, const Values& values_at,
-                                            const double* u, double* out, std::size_t point) {
-  Lanes value[P + 1];
-  values_at(u, value);
-  for (int q = 0; q < Points; ++q) {
-    Lanes sum = basis.of[q][0] * value[0];
-    for (int a = 1; a <= P; ++a) sum += basis.of[q][a] * value[a];
-    store(sum, out + q * point);
-  }
-}
-
-// B for all that it is needed for, then dB: one of them has room in the registers.
-template <int P, int Points, bool WithValue, class Values>
-void word_to_points(const double* basis, const Values& values_at, const double* window, int fields,
-                    double* values) {
-  constexpr int kQuantities = WithValue ? 4 : 3;
-  const std::size_t point = std::size_t(kQuantities) * fields * kLanes, row = values_at.row;
-  const WordBasis<P, Points> B(basis, 0);
-  for (int c = 0; c < fields; ++c) {
-    const double* const u = window + 3 * c * row;
-    double* const out = values + kQuantities * c * kLanes;
-    contract(B, values_at, u + row, out + kLanes, point);
-    contract(B, values_at, u + 2 * row, out + 2 * kLanes, point);
-    if (WithValue) contract(B, values_at, u, out + 3 * kLanes, point);
-  }
-  const WordBasis<P, Points> dB(basis, 1);
-  for (int c = 0; c < fields; ++c)
-    contract(dB, values_at, window + 3 * c * row, values + kQuantities * c * kLanes, point);
-}
-
 template <int P, bool WithValue, class Values>
 void words_to_points(const LaneBasis& x, const Values& values_at, const double* window, int fields,
                      double* values) {
+  constexpr int kQuantities = WithValue ? 4 : 3;
+  const std::size_t point = std::size_t(kQuantities) * fields * kLanes, row = values_at.row;
   for (int w = 0; w < x.words; ++w, window += kLanes) {
-    const int word = x.first_word[w], points = x.first_word[w + 1] - word;
-    const double* basis = x.basis + std::size_t(word) * 2 * (P + 1) * kLanes;
-    double* out = values + std::size_t(word) * (WithValue ? 4 : 3) * fields * kLanes;
-    const auto contract = points == P + 1 ? word_to_points<P, P + 1, WithValue, Values>
-                          : points == P   ? word_to_points<P, P, WithValue, Values>
-                                          : word_to_points<P, P - 1, WithValue, Values>;
-    contract(basis, values_at, window, fields, out);
+    const int word = x.first_word[w];
+    const double* const basis = x.basis + std::size_t(word) * 2 * (P + 1) * kLanes;
+    with_points<P>(
+        x.first_word[w + 1] - word, [&](auto points) __attribute__((always_inline)) {
+          const auto contract = [&](const PointBasis<P, points>& B, int c, int from, int to_quantity)
+              __attribute__((always_inline)) {
+            Lanes value[P + 1];
+            values_at(window + (3 * c + from) * row, value);
+            to(B, value, values + word * point + (kQuantities * c + to_quantity) * kLanes, point);
+          };
+          const auto B = of_word<P, points>(basis, 0);
+          for (int c = 0; c < fields; ++c) {
+            contract(B, c, 1, 1);
+            contract(B, c, 2, 2);
+            if (WithValue) contract(B, c, 0, 3);
+          }
+          const auto dB = of_word<P, points>(basis, 1);
+          for (int c = 0; c < fields; ++c) contract(dB, c, 0, 0);
+        });
   }
 }
 
-/// Shares of the p + 1 control points of each span of a word, for value, d/dy, d/dz.
-template <int P>
-struct Shares {
-  Lanes of[3][P + 1];
-};
-
-template <int P, int Points, bool WithValue>
-[[gnu::always_inline]] inline void add_points(const double* __restrict basis, const double* __restrict t,
-                                              std::size_t stride, Shares<P>& shares) {
-  for (int q = 0; q < Points; ++q, t += stride) {
-    const double *B = basis + 2 * (P + 1) * kLanes * q, *dB = B + (P + 1) * kLanes;
-    const Lanes t_x = load(t), t_y = load(t + kLanes), t_z = load(t + 2 * kLanes);
+/// What the points of a word of spans give the p + 1 control points of each: of one field's d/dy, d/dz and
+/// d/dx with the value, given to take(0: d/dx, 1, 2; [p + 1]) one after the other, while they are in
+/// registers.
+template <int P, int Points, bool WithValue, class Take>
+[[gnu::always_inline]] inline void each_share(const double* B, const double* t, std::size_t stride,
+                                              const Take& take) {
+  constexpr int kPoint = 2 * (P + 1) * kLanes;
+  const double* const dB = B + (P + 1) * kLanes;
+  Lanes x[P + 1] = {}, y[P + 1] = {}, z[P + 1] = {};
+  for (int q = 0; q < Points; ++q) {
+    const Lanes t_y = load_once(t + q * stride + kLanes), t_z = load_once(t + q * stride + 2 * kLanes);
     for (int a = 0; a <= P; ++a) {
-      const Lanes b = load(B + kLanes * a);
-      shares.of[0][a] += load(dB + kLanes * a) * t_x;
-      if (WithValue) shares.of[0][a] += b * load(t + 3 * kLanes);
-      shares.of[1][a] += b * t_y;
-      shares.of[2][a] += b * t_z;
+      const Lanes b = load_once(B + q * kPoint + a * kLanes);
+      y[a] += b * t_y;
+      z[a] += b * t_z;
     }
   }
+  take(1, y);
+  take(2, z);
+  for (int q = 0; q < Points; ++q) {
+    const Lanes t_x = load_once(t + q * stride);
+    for (int a = 0; a <= P; ++a) {
+      x[a] += load(dB + q * kPoint + a * kLanes) * t_x;
+      if (WithValue) x[a] += load(B + q * kPoint + a * kLanes) * load(t + q * stride + 3 * kLanes);
+    }
+  }
+  take(0, x);
 }
 
-template <int P, bool WithValue>
-[[gnu::always_inline]] inline Shares<P> word_shares(const LaneBasis& x, int w, const double* values,
-                                                    std::size_t stride) {
-  Shares<P> shares = {};
-  const int word = x.first_word[w], points = x.first_word[w + 1] - word;
-  const double* const basis = x.basis + std::size_t(word) * 2 * (P + 1) * kLanes;
-  const double* const t = values + stride * word;
-  if (points == P + 1) add_points<P, P + 1, WithValue>(basis, t, stride, shares);
-  if (points == P) add_points<P, P, WithValue>(basis, t, stride, shares);
-  if (points == P - 1) add_points<P, P - 1, WithValue>(basis, t, stride, shares);
-  return shares;
+template <int P, bool WithValue, class Take>
+[[gnu::always_inline]] inline void each_share(const LaneBasis& x, int w, const double* values,
+                                              std::size_t stride, const Take& take) {
+  const int word = x.first_word[w];
+  with_points<P>(
+      x.first_word[w + 1] - word, [&](auto points) __attribute__((always_inline)) {
+        each_share<P, points, WithValue>(x.basis + std::size_t(word) * 2 * (P + 1) * kLanes,
+                                         values + stride * word, stride, take);
+      });
 }
 
 /// Where knots are repeated, span s does not begin at control point s: the values of each span's functions
@@ -263,41 +284,40 @@ void to_points(const LaneBasis& x, const double* rows, int fields, bool with_val
   (with_value ? to_points<P, true> : to_points<P, false>)(x, rows, fields, values);
 }
 
-/// Lanes -A, ..., kLanes - 1 - A, counted from the first of `now`; those below 0 are in the word before.
-template <int A, int... Lane>
-[[gnu::always_inline]] inline Lanes lanes_before(const Lanes& before, const Lanes& now,
-                                                 std::integer_sequence<int, Lane...>) {
-  return __builtin_shufflevector(before, now, (kLanes - A + Lane)...);
+/// Lanes -1, ..., kLanes - 2, counted from the first of `now`; lane -1 is the last of the word before.
+template <int... Lane>
+[[gnu::always_inline]] inline Lanes one_lane_back(const Lanes& before, const Lanes& now,
+                                                  std::integer_sequence<int, Lane...>) {
+  return __builtin_shufflevector(before, now, (kLanes - 1 + Lane)...);
 }
 
-/// What spans of this word and of words before add to control points w kLanes, ...: of the span that begins
-/// at one its first function, of the span before the second, ...  history[h] is the word h before this one.
-template <int P, int A = 0>
-[[gnu::always_inline]] inline Lanes sum_of_spans(const Lanes (&history)[(P - 1) / kLanes + 2][P + 1]) {
-  constexpr int kWord = A / kLanes, kLane = A % kLanes;
-  Lanes share = history[kWord][A];
-  if constexpr (kLane > 0)
-    share = lanes_before<kLane>(history[kWord + 1][A], share, std::make_integer_sequence<int, kLanes>());
-  if constexpr (A < P)
-    return share + sum_of_spans<P, A + 1>(history);
-  else
-    return share;
+/// What spans add to the control points where those of a word begin: of span s its first function, of span
+/// s - 1 the second, ...  Summed like Horner's scheme, each step one lane on; `before` are the sums of
+/// functions 1 to p of the word before, and then of this one.
+template <int P>
+[[gnu::always_inline]] inline Lanes sum_of_spans(const Lanes (&share)[P + 1], Lanes (&before)[P]) {
+  Lanes sum = share[P];
+  for (int a = P; a > 0; --a) {
+    const Lanes back = one_lane_back(before[a - 1], sum, std::make_integer_sequence<int, kLanes>());
+    before[a - 1] = sum;
+    sum = share[a - 1] + back;
+  }
+  return sum;
 }
 
 template <int P, bool WithValue>
 void from_points(const LaneBasis& x, const double* values, std::size_t stride, int fields, double* rows) {
-  constexpr int kWordsBack = (P - 1) / kLanes + 1;
-  for (int c = 0; c < fields; ++c, values += (WithValue ? 4 : 3) * kLanes, rows += 3 * std::size_t(x.row)) {
-    Lanes history[3][kWordsBack + 1][P + 1] = {};
-    for (int w = 0; w * kLanes < x.row; ++w) {
-      const Shares<P> shares = w < x.words ? word_shares<P, WithValue>(x, w, values, stride) : Shares<P>{};
-      for (int k = 0; k < 3; ++k) {
-        for (int h = kWordsBack; h > 0; --h)
-          for (int a = 0; a <= P; ++a) history[k][h][a] = history[k][h - 1][a];
-        for (int a = 0; a <= P; ++a) history[k][0][a] = shares.of[k][a];
-        store(sum_of_spans<P>(history[k]), rows + k * std::size_t(x.row) + w * kLanes);
-      }
+  const std::size_t row = x.row;
+  for (int c = 0; c < fields; ++c, values += (WithValue ? 4 : 3) * kLanes, rows += 3 * row) {
+    Lanes before[3][P] = {};
+    for (int w = 0; w < x.words; ++w) {
+      each_share<P, WithValue>(x, w, values, stride, [&](int k, const Lanes(&share)[P + 1]) {
+        store(sum_of_spans<P>(share, before[k]), rows + k * row + w * kLanes);
+      });
     }
+    constexpr Lanes kNone[P + 1] = {};
+    for (std::size_t i = std::size_t(x.words) * kLanes; i < row; i += kLanes)
+      for (int k = 0; k < 3; ++k) store(sum_of_spans<P>(kNone, before[k]), rows + k * row + i);
   }
 }
 
@@ -307,13 +327,12 @@ void from_points_of_repeated_knots(const LaneBasis& x, const double* values, std
                                    double* rows) {
   for (int i = 0; i < 3 * fields * x.row; ++i) rows[i] = 0.0;
   for (int c = 0; c < fields; ++c, values += (WithValue ? 4 : 3) * kLanes, rows += 3 * std::size_t(x.row))
-    for (int w = 0; w < x.words; ++w) {
-      const Shares<P> shares = word_shares<P, WithValue>(x, w, values, stride);
-      for (int lane = 0; lane < kLanes && w * kLanes + lane < x.spans; ++lane)
-        for (int k = 0; k < 3; ++k)
+    for (int w = 0; w < x.words; ++w)
+      each_share<P, WithValue>(x, w, values, stride, [&](int k, const Lanes(&share)[P + 1]) {
+        for (int lane = 0; lane < kLanes && w * kLanes + lane < x.spans; ++lane)
           for (int a = 0; a <= P; ++a)
-            rows[k * x.row + x.first_control[w * kLanes + lane] + a] += shares.of[k][a][lane];
-    }
+            rows[k * x.row + x.first_control[w * kLanes + lane] + a] += share[a][lane];
+      });
 }
 template <int P>
 void from_points(const LaneBasis& x, const double* values, std::size_t stride, int fields, bool with_value,
@@ -327,7 +346,7 @@ void from_points(const LaneBasis& x, const double* values, std::size_t stride, i
 
 template <int P>
 constexpr LineKernel kernel() {
-  return {kLanes, to_plane<P>, from_plane<P>, to_rows<P>, from_rows<P>, to_points<P>, from_points<P>};
+  return {kLanes, to_planes<P>, from_planes<P>, to_rows<P>, from_rows<P>, to_points<P>, from_points<P>};
 }
 
 constexpr LineKernel kKernels[] = {kernel<2>(), kernel<3>(), kernel<4>(), kernel<5>()};

@@ -6,7 +6,8 @@
 // points of a row hold all derivatives.  Knot spans along x lie side by side in words of numbers.
 //
 // Layouts, the last index fastest; a row is padded to whole words:
-//   nodes   [field][z][y][row]                  planes  [field][value, d/dz][y][row], of one point in z
+//   nodes   [field][z][y][row]
+//   planes  [point in z][field][value, d/dz][y][row], of one knot span in z
 //   rows    [point in y][field][value, d/dy, d/dz][row], of one knot span in y
 //   values  [point word][field][d/dx, d/dy, d/dz (, value)][lane], of one row
 #pragma once
@@ -39,11 +40,11 @@ struct LaneBasis {
 struct LineKernel {
   int lanes;  ///< numbers in a word
   /// planes = sum over p + 1 planes of nodes, from the first of the span on.
-  void (*to_plane)(const double* basis, const double* nodes, std::size_t plane, std::size_t field, int fields,
-                   double* planes);
+  void (*to_planes)(const SpanBasis& z, const double* nodes, std::size_t plane, std::size_t field, int fields,
+                    double* planes);
   /// Transposed, added to the nodes.
-  void (*from_plane)(const double* basis, const double* planes, std::size_t plane, std::size_t field,
-                     int fields, double* nodes);
+  void (*from_planes)(const SpanBasis& z, const double* planes, std::size_t plane, std::size_t field,
+                      int fields, double* nodes);
   /// rows = sum over p + 1 rows of planes, from the first of the span on.
   void (*to_rows)(const SpanBasis& y, const double* planes, std::size_t row, std::size_t plane, int fields,
                   double* rows);
