@@ -18,7 +18,8 @@ struct SaintVenantKirchhoffLaw {
     const Tensor<Number> S = hooke(lambda, mu, twice_green_lagrange(H));
     Tensor<Number> P = S;
     for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) P(i, j) += H(i, 0) * S(0, j) + H(i, 1) * S(1, j) + H(i, 2) * S(2, j);
+      for (int j = 0; j < 3; ++j)
+        for (int k = 0; k < 3; ++k) P(i, j) += H(i, k) * S(k, j);
     return P;
   }
   template <class Number>
@@ -34,7 +35,7 @@ struct SaintVenantKirchhoffLaw {
     Tensor<Number> A = plus_transposed(H);
     for (int i = 0; i < 3; ++i)
       for (int j = i; j < 3; ++j) {
-        A(i, j) += H(0, i) * H(0, j) + H(1, i) * H(1, j) + H(2, i) * H(2, j);
+        for (int k = 0; k < 3; ++k) A(i, j) += H(k, i) * H(k, j);
         A(j, i) = A(i, j);
       }
     return A;

@@ -27,7 +27,10 @@ class SpanBases {
   int spans() const { return static_cast<int>(first_.size()); }
   /// First control point of a span, counted from the box's first.
   int first(int span) const { return first_[span]; }
-  SpanBasis at(int span) const { return {points_[span], &basis_[begin_[span]]}; }
+  SpanBasis at(int span) const {
+    const int begun = span == 0 ? 0 : first_[span - 1] + length_ / 2 - first_[span];
+    return {points_[span], &basis_[begin_[span]], begun};
+  }
   double weight(int span, int q) const { return weights_[begin_[span] / length_ + q]; }
   int most_points() const { return most_points_; }
 

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "nurbs/processor.h"
-
 namespace structure {
 
 namespace {
@@ -46,6 +44,11 @@ std::vector<int> permuted(const std::vector<int>& columns, const std::array<int,
   return out;
 }
 
+NodalRows rows_of(const std::vector<int>& columns, const std::array<int, 3>& count,
+                  const std::array<int, 3>& axes) {
+  return {permuted(columns, count, axes), count[axes[0]]};
+}
+
 /// Whether a row-major K has its only numbers in columns (d + shift) % 3.
 bool is_aligned(const std::vector<double>& K, int shift) {
   for (int d = 0; d < 3; ++d)
@@ -53,10 +56,6 @@ bool is_aligned(const std::vector<double>& K, int shift) {
       if (j != (d + shift) % 3 && K[3 * d + j] != 0.0) return false;
   return true;
 }
-
-/// Nodes that are fetched ahead: nearest neighbours of a row are pages apart.  Forces of 1e6 elements take 6
-/// % less time.
-constexpr std::ptrdiff_t kAhead = 128;
 
 void grow(AlignedNumbers& numbers, std::size_t size) {
   if (numbers.size() < size) numbers.resize(size, 0.0);
@@ -78,17 +77,16 @@ BoxSweep::BoxSweep(const nurbs::Volume& patch, const PlacedBox& box, std::size_t
       kernel_z_(&line_kernel(patch.space.degree(axes_[2]), plan.level)),
       loops_(&point_loops(plan.mode, rational_, plan.level)),
       geometry_loops_(&geometry_loops(rational_, plan.level)),
-      mode_(plan.mode) {
-  std::array<int, 3> controls;
-  for (int d = 0; d < 3; ++d) controls[d] = range_of(patch, box.spans, d).control_count();
-  nx_ = controls[axes_[0]], ny_ = controls[axes_[1]], nz_ = controls[axes_[2]];
-  plane_ = row_ * ny_;
-  field_ = plane_ * nz_;
-  nodes_ = permuted(box.nodes, controls, axes_);
-  if (!box.read_columns.empty()) read_ = permuted(box.read_columns, controls, axes_);
-  if (!box.write_columns.empty()) write_ = permuted(box.write_columns, controls, axes_);
+      mode_(plan.mode),
+      field_kernel_(&field_kernel(plan.level)),
+      nodes_(rows_of(box.nodes, box_node_counts(patch.space, box.spans), axes_)),
+      read_(rows_of(box.read(), box_node_counts(patch.space, box.spans), axes_)),
+      write_(rows_of(box.write(), box_node_counts(patch.space, box.spans), axes_)) {
+  plane_ = row_ * box_node_counts(patch.space, box.spans)[axes_[1]];
+  field_ = row_ * nodes_.rows();
   if (rational_)
-    for (const int node : nodes_) weights_.push_back(patch.space.weight(node));
+    for (int row = 0; row < nodes_.rows(); ++row)
+      for (int i = 0; i < nodes_.count(); ++i) weights_.push_back(patch.space.weight(nodes_.column(row, i)));
   if (plan.J && mode_ == GeometryMode::affine) {
     const Matrix3 K = plan.J->inverse();
     for (int d = 0; d < 3; ++d)
@@ -136,32 +134,16 @@ void BoxSweep::reserve(SweepSpace& space) const {
   grow(space.scratch, x_.scratch_size(most));
 }
 
-void BoxSweep::read(const NodalVectors& values, const std::vector<int>& columns, double* fields) const {
-  const int *column = columns.data(), *const last = column + columns.size() - 1;
-  const double* weight = weights_.data();
-  for (std::size_t start = 0; start < field_; start += row_)
-    for (int i = 0; i < nx_; ++i, ++column) {
-      const double* value = values.data() + 3 * std::size_t(*column);
-      nurbs::prefetch(values.data() + 3 * std::size_t(*std::min(column + kAhead, last)), 1);
-      const double w = rational_ ? *weight++ : 1.0;
-      for (int c = 0; c < 3; ++c) fields[c * field_ + start + i] = w * value[c];
-    }
-  clear_padding(3, fields);
-}
-
-/// What other boxes left there.
-void BoxSweep::clear_padding(int count, double* fields) const {
-  for (std::size_t start = 0; start < count * field_; start += row_)
-    std::fill_n(fields + start + nx_, row_ - nx_, 0.0);
+void BoxSweep::read(const NodalVectors& values, const NodalRows& rows, double* fields) const {
+  rows.read(*field_kernel_, values, weights_, fields, field_, row_);
 }
 
 void BoxSweep::read_geometry(const NodalVectors& X, double* fields) const {
   read(X, nodes_, fields);
   if (!rational_) return;
   const double* weight = weights_.data();
-  for (std::size_t start = 3 * field_; start < 4 * field_; start += row_)
-    for (int i = 0; i < nx_; ++i) fields[start + i] = *weight++;
-  clear_padding(1, fields + 3 * field_);
+  for (double* row = fields + 3 * field_; row < fields + 4 * field_; row += row_, weight += nodes_.count())
+    std::fill(std::copy_n(weight, nodes_.count(), row), row + row_, 0.0);
 }
 
 /// place: span and point in y, then in z.
@@ -209,13 +191,11 @@ void BoxSweep::sweep_plane(int z, int z_point, Pass& pass, SweepSpace& space) co
 }
 
 void BoxSweep::sweep(Pass& pass, SweepSpace& space) const {
-  std::fill_n(space.forces.data(), pass.fields_out * field_, 0.0);
   for (int span = 0; span < z_.spans(); ++span) {
     const SpanBasis z = z_.at(span);
     const std::size_t first = z_.first(span) * plane_;
     kernel_z_->to_planes(z, space.nodes.data() + first, plane_, field_, pass.fields_in,
                          space.planes_in.data());
-    std::fill_n(space.planes_out.data(), z.points * 2 * pass.fields_out * plane_, 0.0);
     for (int q = 0; q < z.points; ++q) sweep_plane(span, q, pass, space);
     if (pass.fields_out > 0)
       kernel_z_->from_planes(z, space.planes_out.data(), plane_, field_, pass.fields_out,
@@ -240,7 +220,7 @@ double BoxSweep::tabulate(const NodalVectors& X, SweepSpace& space) {
 double BoxSweep::sweep_law(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
                            int fields_out, PointLoop loop, SweepSpace& space) const {
   const bool recomputed = mode_ == GeometryMode::recomputed;
-  read(u, read_columns(), space.nodes.data());
+  read(u, read_, space.nodes.data());
   if (recomputed) read_geometry(X, space.nodes.data() + 3 * field_);
   Pass pass{3 + (recomputed ? geometry_fields() : 0),
             fields_out,
@@ -255,15 +235,7 @@ double BoxSweep::sweep_law(const LawAtPoints& law, const NodalVectors& X, const 
 void BoxSweep::add_forces(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
                           NodalVectors& f, SweepSpace& space) const {
   sweep_law(law, X, u, 3, loops_->stress[law.loop], space);
-  const int *column = write_columns().data(), *const last = column + write_columns().size() - 1;
-  const double* weight = weights_.data();
-  for (std::size_t start = 0; start < field_; start += row_)
-    for (int i = 0; i < nx_; ++i, ++column) {
-      double* force = f.data() + 3 * std::size_t(*column);
-      nurbs::prefetch(f.data() + 3 * std::size_t(*std::min(column + kAhead, last)), 1);
-      const double w = rational_ ? *weight++ : 1.0;
-      for (int c = 0; c < 3; ++c) force[c] += w * space.forces[c * field_ + start + i];
-    }
+  write_.add(*field_kernel_, space.forces.data(), field_, row_, weights_, f);
 }
 
 double BoxSweep::energy(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
@@ -276,11 +248,10 @@ PointSums BoxSweep::add_row_sums(const NodalVectors& X, double density, Eigen::V
   read_geometry(X, space.nodes.data());
   Pass pass{geometry_fields(), 1, true, geometry_loops_->mass};
   sweep(pass, space);
-  const int* column = write_columns().data();
   const double* weight = weights_.data();
-  for (std::size_t start = 0; start < field_; start += row_)
-    for (int i = 0; i < nx_; ++i)
-      sums[*column++] += density * ((rational_ ? *weight++ : 1.0) * space.forces[start + i]);
+  for (int row = 0; row < write_.rows(); ++row)
+    for (int i = 0; i < write_.count(); ++i)
+      sums[write_.column(row, i)] += density * ((rational_ ? *weight++ : 1.0) * space.forces[row * row_ + i]);
   return pass.sums;
 }
 

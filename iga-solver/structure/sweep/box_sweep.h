@@ -13,6 +13,7 @@
 #include "structure/sweep/affine_map.h"
 #include "structure/sweep/aligned_numbers.h"
 #include "structure/sweep/box_bases.h"
+#include "structure/sweep/nodal_rows.h"
 #include "structure/sweep/point_kernel.h"
 
 namespace structure {
@@ -78,27 +79,24 @@ class BoxSweep {
   void sweep_plane(int z, int z_point, Pass& pass, SweepSpace& space) const;
   void do_points(const std::array<int, 4>& place, Pass& pass, double* values) const;
   void place_memories(const SpanBox& box, std::size_t first_element, const SweepPlan& plan);
-  void read(const NodalVectors& values, const std::vector<int>& columns, double* fields) const;
-  void clear_padding(int count, double* fields) const;
+  void read(const NodalVectors& values, const NodalRows& rows, double* fields) const;
   void read_geometry(const NodalVectors& X, double* fields) const;
   int geometry_fields() const { return rational_ ? 4 : 3; }
-  const std::vector<int>& read_columns() const { return read_.empty() ? nodes_ : read_; }
-  const std::vector<int>& write_columns() const { return write_.empty() ? nodes_ : write_; }
 
   std::array<int, 3> axes_;  // patch directions of x, y, z: a cyclic permutation, which keeps |J|
   bool rational_;
   LaneBases x_;
   SpanBases y_, z_;
-  int nx_, ny_, nz_;                 // control points
   std::size_t row_, plane_, field_;  // numbers
   const LineKernel *kernel_x_, *kernel_y_, *kernel_z_;
   const PointLoops* loops_;
   const GeometryLoops* geometry_loops_;
   GeometryMode mode_;
-  std::vector<int> read_, write_, nodes_;  // columns and control points [z][y][x]
-  std::vector<double> weights_;            // of the control points, if rational
-  AlignedNumbers table_;                   // stored geometry, row after row
-  std::vector<double> affine_;             // J^-1 and |J|
+  const FieldKernel* field_kernel_;
+  NodalRows nodes_, read_, write_;  // [z][y][x]: of the patch's control points, of displacements, of forces
+  std::vector<double> weights_;     // of the control points, if rational
+  AlignedNumbers table_;            // stored geometry, row after row
+  std::vector<double> affine_;      // J^-1 and |J|
   // Memories: first of the box, strides of elements and points along x, y, z, and offsets within a row.
   std::size_t first_memory_;
   std::array<std::size_t, 3> element_stride_, point_stride_;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The kernels of line_kernel.cpp and point_kernel.cpp, which are compiled once for each instruction set.
+// The kernels of field_kernel.cpp, line_kernel.cpp and point_kernel.cpp, which are compiled once for each
+// instruction set.
 #include <fmt/format.h>
 
 #include <stdexcept>
 
+#include "structure/sweep/field_kernel.h"
 #include "structure/sweep/line_kernel.h"
 #include "structure/sweep/point_kernel.h"
 
@@ -13,6 +15,7 @@ using nurbs::SimdLevel;
 
 #define DECLARE_KERNELS(level)                                     \
   namespace level {                                                \
+  const FieldKernel& field_kernel();                               \
   const LineKernel& line_kernel(int degree);                       \
   const PointLoops& point_loops(GeometryMode mode, bool rational); \
   const PointLoops& aligned_loops(int shift);                      \
@@ -30,6 +33,15 @@ void expect(SimdLevel level) {
         fmt::format("this machine or this program has no {} kernels", nurbs::name(level)));
 }
 }  // namespace
+
+const FieldKernel& field_kernel(SimdLevel level) {
+  expect(level);
+#ifdef NURBS_X86_64
+  if (level == SimdLevel::avx512) return avx512::field_kernel();
+  if (level == SimdLevel::avx2) return avx2::field_kernel();
+#endif
+  return portable::field_kernel();
+}
 
 const LineKernel& line_kernel(int degree, SimdLevel level) {
   expect(level);

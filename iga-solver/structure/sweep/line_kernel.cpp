@@ -51,14 +51,14 @@ template <int P, int Points>
   for (int a = 0; a <= P; ++a) value[a] = load(u + a * step);
   to(B, value, out, point);
 }
-/// Transposed, added to them.
+/// Transposed: added to the first `begun` of them, the others are overwritten.
 template <int P, int Points>
 [[gnu::always_inline]] inline void from(const PointBasis<P, Points>& B, const double* t, std::size_t point,
-                                        double* f, std::size_t step) {
+                                        int begun, double* f, std::size_t step) {
   Lanes value[Points];
   for (int q = 0; q < Points; ++q) value[q] = load_once(t + q * point);
   for (int a = 0; a <= P; ++a) {
-    Lanes sum = load(f + a * step);
+    Lanes sum = a < begun ? load(f + a * step) : Lanes{};
     for (int q = 0; q < Points; ++q) sum += B.of[q][a] * value[q];
     store(sum, f + a * step);
   }
@@ -75,37 +75,42 @@ template <int P, class With>
     with(std::integral_constant<int, P - 1>());
 }
 
-// Everywhere B for all that it is needed for, then dB: one of them has room in the registers.
+// Planes come from the second-level cache: each is read once, for B and dB.
 
 template <int P>
 void to_planes(const SpanBasis& z, const double* nodes, std::size_t plane, std::size_t field, int fields,
                double* planes) {
+  const std::size_t point = 2 * std::size_t(fields) * plane;
   with_points<P>(
       z.points, [&](auto points) __attribute__((always_inline)) {
-        for (int derivative = 0; derivative < 2; ++derivative) {
-          const auto B = of_span<P, points>(z.basis, derivative);
-          for (int c = 0; c < fields; ++c)
-            for (std::size_t i = 0; i < plane; i += kLanes)
-              to(B, nodes + c * field + i, plane, planes + (2 * c + derivative) * plane + i,
-                 2 * fields * plane);
-        }
+        const auto B = of_span<P, points>(z.basis, 0), dB = of_span<P, points>(z.basis, 1);
+        for (int c = 0; c < fields; ++c)
+          for (std::size_t i = 0; i < plane; i += kLanes) {
+            Lanes value[P + 1];
+            for (int a = 0; a <= P; ++a) value[a] = load(nodes + c * field + a * plane + i);
+            to(B, value, planes + 2 * c * plane + i, point);
+            to(dB, value, planes + (2 * c + 1) * plane + i, point);
+          }
       });
 }
 
 template <int P>
 void from_planes(const SpanBasis& z, const double* planes, std::size_t plane, std::size_t field, int fields,
                  double* nodes) {
+  const std::size_t point = 2 * std::size_t(fields) * plane;
   with_points<P>(
       z.points, [&](auto points) __attribute__((always_inline)) {
-        for (int derivative = 0; derivative < 2; ++derivative) {
-          const auto B = of_span<P, points>(z.basis, derivative);
-          for (int c = 0; c < fields; ++c)
-            for (std::size_t i = 0; i < plane; i += kLanes)
-              from(B, planes + (2 * c + derivative) * plane + i, 2 * fields * plane, nodes + c * field + i,
-                   plane);
-        }
+        const auto B = of_span<P, points>(z.basis, 0), dB = of_span<P, points>(z.basis, 1);
+        for (int c = 0; c < fields; ++c)
+          for (std::size_t i = 0; i < plane; i += kLanes) {
+            double* const f = nodes + c * field + i;
+            from(B, planes + 2 * c * plane + i, point, z.begun, f, plane);
+            from(dB, planes + (2 * c + 1) * plane + i, point, P + 1, f, plane);
+          }
       });
 }
+
+// Rows and points: B for all that it is needed for, then dB: one of them has room in the registers.
 
 template <int P>
 void to_rows(const SpanBasis& y, const double* planes, std::size_t row, std::size_t plane, int fields,
@@ -139,13 +144,13 @@ void from_rows(const SpanBasis& y, const double* rows, std::size_t row, std::siz
           for (std::size_t i = 0; i < row; i += kLanes) {
             const double* const t = rows + 3 * c * row + i;
             double* const f = planes + 2 * c * plane + i;
-            from(B, t, point, f, row);
-            from(B, t + 2 * row, point, f + plane, row);
+            from(B, t, point, y.begun, f, row);
+            from(B, t + 2 * row, point, y.begun, f + plane, row);
           }
         const auto dB = of_span<P, points>(y.basis, 1);
         for (int c = 0; c < fields; ++c)
           for (std::size_t i = 0; i < row; i += kLanes)
-            from(dB, rows + (3 * c + 1) * row + i, point, planes + 2 * c * plane + i, row);
+            from(dB, rows + (3 * c + 1) * row + i, point, P + 1, planes + 2 * c * plane + i, row);
       });
 }
 

@@ -24,6 +24,7 @@ constexpr int kLowestSweptDegree = 2, kHighestSweptDegree = 5;
 struct SpanBasis {
   int points;
   const double* basis;
+  int begun;  ///< how many of its first control points the spans before have, too
 };
 
 /// Functions at the points of all knot spans along x.
@@ -42,7 +43,7 @@ struct LineKernel {
   /// planes = sum over p + 1 planes of nodes, from the first of the span on.
   void (*to_planes)(const SpanBasis& z, const double* nodes, std::size_t plane, std::size_t field, int fields,
                     double* planes);
-  /// Transposed, added to the nodes.
+  /// Transposed: added where spans before have begun a sum, else the first of it.
   void (*from_planes)(const SpanBasis& z, const double* planes, std::size_t plane, std::size_t field,
                       int fields, double* nodes);
   /// rows = sum over p + 1 rows of planes, from the first of the span on.
