@@ -30,6 +30,10 @@ typedef double Lanes __attribute__((vector_size(8 * kLanes)));
 #endif
   return v;
 }
+/// Has the processor fetch `count` numbers while the program goes on.
+[[gnu::always_inline]] inline void prefetch(const double* numbers, int count) {
+  for (int i = 0; i < count; i += 8) __builtin_prefetch(numbers + i);
+}
 [[gnu::always_inline]] inline void store(const Lanes& v, double* numbers) {
   __builtin_memcpy(numbers, &v, sizeof v);
 }

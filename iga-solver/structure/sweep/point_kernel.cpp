@@ -32,7 +32,7 @@ inline Lanes inverse_or_zero(const Lanes& x) {
 }
 
 /// Sets K to J^-1 and gives |J|.
-inline Lanes invert(const LaneTensor& J, LaneTensor& K) {
+[[gnu::always_inline]] inline Lanes invert(const LaneTensor& J, LaneTensor& K) {
   for (int d = 0; d < 3; ++d)
     for (int j = 0; j < 3; ++j) {
       const int d1 = (d + 1) % 3, d2 = (d + 2) % 3, j1 = (j + 1) % 3, j2 = (j + 2) % 3;
@@ -46,7 +46,8 @@ inline Lanes invert(const LaneTensor& J, LaneTensor& K) {
 
 /// From the derivatives of X (times W, and of W if rational); `weight` is that of the points.  Gives |J|.
 template <bool Rational>
-Lanes work_out(const double* fields, const Lanes& weight, PointGeometry& geometry) {
+[[gnu::always_inline]] inline Lanes work_out(const double* fields, const Lanes& weight,
+                                             PointGeometry& geometry) {
   constexpr int kQuantities = Rational ? 4 : 3;
   LaneTensor J;
   for (int i = 0; i < 3; ++i)
@@ -77,6 +78,10 @@ constexpr int fields() {
   return Mode != GeometryMode::recomputed ? 3 : Rational ? 7 : 6;
 }
 
+/// The processor does not see by itself that the table goes on after the next rows have been swept: the plate
+/// of Table 2 takes half the time (68 and 35 ns per degree of freedom).
+constexpr int kTableWordsAhead = 16;
+
 template <GeometryMode Mode, bool Rational>
 [[gnu::always_inline]] inline void find_geometry(const PointRow& row, int word, const double* values,
                                                  PointGeometry& geometry) {
@@ -85,7 +90,9 @@ template <GeometryMode Mode, bool Rational>
     for (int k = 0; k < 9; ++k) geometry.K.m[k / 3][k % 3] = Lanes{} + row.affine[k];
     geometry.w_det = weight * row.affine[9];
   } else if constexpr (Mode == GeometryMode::stored) {
-    const double* table = row.table + std::size_t(word) * table_numbers(Rational) * kLanes;
+    constexpr int kWord = table_numbers(Rational) * kLanes;
+    const double* table = row.table + std::size_t(word) * kWord;
+    prefetch(table + kTableWordsAhead * kWord, kWord);
     for (int k = 0; k < 9; ++k) geometry.K.m[k / 3][k % 3] = load(table + k * kLanes);
     geometry.w_det = load(table + 9 * kLanes);
     if (Rational)
