@@ -1,30 +1,24 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Words of several numbers, as long as the processor that a file is compiled for has them: points (x, y, z,
-// W) and, for kLanes points at a time, one number of each.  Internal linkage: see power_kernel.cpp, which
-// alone includes this.
+// W) and, for kLanes points at a time, one number of each (nurbs/lanes.h).
 #pragma once
 
 #if defined(__FMA__)
 #include <immintrin.h>
 #endif
 
+#include "nurbs/lanes.h"
+
 namespace search {
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int kLanes = 8;
-#elif defined(__AVX2__)
-constexpr int kLanes = 4;
-#else
-constexpr int kLanes = 2;
-#endif
+using nurbs::lanes::kLanes;
+using nurbs::lanes::Lanes;  // one number of kLanes points
 
 template <int N>
 struct Word {
   typedef double Numbers __attribute__((vector_size(8 * N)));
 };
-/// One number of kLanes points.
-typedef Word<kLanes>::Numbers Lanes;
 typedef decltype(Lanes{} < Lanes{}) LaneMask;
 /// Coordinates of kLanes points.
 struct LaneVector {
@@ -71,11 +65,7 @@ template <class Numbers, class Number>
 [[gnu::always_inline]] inline void store(const Numbers& v, Number* numbers) {
   __builtin_memcpy(numbers, &v, sizeof v);
 }
-[[gnu::always_inline]] inline Lanes load_lanes(const double* numbers) {
-  Lanes v;
-  __builtin_memcpy(&v, numbers, sizeof v);
-  return v;
-}
+[[gnu::always_inline]] inline Lanes load_lanes(const double* numbers) { return nurbs::lanes::load(numbers); }
 
 [[gnu::always_inline]] inline LaneVector operator+(const LaneVector& a, const LaneVector& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};

@@ -4,9 +4,12 @@
 
 #include <utility>
 
-#include "structure/sweep/lanes.h"
+#include "nurbs/lanes.h"
 
 namespace structure {
+
+using namespace nurbs::lanes;
+
 namespace {
 
 // Numbers Place, ... of three words, of which place(lane) says where each lane's number stands.

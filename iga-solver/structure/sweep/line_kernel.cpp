@@ -6,9 +6,12 @@
 
 #include <utility>
 
-#include "structure/sweep/lanes.h"
+#include "nurbs/lanes.h"
 
 namespace structure {
+
+using namespace nurbs::lanes;
+
 namespace {
 
 /// Functions at some points, B or dB, in registers.

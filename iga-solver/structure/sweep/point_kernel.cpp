@@ -2,10 +2,13 @@
 // Compiled once for each instruction set, as line_kernel.cpp is.
 #include "structure/sweep/point_kernel.h"
 
+#include "nurbs/lanes.h"
 #include "structure/material/law_list.h"
-#include "structure/sweep/lanes.h"
 
 namespace structure {
+
+using namespace nurbs::lanes;
+
 namespace {
 
 using LaneTensor = Tensor<Lanes>;

@@ -4,18 +4,14 @@
 
 #include <cstring>
 
+#include "nurbs/lanes.h"
+
 namespace benchmarks::NURBS_SIMD_LEVEL {
 
 namespace {
 
-#if defined(__AVX512F__)
-constexpr int kLanes = 8;
-#elif defined(__AVX2__)
-constexpr int kLanes = 4;
-#else
-constexpr int kLanes = 2;
-#endif
-typedef double Word __attribute__((vector_size(8 * kLanes)));
+using nurbs::lanes::kLanes;
+using Word = nurbs::lanes::Lanes;
 typedef double Column __attribute__((vector_size(32)));  // of a block, and one number that is not used
 
 template <class W>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Words of numbers, as long as the processor that a file is compiled for has them.  Internal linkage: see
-// line_kernel.cpp.
+// Words of numbers, as long as the processor that a file is compiled for has them.  For files that are
+// compiled once for each instruction set (add_simd_kernels in CMake): all is of internal linkage, since code
+// for a newer processor must never be what the linker picks for all.
 #pragma once
 
-namespace structure {
+namespace nurbs::lanes {
 namespace {
 
 #if defined(__AVX512F__)
@@ -39,4 +40,4 @@ typedef double Lanes __attribute__((vector_size(8 * kLanes)));
 }
 
 }  // namespace
-}  // namespace structure
+}  // namespace nurbs::lanes

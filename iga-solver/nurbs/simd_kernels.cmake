@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# add_simd_kernels(target SCOPE NAME name OPTIONS ... SOURCES ...): sources of a target (SCOPE: PRIVATE, or INTERFACE for what
+# links it) that are compiled once for each instruction set of nurbs/simd_level.h, NURBS_SIMD_LEVEL; on other processors only portably.
+function(add_simd_kernels target scope)
+  cmake_parse_arguments(PARSE_ARGV 2 kernel "" "NAME" "OPTIONS;SOURCES")
+  set(levels portable)
+  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+    list(APPEND levels avx2 avx512)
+  endif()
+  set(avx2 -mavx2 -mfma)
+  set(avx512 -mavx512f -mavx512dq -mavx512vl -mfma)
+  foreach(level IN LISTS levels)
+    set(objects ${kernel_NAME}_${level})
+    add_library(${objects} OBJECT ${kernel_SOURCES})
+    target_compile_definitions(${objects} PRIVATE NURBS_SIMD_LEVEL=${level})
+    target_compile_options(${objects} PRIVATE ${${level}} ${kernel_OPTIONS} -Wno-psabi)
+    target_include_directories(${objects} PRIVATE ${PROJECT_SOURCE_DIR}/iga-solver)
+    target_link_libraries(${objects} PRIVATE project_warnings)
+    target_sources(${target} ${scope} $<TARGET_OBJECTS:${objects}>)
+  endforeach()
+endfunction()
