@@ -19,6 +19,10 @@ namespace structure {
 
 namespace {
 
+/// Stored geometry of so many bytes stays in the cache, where it is read in less time than it is worked out
+/// anew.
+constexpr double kCachedTable = 1 << 20;
+
 constexpr const char* kMethods[] = {"auto", "affine", "stored", "recomputed", "elements"};
 
 GeometryMode geometry_mode(IntegrationMethod method) {
@@ -91,6 +95,11 @@ void Solid::set_up() {
   next_memory_ = memory_;
 }
 
+/// Stored geometry of an element [bytes].
+double Solid::element_table_bytes() const {
+  return sizeof(double) * table_numbers(patch_->space.rational()) * double(tabulate_.slots());
+}
+
 /// How, and whether it fits into memory: solid, and a solver for it.
 void Solid::prepare(int columns, std::size_t elements) {
   columns_ = columns;
@@ -99,8 +108,7 @@ void Solid::prepare(int columns, std::size_t elements) {
   constexpr double kBytesPerNode = 230.0;  // as measured by tests/benchmark/structure/large_solid
   const int points = tabulate_.slots();
   double per_element = 2.0 * sizeof(double) * static_cast<double>(remembered_);
-  if (integration_.method == IntegrationMethod::stored)
-    per_element += sizeof(double) * table_numbers(patch_->space.rational()) * points;
+  if (integration_.method == IntegrationMethod::stored) per_element += element_table_bytes();
   if (integration_.method == IntegrationMethod::elements)
     per_element += sizeof(double) * (3.0 * padded_ + 1.0) * points;
   nurbs::expect_memory(
@@ -112,9 +120,12 @@ void Solid::prepare(int columns, std::size_t elements) {
 void Solid::choose_method() {
   IntegrationMethod& method = integration_.method;
   const bool can_sweep = PatchSweep::can_sweep(patch_->space);
+  // Of the whole patch, so that it is the same on any number of ranks.
+  const double table = element_table_bytes() * static_cast<double>(patch_->space.element_count());
   if (method == IntegrationMethod::automatic)
     method = !can_sweep                 ? IntegrationMethod::elements
              : affine_jacobian(*patch_) ? IntegrationMethod::affine
+             : table <= kCachedTable    ? IntegrationMethod::stored
                                         : IntegrationMethod::recomputed;
   if (method != IntegrationMethod::elements && !can_sweep)
     throw std::invalid_argument(
@@ -125,8 +136,7 @@ void Solid::choose_method() {
   if (method == IntegrationMethod::affine && !affine_jacobian(*patch_))
     throw std::invalid_argument(
         "Solid: method is 'affine', expected 'auto', 'stored' or 'recomputed': the Jacobian of the patch is "
-        "not "
-        "the same everywhere");
+        "not the same everywhere");
 }
 
 /// Row sums by full quadrature, which also looks for folds.

@@ -102,6 +102,7 @@ class Solid final : public Body {
   std::size_t box_of(int element) const;
   void set_up();
   void choose_method();
+  double element_table_bytes() const;
   void prepare(int columns, std::size_t elements);
   void integrate_mass();
   void integrate_mass_of_elements();
