@@ -93,17 +93,23 @@ IgaStructure::IgaStructure(structure::ExplicitSolver solver, std::vector<structu
 
 void IgaStructure::initialise_forces(const NodalVectors& forces) {
   solver_.initialise_forces(forces);
-  if (history_) history_->record_if_due(solver_);
+  write_output();
 }
 
 void IgaStructure::end_step(const NodalVectors& forces) {
   solver_.end_step(forces);
+  write_output();
+}
+
+void IgaStructure::write_output() {
   if (history_) history_->record_if_due(solver_);
+  if (fields_) fields_->write_if_due(solver_);
 }
 
 void IgaStructure::load(const std::vector<double>& state) {
   solver_.load(state);
   if (history_) history_->resume();
+  if (fields_) fields_->resume();
 }
 
 void IgaStructure::set_time_step(double dt) {

@@ -9,6 +9,7 @@
 
 #include "coupling/structure_solver.h"
 #include "nurbs/boundary.h"
+#include "parallel/shared_fields.h"
 #include "parallel/shared_history.h"
 #include "structure/conditions/probe.h"
 #include "structure/time/explicit_solver.h"
@@ -24,6 +25,8 @@ class IgaStructure final : public StructureSolver {
                bool in_parts = false);
   /// From now on writes histories; before the first run.
   void write_history(parallel::SharedHistory history) { history_.emplace(std::move(history)); }
+  /// The same for fields.
+  void write_fields(parallel::SharedFields fields) { fields_.emplace(std::move(fields)); }
 
   structure::ExplicitSolver& solver() { return solver_; }
 
@@ -59,6 +62,8 @@ class IgaStructure final : public StructureSolver {
   Fingerprint fingerprint() const override;
 
  private:
+  void write_output();
+
   structure::ExplicitSolver solver_;
   std::vector<structure::SkinPiece> skin_;
   std::vector<NodeId> nodes_;
@@ -68,6 +73,7 @@ class IgaStructure final : public StructureSolver {
   std::vector<structure::Probe> probes_;
   std::optional<Vector3> gravity_;
   std::optional<parallel::SharedHistory> history_;
+  std::optional<parallel::SharedFields> fields_;
 };
 
 }  // namespace coupling

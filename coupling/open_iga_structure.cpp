@@ -23,6 +23,7 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
                                                model.gravity, cut.parts > 1);
   if (model.output)
     solver->write_history(parallel::SharedHistory(comm, *model.output, model.geometry.units, model.probes));
+  if (model.output && model.output->fields) solver->write_fields(parallel::SharedFields(comm, model));
   return {std::move(solver), model.geometry.units};
 }
 

@@ -13,6 +13,7 @@
 #include "io/model_file.h"
 #include "parallel/all_or_none.h"
 #include "parallel/session.h"
+#include "parallel/shared_fields.h"
 #include "parallel/shared_history.h"
 
 namespace {
@@ -140,16 +141,21 @@ void run(const Options& options) {
   std::optional<parallel::SharedHistory> history;
   if (model.output) history.emplace(MPI_COMM_WORLD, *model.output, model.geometry.units, model.probes);
   if (history) history->record_if_due(solver);
+  std::optional<parallel::SharedFields> fields;
+  if (model.output && model.output->fields) fields.emplace(MPI_COMM_WORLD, model);
+  if (fields) fields->write_if_due(solver);
   const bool progress = !options.quiet && isatty(STDOUT_FILENO);
   for (long step = 1; step <= steps; ++step) {
     advance(solver, no_forces, step, model, history);
     if (history) history->record_if_due(solver);
+    if (fields) fields->write_if_due(solver);
     if (progress && (step % std::max(1L, steps / 100) == 0 || step == steps))
       print_progress(step, steps, solver.time());
   }
   if (!options.quiet) {
     print_energies(solver);
     if (history) print_on_first("  histories    {}\n", history->path());
+    if (fields) print_on_first("  fields       {}\n", fields->paths());
   }
 }
 

@@ -11,26 +11,11 @@
 
 #include "geometry_io/regular_file.h"
 #include "io/series_file.h"
+#include "io/unit_names.h"
 
 namespace io {
 
 namespace {
-
-struct UnitNames {
-  const char *time, *length, *energy, *momentum, *angular_momentum;
-};
-
-UnitNames unit_names(geometry_io::Units units) {
-  switch (units) {
-    case geometry_io::Units::cgs:
-      return {"s", "cm", "erg", "g cm/s", "g cm^2/s"};
-    case geometry_io::Units::mm_g_ms:
-      return {"ms", "mm", "mJ", "g mm/ms", "g mm^2/ms"};
-    case geometry_io::Units::si:
-      break;
-  }
-  return {"s", "m", "J", "kg m/s", "kg m^2/s"};
-}
 
 // The files of all histories of this process, each for as long as it is written.
 std::set<std::string>& open_files() {

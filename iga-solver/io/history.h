@@ -18,6 +18,8 @@ class OutputTimes {
   explicit OutputTimes(double every, std::optional<double> last = {}) : every_(every), last_(last) {}
   /// Whether the solver has reached the next one, to within half a step; if so, it lies behind from now on.
   bool take(const structure::ExplicitSolver& solver);
+  /// From now on multiples of another interval.
+  void set_interval(double every) { every_ = every; }
 
  private:
   double next_after(double reached) const;

@@ -70,12 +70,6 @@ structure::Probe read_probe(const YamlMap& probes, const std::string& name, cons
   }
 }
 
-HistoryOutput read_output(const YamlMap& map, const std::vector<std::string>& inputs) {
-  map.allow_only({"every", "file"});
-  return {map.number("every", geometry_io::positive()), map.word("file"),
-          fmt::format("{}:{}", map.file(), map.line_of("file")), inputs};
-}
-
 void read_loads(const YamlMap& map, ModelFile& model) {
   map.allow_only({"gravity", "tractions"});
   if (map.has("gravity")) model.gravity = map.vector3("gravity");
@@ -149,7 +143,7 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
     for (const std::string& name : probes.keys())
       model.probes.push_back(read_probe(probes, name, model.volume().space));
   }
-  if (document.has("output")) model.output = read_output(document.map("output"), inputs);
+  if (document.has("output")) model.output = read_output(document.map("output"), model.geometry, inputs);
   if (document.has("loads")) read_loads(document.map("loads"), model);
   if (document.has("initial")) {
     const YamlMap initial = document.map("initial");

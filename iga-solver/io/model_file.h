@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "geometry_io/geometry_io.h"
+#include "io/output_keys.h"
 #include "structure/conditions/probe.h"
 #include "structure/partition.h"
 #include "structure/solid/solid.h"
@@ -31,13 +32,6 @@ struct FixedFaces {
 struct FaceTraction {
   nurbs::Face face;
   Vector3 value;
-};
-
-struct HistoryOutput {
-  double every;                          ///< interval [time]
-  std::string file;                      ///< without ".h5"; relative to the current directory unless absolute
-  std::string place = {};                ///< "plate.yaml:12", for messages
-  std::vector<std::string> inputs = {};  ///< the files that the model was read from: never to be replaced
 };
 
 struct TimeSpan {

@@ -61,6 +61,8 @@ void append(Eigen::MatrixXd& all, const Eigen::MatrixXd& more) {
   all.rightCols(more.cols()) = more;
 }
 
+std::string in_unit(const Field& field) { return field.unit.empty() ? "" : " in " + field.unit; }
+
 void check_fields(const std::vector<Field>& given, const std::vector<Field>& first, int count,
                   const char* where) {
   if (given.size() != first.size())
@@ -68,10 +70,11 @@ void check_fields(const std::vector<Field>& given, const std::vector<Field>& fir
         fmt::format("{} fields {}, expected {} as on the first patch", given.size(), where, first.size()));
   for (std::size_t f = 0; f < given.size(); ++f) {
     const Field &field = given[f], &expected = first[f];
-    if (field.name != expected.name || field.values.rows() != expected.values.rows())
-      throw std::invalid_argument(fmt::format("field '{}' with {} components, expected '{}' with {}",
-                                              field.name, field.values.rows(), expected.name,
-                                              expected.values.rows()));
+    if (field.name != expected.name || field.values.rows() != expected.values.rows() ||
+        field.unit != expected.unit)
+      throw std::invalid_argument(fmt::format("field '{}' with {} components{}, expected '{}' with {}{}",
+                                              field.name, field.values.rows(), in_unit(field), expected.name,
+                                              expected.values.rows(), in_unit(expected)));
     if (field.values.cols() != count)
       throw std::invalid_argument(fmt::format("field '{}' has {} values {}, expected {}", field.name,
                                               field.values.cols(), where, count));
@@ -129,12 +132,32 @@ std::vector<int> point_order(const Indices<Dim>& degrees) {
 }
 
 template <int Dim>
+nurbs::Space<Dim> bezier_space(const nurbs::Space<Dim>& space) {
+  return bezier_form(Patch<Dim>{space, NodalVectors::Zero(3, space.control_point_count())}).space;
+}
+
+PatchFields<2> on_face(const PatchFields<3>& volume, nurbs::Face face) {
+  const nurbs::BoundarySurface boundary = nurbs::boundary_surface(volume.patch.space, face);
+  const std::vector<int>& control_points = boundary.volume_control_point;
+  PatchFields<2> fields{{boundary.space, volume.patch.control_points(Eigen::all, control_points)}, {}, {}};
+  for (const Field& field : volume.control_points)
+    fields.control_points.push_back({field.name, field.values(Eigen::all, control_points), field.unit});
+  if (volume.bezier_points.empty()) return fields;
+  const std::vector<int> bezier_points =
+      nurbs::boundary_surface(bezier_space(volume.patch.space), face).volume_control_point;
+  for (const Field& field : volume.bezier_points)
+    fields.bezier_points.push_back({field.name, field.values(Eigen::all, bezier_points), field.unit});
+  return fields;
+}
+
+template <int Dim>
 BezierCells bezier_cells(const std::vector<PatchFields<Dim>>& patches) {
   BezierCells cells{Dim == 2 ? kQuadrilateral : kHexahedron, {}, {}, {}, {}, {}, {}, {}};
   if (patches.empty()) return cells;
   const PatchFields<Dim>& first = patches.front();
-  for (const Field& field : first.control_points) cells.point_fields.push_back({field.name, {}});
-  for (const Field& field : first.elements) cells.cell_fields.push_back({field.name, {}});
+  for (const Field& field : first.control_points) cells.point_fields.push_back({field.name, {}, field.unit});
+  for (const Field& field : first.bezier_points) cells.point_fields.push_back({field.name, {}, field.unit});
+  for (const Field& field : first.elements) cells.cell_fields.push_back({field.name, {}, field.unit});
   const bool rational = std::any_of(patches.begin(), patches.end(),
                                     [](const PatchFields<Dim>& p) { return p.patch.space.rational(); });
 
@@ -147,10 +170,15 @@ BezierCells bezier_cells(const std::vector<PatchFields<Dim>>& patches) {
     append_cells(space, static_cast<std::int64_t>(cells.points.size() / 3), cells);
     const Patch<Dim> bezier = bezier_form(fields.patch);
     const NodalVectors& points = bezier.control_points;
+    check_fields(fields.bezier_points, first.bezier_points, static_cast<int>(points.cols()),
+                 "per Bezier point");
     cells.points.insert(cells.points.end(), points.data(), points.data() + points.size());
     for (int a = 0; rational && a < points.cols(); ++a) cells.weights.push_back(bezier.space.weight(a));
-    for (std::size_t f = 0; f < fields.control_points.size(); ++f)
+    const std::size_t on_patch = fields.control_points.size();
+    for (std::size_t f = 0; f < on_patch; ++f)
       append(cells.point_fields[f].values, bezier_form(space, fields.control_points[f].values));
+    for (std::size_t f = 0; f < fields.bezier_points.size(); ++f)
+      append(cells.point_fields[on_patch + f].values, fields.bezier_points[f].values);
     for (std::size_t f = 0; f < fields.elements.size(); ++f)
       append(cells.cell_fields[f].values, fields.elements[f].values);
   }
@@ -159,6 +187,8 @@ BezierCells bezier_cells(const std::vector<PatchFields<Dim>>& patches) {
 
 template std::vector<int> point_order<2>(const Indices<2>&);
 template std::vector<int> point_order<3>(const Indices<3>&);
+template nurbs::Space<2> bezier_space(const nurbs::Space<2>&);
+template nurbs::Space<3> bezier_space(const nurbs::Space<3>&);
 template BezierCells bezier_cells(const std::vector<PatchFields<2>>&);
 template BezierCells bezier_cells(const std::vector<PatchFields<3>>&);
 

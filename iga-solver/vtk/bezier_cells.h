@@ -10,23 +10,35 @@
 #include <string>
 #include <vector>
 
+#include "nurbs/boundary.h"
 #include "nurbs/patch.h"
 
 namespace vtk {
 
-/// Values of one field on one patch: components x points, 1 (scalar) or 3 (vector) components.  Per control
-/// point they are the coefficients q_A of sum_A R_A q_A; per element they are constants.
+/// Values of one field on one patch: components x points, 1 (scalar), 3 (vector) or 6 (symmetric tensor: xx,
+/// yy, zz, xy, yz, xz) components.  Per control point they are the coefficients q_A of sum_A R_A q_A, per
+/// Bezier point the same on the basis of bezier_space; per element they are constants.
 struct Field {
   std::string name;
   Eigen::MatrixXd values;
+  std::string unit = {};  ///< empty: not said
 };
 
 template <int Dim>
 struct PatchFields {
-  nurbs::Patch<Dim> patch;            ///< where it is now
-  std::vector<Field> control_points;  ///< components x control_point_count()
-  std::vector<Field> elements;        ///< components x element_count()
+  nurbs::Patch<Dim> patch;                ///< where it is drawn
+  std::vector<Field> control_points;      ///< components x control_point_count()
+  std::vector<Field> elements;            ///< components x element_count()
+  std::vector<Field> bezier_points = {};  ///< components x bezier_space().control_point_count()
 };
+
+/// The basis that a patch's cells have: every interior knot as often as the degree, so that the control
+/// points are the Bezier points of all elements, p n + 1 in a direction of n elements.
+template <int Dim>
+nurbs::Space<Dim> bezier_space(const nurbs::Space<Dim>& space);
+
+/// A volume's face with the fields that it has per control point and per Bezier point.
+PatchFields<2> on_face(const PatchFields<3>& volume, nurbs::Face face);
 
 /// An unstructured grid of Bezier quadrilaterals (Dim 2) or hexahedra (Dim 3).  Elements of one patch share
 /// the points between them, patches share none.

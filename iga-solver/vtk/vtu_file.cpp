@@ -39,8 +39,8 @@ const char* type_name(const std::int32_t*) { return "Int32"; }
 const char* type_name(const std::uint8_t*) { return "UInt8"; }
 
 template <class Number>
-void add_array(pugi::xml_node parent, const std::string& name, int components, const Number* values,
-               std::size_t count) {
+pugi::xml_node add_array(pugi::xml_node parent, const std::string& name, int components, const Number* values,
+                         std::size_t count) {
   const std::uint64_t size = count * sizeof(Number);
   std::vector<unsigned char> bytes(sizeof size + size);
   std::memcpy(bytes.data(), &size, sizeof size);
@@ -52,16 +52,44 @@ void add_array(pugi::xml_node parent, const std::string& name, int components, c
   array.append_attribute("NumberOfComponents") = components;
   array.append_attribute("format") = "binary";
   array.text().set(base64(bytes).c_str());
+  return array;
 }
 template <class Number>
-void add_array(pugi::xml_node parent, const std::string& name, int components,
-               const std::vector<Number>& values) {
-  add_array(parent, name, components, values.data(), values.size());
+pugi::xml_node add_array(pugi::xml_node parent, const std::string& name, int components,
+                         const std::vector<Number>& values) {
+  return add_array(parent, name, components, values.data(), values.size());
 }
+
+// What ParaView shows for the components of a tensor.
+void name_tensor_components(pugi::xml_node array) {
+  constexpr const char* kNames[] = {"XX", "YY", "ZZ", "XY", "YZ", "XZ"};
+  for (int i = 0; i < 6; ++i) array.append_attribute(fmt::format("ComponentName{}", i).c_str()) = kNames[i];
+}
+
+void add_unit(pugi::xml_node array, const std::string& unit) {
+  pugi::xml_node key = array.append_child("InformationKey");
+  key.append_attribute("name") = "UNITS_LABEL";
+  key.append_attribute("location") = "vtkDataArray";
+  key.text().set(unit.c_str());
+}
+
 void add_arrays(pugi::xml_node parent, const std::vector<Field>& fields) {
-  for (const Field& field : fields)
-    add_array(parent, field.name, static_cast<int>(field.values.rows()), field.values.data(),
-              field.values.size());
+  for (const Field& field : fields) {
+    pugi::xml_node array = add_array(parent, field.name, static_cast<int>(field.values.rows()),
+                                     field.values.data(), field.values.size());
+    if (field.values.rows() == 6) name_tensor_components(array);
+    if (!field.unit.empty()) add_unit(array, field.unit);
+  }
+}
+
+void add_about(pugi::xml_node grid, const About& about) {
+  pugi::xml_node data = grid.append_child("FieldData");
+  add_array(data, "TimeValue", 1, &about.time, 1).append_attribute("NumberOfTuples") = 1;
+  if (about.units.empty()) return;
+  const std::vector<std::uint8_t> text(about.units.c_str(), about.units.c_str() + about.units.size() + 1);
+  pugi::xml_node units = add_array(data, "UNITS", 1, text);
+  units.attribute("type") = "String";
+  units.append_attribute("NumberOfTuples") = 1;
 }
 
 pugi::xml_node start(pugi::xml_document& document, const char* type, const char* version) {
@@ -87,12 +115,14 @@ long step_of(const std::string& file) {
 }  // namespace
 
 template <int Dim>
-void write_vtu(const std::string& path, const std::vector<PatchFields<Dim>>& patches) {
+void write_vtu(const std::string& path, const std::vector<PatchFields<Dim>>& patches, const About& about) {
   const BezierCells cells = bezier_cells(patches);
   pugi::xml_document document;
   pugi::xml_node root = start(document, "UnstructuredGrid", "2.2");
   root.append_attribute("header_type") = "UInt64";
-  pugi::xml_node piece = root.append_child("UnstructuredGrid").append_child("Piece");
+  pugi::xml_node grid = root.append_child("UnstructuredGrid");
+  add_about(grid, about);
+  pugi::xml_node piece = grid.append_child("Piece");
   piece.append_attribute("NumberOfPoints") = static_cast<unsigned long long>(cells.points.size() / 3);
   piece.append_attribute("NumberOfCells") = static_cast<unsigned long long>(cells.offsets.size());
 
@@ -115,21 +145,34 @@ void write_vtu(const std::string& path, const std::vector<PatchFields<Dim>>& pat
   save(document, path);
 }
 
-void Series::resume(long step) {
-  if (!std::filesystem::exists(path())) return;
+std::vector<Series::Entry> Series::entries_of_file() const {
+  if (!std::filesystem::exists(path())) return {};
   pugi::xml_document document;
   if (!document.load_file(path().c_str()) || !document.child("VTKFile").child("Collection"))
     throw std::runtime_error(
         fmt::format("'{}' is no ParaView series, so it cannot be continued: remove it", path()));
+  std::vector<Entry> entries;
   for (pugi::xml_node entry : document.child("VTKFile").child("Collection").children("DataSet"))
-    if (step_of(entry.attribute("file").as_string()) <= step)
-      entries_.emplace_back(entry.attribute("timestep").as_double(), entry.attribute("file").as_string());
+    entries.emplace_back(entry.attribute("timestep").as_double(), entry.attribute("file").as_string());
+  return entries;
+}
+
+void Series::resume(long step) {
+  for (Entry& entry : entries_of_file())
+    if (step_of(entry.second) <= step) entries_.push_back(std::move(entry));
+}
+
+std::optional<double> Series::resume_at(double time) {
+  for (Entry& entry : entries_of_file())
+    if (entry.first <= time) entries_.push_back(std::move(entry));
+  if (entries_.empty()) return {};
+  return entries_.back().first;
 }
 
 template <int Dim>
 void Series::write(long step, double time, const std::vector<PatchFields<Dim>>& patches) {
   const std::string file = fmt::format("{}_{}.vtu", stem_, step);
-  write_vtu(file, patches);
+  write_vtu(file, patches, {time, units_});
   entries_.emplace_back(time, std::filesystem::path(file).filename().string());
   write_index();
 }
@@ -145,8 +188,8 @@ void Series::write_index() const {
   save(document, path());
 }
 
-template void write_vtu(const std::string&, const std::vector<PatchFields<2>>&);
-template void write_vtu(const std::string&, const std::vector<PatchFields<3>>&);
+template void write_vtu(const std::string&, const std::vector<PatchFields<2>>&, const About&);
+template void write_vtu(const std::string&, const std::vector<PatchFields<3>>&, const About&);
 template void Series::write(long, double, const std::vector<PatchFields<2>>&);
 template void Series::write(long, double, const std::vector<PatchFields<3>>&);
 

@@ -3,9 +3,16 @@
 #pragma once
 
 #include "structure/material/isotropic_elastic.h"
+#include "structure/material/linear_elastic.h"
 #include "structure/material/tensor.h"
 
 namespace structure {
+
+/// Whether a law is one for small strain: P is the Cauchy stress.
+template <class Law>
+constexpr bool is_for_small_strain = false;
+template <>
+constexpr bool is_for_small_strain<LinearElasticLaw> = true;
 
 /// Law: a struct of lambda and mu with kWord, stress(H) and energy_density(H) for any kind of number.
 template <class Law>
@@ -22,6 +29,9 @@ class ElasticMaterial final : public IsotropicElastic {
     const Tensor<double> P = law_.stress(tensor(H));
     return (Matrix3() << P(0, 0), P(0, 1), P(0, 2), P(1, 0), P(1, 1), P(1, 2), P(2, 0), P(2, 1), P(2, 2))
         .finished();
+  }
+  Matrix3 cauchy_stress(const Matrix3& H, const double* state) const override {
+    return is_for_small_strain<Law> ? stress(H, state) : Material::cauchy_stress(H, state);
   }
   double energy_density(const Matrix3& H, const double* /*state*/) const override {
     return law_.energy_density(tensor(H));

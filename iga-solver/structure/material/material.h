@@ -7,6 +7,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <vector>
 
 namespace structure {
@@ -21,6 +22,13 @@ class Material {
   virtual Matrix3 stress(const Matrix3& H, const double* state) const = 0;
   /// Stored energy per reference volume [J/m^3]; stress is its derivative with respect to H.
   virtual double energy_density(const Matrix3& H, const double* state) const = 0;
+
+  /// Force per area as it now is [Pa], in space: P F^T / det F with F = I + H, which is symmetric if the law
+  /// is objective.  Of a law for small strain areas and directions are those of the reference: P itself.
+  virtual Matrix3 cauchy_stress(const Matrix3& H, const double* state) const {
+    const Matrix3 F = Matrix3::Identity() + H;
+    return stress(H, state) * F.transpose() / F.determinant();
+  }
 
   /// Numbers that a point remembers, all 0 before the first step; none for an elastic law, which may ignore
   /// its state and is never asked to evolve it.

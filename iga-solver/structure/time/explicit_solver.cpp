@@ -292,7 +292,7 @@ std::vector<double> ExplicitSolver::save() const {
     state.insert(state.end(), rows.begin(), rows.end());
   };
   for (const NodalVectors* values : {&u_, &v_, &a_}) append(in_order(*values));
-  append(halo_->in_order(element_ids(), body_->memory()));
+  append(memory_in_order());
   return state;
 }
 

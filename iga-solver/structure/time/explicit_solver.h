@@ -109,6 +109,8 @@ class ExplicitSolver {
   /// Nodal values of the whole body in the order of node ids, collective; and back to the part's.
   std::vector<double> in_order(const NodalVectors& values) const;
   void from_order(const double* rows, NodalVectors& values) const;
+  /// What the material of the whole body remembers, in the order of element ids, collective.
+  std::vector<double> memory_in_order() const { return halo_->in_order(element_ids(), body_->memory()); }
 
  private:
   void check_size(const NodalVectors& values, const char* what) const;

@@ -91,6 +91,18 @@ TEST_F(VtkSeries, GoesOnAfterARestart) {
   EXPECT_THAT(index, Not(HasSubstr("wall_20.vtu"))) << "of a future that is computed again";
 }
 
+TEST_F(VtkSeries, GoesOnAtATime) {
+  vtk::Series before((*this)("wall"));
+  EXPECT_EQ(vtk::Series((*this)("wall")).resume_at(1.0), std::nullopt);
+  for (long n : {0L, 1L, 2L}) before.write<2>(n, 0.5 * n, {square()});
+  vtk::Series after((*this)("wall"));
+  EXPECT_EQ(after.resume_at(0.5), 0.5);
+  EXPECT_EQ(after.count(), 2);
+  after.write<2>(2, 0.75, {square()});
+  EXPECT_THAT(text("wall.pvd"), HasSubstr("timestep=\"0.75\" file=\"wall_2.vtu\""));
+  EXPECT_THAT(text("wall.pvd"), Not(HasSubstr("timestep=\"1\"")));
+}
+
 // All digits, also through a restart, which writes what it has read.
 TEST_F(VtkSeries, TimesReadBackToTheLastBit) {
   const double time = 1.0 / 3.0 + 1e-15;

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/output_keys.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/field_places.h"
+#include "io/solid_fields.h"
+
+namespace io {
+
+using geometry_io::YamlMap;
+
+namespace {
+
+/// Words that are each one of `known`, none twice.
+std::vector<std::string> words_of(const YamlMap& map, const std::string& key,
+                                  const std::vector<std::string>& known) {
+  std::vector<std::string> words = map.words(key);
+  if (words.empty())
+    map.fail(key, fmt::format("{} is empty, expected some of: {}", key, fmt::join(known, ", ")));
+  for (auto word = words.begin(); word != words.end(); ++word) {
+    if (std::find(known.begin(), known.end(), *word) == known.end()) {
+      const std::string nearest = geometry_io::nearest_word(*word, known);
+      const std::string hint = nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest);
+      map.fail(key, fmt::format("{} has {}, {}expected some of: {}", key, geometry_io::shown(*word), hint,
+                                fmt::join(known, ", ")));
+    }
+    if (std::find(words.begin(), word, *word) != word)
+      map.fail(key, fmt::format("{} has '{}' twice, expected once", key, *word));
+  }
+  return words;
+}
+
+/// `fields: [displacement, stress]` comes with the histories, `fields: {of: [...], every: T, on: [...]}` at
+/// times and places of its own.
+FieldOutput read_fields(const YamlMap& output, const geometry_io::GeometryFile& geometry) {
+  if (output.is_list("fields"))
+    return {words_of(output, "fields", field_words()), output.number("every", geometry_io::positive())};
+  const YamlMap map = output.map("fields");
+  map.allow_only({"of", "every", "steps", "on"});
+  FieldOutput fields{words_of(map, "of", field_words())};
+  if (map.has("every") == map.has("steps"))
+    output.fail("fields", "fields has 'every' and 'steps' both or neither, expected one of them");
+  if (map.has("every"))
+    fields.every = map.number("every", geometry_io::positive());
+  else
+    fields.steps = map.integer("steps", 1, 1000000000);
+  if (map.has("on")) fields.on = words_of(map, "on", field_places(geometry));
+  return fields;
+}
+
+}  // namespace
+
+HistoryOutput read_output(const YamlMap& output, const geometry_io::GeometryFile& geometry,
+                          const std::vector<std::string>& inputs) {
+  output.allow_only({"every", "file", "fields"});
+  HistoryOutput result{output.number("every", geometry_io::positive()), output.word("file"),
+                       fmt::format("{}:{}", output.file(), output.line_of("file")), inputs};
+  if (output.has("fields")) result.fields = read_fields(output, geometry);
+  return result;
+}
+
+}  // namespace io

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The key `output` of a model file: what a run writes, when, and to which files.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "geometry_io/geometry_file.h"
+
+namespace io {
+
+/// Fields for ParaView.
+struct FieldOutput {
+  std::vector<std::string> of;               ///< words of solid_fields.h
+  std::optional<double> every = {};          ///< interval [time] ...
+  std::optional<int> steps = {};             ///< ... or so many time steps of the solid
+  std::vector<std::string> on = {"volume"};  ///< places (field_series.h), each a series of files
+};
+
+/// Histories, and perhaps fields.
+struct HistoryOutput {
+  double every;                          ///< interval [time]
+  std::string file;                      ///< without ".h5"; relative to the current directory unless absolute
+  std::string place = {};                ///< "plate.yaml:12", for messages
+  std::vector<std::string> inputs = {};  ///< the files that the model was read from: never to be replaced
+  std::optional<FieldOutput> fields = {};
+};
+
+/// Throws geometry_io::InputError as all readers of model files.
+HistoryOutput read_output(const geometry_io::YamlMap& output, const geometry_io::GeometryFile& geometry,
+                          const std::vector<std::string>& inputs);
+
+}  // namespace io

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "parallel/shared_fields.h"
+
+#include <cmath>
+#include <limits>
+
+#include "parallel/all_or_none.h"
+
+namespace parallel {
+
+namespace {
+
+structure::NodalVectors nodal_vectors(const std::vector<double>& rows) {
+  return Eigen::Map<const structure::NodalVectors>(rows.data(), 3,
+                                                   static_cast<Eigen::Index>(rows.size() / 3));
+}
+
+}  // namespace
+
+SharedFields::SharedFields(MPI_Comm comm, const io::ModelFile& model)
+    : comm_(comm), output_(*model.output->fields) {
+  on_first_rank(comm_, [&] { series_.emplace(model); });
+  for (const std::string& place : output_.on)
+    paths_ += (paths_.empty() ? "" : ", ") + model.output->file + "_" + place + ".pvd";
+}
+
+double SharedFields::interval(const structure::ExplicitSolver& solver) const {
+  return output_.every ? *output_.every : *output_.steps * solver.time_step();
+}
+
+void SharedFields::open(const structure::ExplicitSolver& solver) {
+  double last = std::numeric_limits<double>::quiet_NaN();  // no state yet
+  if (resumes_) on_first_rank(comm_, [&] { last = series_->resume(solver.time()).value_or(last); });
+  MPI_Bcast(&last, 1, MPI_DOUBLE, 0, comm_);
+  times_.emplace(interval(solver), std::isnan(last) ? std::optional<double>() : last);
+}
+
+void SharedFields::write_if_due(const structure::ExplicitSolver& solver) {
+  if (!times_) open(solver);
+  times_->set_interval(interval(solver));
+  if (!times_->take(solver)) return;
+  const io::SolidState state{solver.time(), nodal_vectors(solver.in_order(solver.displacements())),
+                             nodal_vectors(solver.in_order(solver.velocities())), solver.memory_in_order()};
+  on_first_rank(comm_, [&] { series_->write(state); });
+}
+
+}  // namespace parallel

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Fields for ParaView (io/field_series.h) of a solid on all ranks: all know when a state is due;
+// displacements, velocities and what the material remembers are gathered, and rank 0 works out stresses and
+// writes.  So the files are the same on any number of ranks.
+#pragma once
+
+#include <mpi.h>
+
+#include <optional>
+#include <string>
+
+#include "io/field_series.h"
+#include "io/history.h"
+
+namespace parallel {
+
+class SharedFields {
+ public:
+  /// `model.output->fields` is there.
+  SharedFields(MPI_Comm comm, const io::ModelFile& model);
+
+  /// The solver has got a saved state: the series go on with those of then.
+  void resume() { resumes_ = true; }
+  /// "plate_volume.pvd, plate_top.pvd"
+  const std::string& paths() const { return paths_; }
+  /// Collective, before the first step and after each.  Throws std::runtime_error on every rank, naming the
+  /// file, if rank 0 cannot write.
+  void write_if_due(const structure::ExplicitSolver& solver);
+
+ private:
+  void open(const structure::ExplicitSolver& solver);
+  double interval(const structure::ExplicitSolver& solver) const;
+
+  MPI_Comm comm_;
+  io::FieldOutput output_;
+  std::string paths_;
+  bool resumes_ = false;
+  std::optional<io::OutputTimes> times_;   // from the first call on
+  std::optional<io::FieldSeries> series_;  // on rank 0
+};
+
+}  // namespace parallel
