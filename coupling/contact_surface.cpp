@@ -67,11 +67,7 @@ SurfaceMap SurfaceMap::on(const std::vector<NodeId>& nodes) const {
 void SurfaceMap::to_surface(const std::vector<int>& control_points, const NodalVectors& nodal,
                             NodalVectors& surface) const {
   NURBS_ASSERT(nodal.cols() == S_.cols() && surface.cols() == S_.rows(), nodal.cols(), S_.cols());
-  for (const int row : control_points) {
-    Vector3 sum = Vector3::Zero();
-    for (Matrix::InnerIterator entry(S_, row); entry; ++entry) sum += entry.value() * nodal.col(entry.col());
-    surface.col(row) = sum;
-  }
+  for (const int row : control_points) surface.col(row) = at(row, nodal);
 }
 
 void SurfaceMap::to_surface(const NodalVectors& nodal, NodalVectors& surface) const {
@@ -91,9 +87,12 @@ void SurfaceMap::add_to_nodes(const NodalVectors& surface, NodalVectors& nodal) 
   add_to_nodes(all(), surface, nodal);
 }
 
-void SurfaceMap::clear_nodes(const std::vector<int>& control_points, NodalVectors& nodal) const {
+void SurfaceMap::nodes_of(const std::vector<int>& control_points, std::vector<Eigen::Index>& nodes) const {
+  nodes.clear();
   for (const int row : control_points)
-    for (Matrix::InnerIterator entry(S_, row); entry; ++entry) nodal.col(entry.col()).setZero();
+    for (Matrix::InnerIterator entry(S_, row); entry; ++entry) nodes.push_back(entry.col());
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
 }
 
 std::vector<int> SurfaceMap::all() const {

@@ -39,6 +39,13 @@ class SurfaceMap {
     return S_.outerIndexPtr()[control_point + 1] > S_.outerIndexPtr()[control_point];
   }
 
+  /// The value at a control point where `nodal` (3 x n_nodes) are those of the nodes.
+  Vector3 at(int control_point, const NodalVectors& nodal) const {
+    Vector3 sum = Vector3::Zero();
+    for (Matrix::InnerIterator entry(S_, control_point); entry; ++entry)
+      sum += entry.value() * nodal.col(entry.col());
+    return sum;
+  }
   /// At these control points, surface (3 x n_control_points) = values where `nodal` (3 x n_nodes) are those
   /// of the nodes.
   void to_surface(const std::vector<int>& control_points, const NodalVectors& nodal,
@@ -49,8 +56,8 @@ class SurfaceMap {
   void add_to_nodes(const std::vector<int>& control_points, const NodalVectors& surface,
                     NodalVectors& nodal) const;
   void add_to_nodes(const NodalVectors& surface, NodalVectors& nodal) const;  ///< of all
-  /// Sets to zero what add_to_nodes adds to.
-  void clear_nodes(const std::vector<int>& control_points, NodalVectors& nodal) const;
+  /// The columns that it adds to, rising.
+  void nodes_of(const std::vector<int>& control_points, std::vector<Eigen::Index>& nodes) const;
 
   NodeId control_point_count() const { return S_.rows(); }
   NodeId node_count() const { return S_.cols(); }

@@ -91,13 +91,13 @@ IgaStructure::IgaStructure(structure::ExplicitSolver solver, std::vector<structu
       probes_(std::move(probes)),
       gravity_(gravity) {}
 
-void IgaStructure::initialise_forces(const NodalVectors& forces) {
-  solver_.initialise_forces(forces);
+void IgaStructure::initialise_forces(const NodalForces& forces) {
+  solver_.initialise_forces(forces.values);
   write_output();
 }
 
-void IgaStructure::end_step(const NodalVectors& forces) {
-  solver_.end_step(forces);
+void IgaStructure::end_step(const NodalForces& forces) {
+  solver_.end_step(forces.values);
   write_output();
 }
 

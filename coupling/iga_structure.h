@@ -39,9 +39,9 @@ class IgaStructure final : public StructureSolver {
   const NodalVectors& positions() const override { return solver_.positions(); }
   const NodalVectors& velocities() const override { return solver_.velocities(); }
 
-  void initialise_forces(const NodalVectors& forces) override;
+  void initialise_forces(const NodalForces& forces) override;
   void begin_step() override { solver_.begin_step(); }
-  void end_step(const NodalVectors& forces) override;
+  void end_step(const NodalForces& forces) override;
   /// Also throws if dt is above the stable step, naming both numbers.
   void set_time_step(double dt) override;
   double stable_time_step() const override { return solver_.stable_time_step(); }

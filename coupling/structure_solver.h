@@ -13,6 +13,7 @@
 
 #include "coupling/contact_surface.h"
 #include "coupling/fingerprint.h"
+#include "coupling/nodal_forces.h"
 #include "coupling/rigid_frame.h"
 
 namespace coupling {
@@ -67,9 +68,9 @@ class StructureSolver {
 
   /// Accelerations for the current state under the given nodal contact forces (in the body frame) [force];
   /// advances nothing.
-  virtual void initialise_forces(const NodalVectors& forces) = 0;
+  virtual void initialise_forces(const NodalForces& forces) = 0;
   virtual void begin_step() = 0;
-  virtual void end_step(const NodalVectors& forces) = 0;
+  virtual void end_step(const NodalForces& forces) = 0;
 
   /// dt [time]; throws std::invalid_argument unless it is positive and below the stable step.
   virtual void set_time_step(double dt) = 0;

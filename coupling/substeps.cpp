@@ -55,8 +55,8 @@ Substeps::Substeps(std::unique_ptr<IgaStructure> body, SubstepOptions options)
       no_forces_(F_),
       x_(body_->positions()),
       v_(body_->velocities()),
-      du_(F_),
-      dv_(F_) {}
+      du_(F_.values),
+      dv_(F_.values) {}
 
 void Substeps::set_time_step(double dt) {
   if (done_ > 0) {
@@ -133,13 +133,13 @@ std::string Substeps::describe_step() const {
                      count_, count_, dt_ / count_);
 }
 
-void Substeps::initialise_forces(const NodalVectors& forces) {
+void Substeps::initialise_forces(const NodalForces& forces) {
+  F_ = forces;
   if (!particles_fast()) {
-    F_ = count_ * forces;
+    F_.values *= count_;
     return body_->initialise_forces(F_);
   }
-  F_ = forces;
-  solver_.halo().owners_to_ghosts(F_);
+  solver_.halo().owners_to_ghosts(F_.values);
   body_->initialise_forces(no_forces_);
   place_surface();
 }
@@ -158,13 +158,13 @@ void Substeps::begin_step() {
   }
 }
 
-void Substeps::end_step(const NodalVectors& forces) {
+void Substeps::end_step(const NodalForces& forces) {
+  F_ = forces;
   if (!particles_fast()) {
-    F_ = count_ * forces;  // two half kicks of dt/count, which are to be those of dt
+    F_.values *= count_;  // two half kicks of dt/count, which are to be those of dt
     return body_->end_step(F_);
   }
-  F_ = forces;
-  solver_.halo().owners_to_ghosts(F_);
+  solver_.halo().owners_to_ghosts(F_.values);
   kick_by_contact();
   if (done_ == count_) {
     body_->begin_step();
@@ -179,7 +179,7 @@ void Substeps::end_step(const NodalVectors& forces) {
 
 void Substeps::kick_by_contact() {
   for (const Eigen::Index A : surface_nodes_)
-    dv_.col(A) += 0.5 * dt_ * solver_.inverse_mass().col(A).cwiseProduct(F_.col(A));
+    dv_.col(A) += 0.5 * dt_ * solver_.inverse_mass().col(A).cwiseProduct(F_.values.col(A));
 }
 
 // Until the outer step ends the body stands where it began: velocities have had their half kick by internal

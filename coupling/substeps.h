@@ -34,9 +34,9 @@ class Substeps final : public StructureSolver {
   const NodalVectors& positions() const override { return particles_fast() ? x_ : body_->positions(); }
   const NodalVectors& velocities() const override { return particles_fast() ? v_ : body_->velocities(); }
 
-  void initialise_forces(const NodalVectors& forces) override;
+  void initialise_forces(const NodalForces& forces) override;
   void begin_step() override;
-  void end_step(const NodalVectors& forces) override;
+  void end_step(const NodalForces& forces) override;
 
   /// Of the particles.  Chooses who is fast and by how much where that is left open.  Also throws
   /// std::invalid_argument if `auto` finds no number that lets nothing grow, and if dt changes within an
@@ -81,7 +81,7 @@ class Substeps final : public StructureSolver {
   SubstepOptions::Fast fast_ = SubstepOptions::Fast::structure;
   int count_ = 1, done_ = 0;  // particle steps of the outer step that are done
   double dt_ = 0.0;           // of the particles
-  NodalVectors F_, no_forces_;
+  NodalForces F_, no_forces_;
   // Particles fast: the surface now, and what contacts have added since the outer step began.
   NodalVectors x_, v_, du_, dv_;
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
@@ -79,8 +80,9 @@ SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver)
   followed_.resize(control_points);
   std::iota(followed_.begin(), followed_.end(), 0);
   if (owners_) owners_->want(followed_);
+  brought_ = own_;
   surface_forces_.setZero(3, control_points);
-  nodal_forces_.setZero(3, map_.node_count());
+  nodal_forces_.values.setZero(3, map_.node_count());
   is_touched_.resize(control_points, false);
   positions_.setZero(3, control_points);
   velocities_.setZero(3, control_points);
@@ -97,32 +99,42 @@ void SurfaceExchange::import_masses() {
   if (owners_) owners_->bring_all(inverse_masses_, velocities_);  // which come anew
 }
 
-void SurfaceExchange::import_own() {
-  map_.to_surface(own_, solver_.positions(), positions_);
-  map_.to_surface(own_, solver_.velocities(), velocities_);
+void SurfaceExchange::import_own(const std::vector<int>& control_points) {
+  map_.to_surface(control_points, solver_.positions(), positions_);
+  map_.to_surface(control_points, solver_.velocities(), velocities_);
 }
 
 void SurfaceExchange::import_surface() {
-  import_own();
+  import_own(own_);
   if (owners_) owners_->bring_all(positions_, velocities_);
 }
 
 void SurfaceExchange::import_followed() {
-  import_own();
+  import_own(brought_);
   if (owners_) owners_->bring_wanted(positions_, velocities_);
 }
 
 void SurfaceExchange::follow(const std::vector<int>& elements) {
-  if (!owners_) return;
   followed_ = control_points_around(elements, solver_.surface().topology);
-  owners_->want(followed_);
+  brought_.clear();
+  std::copy_if(followed_.begin(), followed_.end(), std::back_inserter(brought_),
+               [this](int c) { return map_.hangs(c); });
+  if (owners_) {
+    owners_->want(followed_);
+    const std::vector<int> own = std::move(brought_), lent = owners_->wanted_by_others();
+    brought_.clear();
+    std::set_union(own.begin(), own.end(), lent.begin(), lent.end(), std::back_inserter(brought_));
+  }
+  own_places_.resize(3, static_cast<Eigen::Index>(own_.size()));
+  for (std::size_t k = 0; k < own_.size(); ++k) own_places_.col(k) = map_.at(own_[k], solver_.positions());
 }
 
-double SurfaceExchange::largest_motion(const NodalVectors& then) const {
-  NURBS_ASSERT(then.cols() == positions_.cols(), then.cols(), positions_.cols());
+double SurfaceExchange::largest_motion() const {
+  NURBS_ASSERT(own_places_.cols() == static_cast<Eigen::Index>(own_.size()), own_places_.cols());
+  const NodalVectors& positions = solver_.positions();
   double largest = 0.0;
-  for (const int c : own_) {
-    const double motion = (positions_.col(c) - then.col(c)).squaredNorm();
+  for (std::size_t k = 0; k < own_.size(); ++k) {
+    const double motion = (map_.at(own_[k], positions) - own_places_.col(k)).squaredNorm();
     if (!(motion <= largest)) largest = motion;  // which it stays if it is not a number
   }
   return std::sqrt(owners_ ? owners_->largest(largest) : largest);
@@ -132,7 +144,7 @@ bool SurfaceExchange::any(bool here) const {
   return owners_ ? owners_->largest(here ? 1.0 : 0.0) > 0.0 : here;
 }
 
-const NodalVectors& SurfaceExchange::export_add(const std::vector<ContactForce>& local) {
+const NodalForces& SurfaceExchange::export_add(const std::vector<ContactForce>& local) {
   forget_forces();
   contacts_.clear();
   if (owners_)
@@ -152,12 +164,13 @@ const NodalVectors& SurfaceExchange::export_add(const std::vector<ContactForce>&
     });
   }
   std::sort(touched_.begin(), touched_.end());
-  map_.add_to_nodes(touched_, surface_forces_, nodal_forces_);
+  map_.nodes_of(touched_, nodal_forces_.touched);
+  map_.add_to_nodes(touched_, surface_forces_, nodal_forces_.values);
   return nodal_forces_;
 }
 
 void SurfaceExchange::forget_forces() {
-  map_.clear_nodes(touched_, nodal_forces_);
+  for (const Eigen::Index A : nodal_forces_.touched) nodal_forces_.values.col(A).setZero();
   for (const int c : touched_) {
     surface_forces_.col(c).setZero();
     is_touched_[c] = false;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// All transfer between the ranks of the particles and the ranks of the structure.  Where every rank holds the
-// whole structure, import is a local copy and contacts go to all ranks; of a structure in parts, contacts go
-// to the owners of their element, and its place and velocity come back for elements that particles are near.
-// Nothing outside this class may rely on either.
+// All transfer between the ranks of the particles and the ranks of the structure.  Place and velocity come
+// for the elements that particles are near.  Where every rank holds the whole structure, that is a local copy
+// and contacts go to all ranks; of a structure in parts, contacts go to the owners of their element.
 #pragma once
 
 #include <mpi.h>
@@ -25,7 +24,8 @@ class SurfaceExchange {
   /// Brings positions and velocities of all of the surface's control points to this rank: when lists of
   /// candidates are built, and for output.
   void import_surface();
-  /// From now on contacts are with these elements (of the surface, in any order) alone, until the next call.
+  /// From now on contacts are with these elements (of the surface, in any order) alone, and motion counts
+  /// from where the surface is, until the next call.  Of a structure that deforms.
   void follow(const std::vector<int>& elements);
   /// The same as import_surface() for these elements and those around them; call after every change of the
   /// solver's state.  What is farther away stays as it was.
@@ -34,11 +34,11 @@ class SurfaceExchange {
   const NodalVectors& velocities() const { return velocities_; }  ///< 3 x n_control_points [length/time]
   /// StructureSolver::inverse_node_mass of all control points (3 x n_control_points), or empty.
   const NodalVectors& inverse_masses() const { return inverse_masses_; }
-  /// The control points that import_followed() brings to this rank, rising; all, if there are no parts.
+  /// The control points that import_followed() brings to this rank, rising; all, before the first follow().
   const std::vector<int>& followed() const { return followed_; }
-  /// Largest distance of a control point from where it was `then` (3 x n_control_points), of the whole
-  /// surface; not a number if one is none [length].
-  double largest_motion(const NodalVectors& then) const;
+  /// Largest distance of a control point from where it was at the last follow(), of the whole surface; not a
+  /// number if one is none [length].  Each rank looks at those that it owns.
+  double largest_motion() const;
 
   /// Whether it is so on any rank, as far as they must agree.
   bool any(bool here) const;
@@ -47,10 +47,10 @@ class SurfaceExchange {
   /// control points (eq. 34) in the order of (tag, branch), so the sums do not depend on how many ranks there
   /// are.  Takes as long as there are contacts.  Throws std::runtime_error on every rank if there are more
   /// contacts than MPI counts.
-  const NodalVectors& export_add(const std::vector<ContactForce>& local);
+  const NodalForces& export_add(const std::vector<ContactForce>& local);
 
  private:
-  void import_own();
+  void import_own(const std::vector<int>& control_points);
   void import_masses();
   void gather(const std::vector<ContactForce>& local);
   void send_to_owners(const std::vector<ContactForce>& local);
@@ -62,9 +62,12 @@ class SurfaceExchange {
   std::vector<int> own_;                   ///< these control points
   std::unique_ptr<SurfaceOwners> owners_;  ///< of a structure in parts
   std::vector<int> followed_;
+  std::vector<int> brought_;  ///< of own_, those that this rank or another follows
+  NodalVectors own_places_;   ///< of own_, at the last follow()
   NodalVectors positions_, velocities_, inverse_masses_;
-  NodalVectors surface_forces_, nodal_forces_;  ///< zero but where contacts are
-  std::vector<int> touched_;                    ///< control points with forces, rising
+  NodalVectors surface_forces_;  ///< zero but where contacts are
+  NodalForces nodal_forces_;
+  std::vector<int> touched_;  ///< control points with forces, rising
   std::vector<bool> is_touched_;
   std::vector<ContactForce> contacts_;  ///< of all ranks, with what this one owns
   std::vector<std::vector<ContactForce>> to_rank_;

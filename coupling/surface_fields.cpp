@@ -37,7 +37,13 @@ SurfaceFields::SurfaceFields(MPI_Comm comm, const nurbs::MultiPatch& surface,
       surface_(surface),
       shared_(shared_control_points(surface, control_points)),
       forces_(Eigen::MatrixXd::Zero(kRows, surface.control_point_count())),
-      contacts_(Eigen::MatrixXd::Zero(1, surface.element_count())) {}
+      contacts_(Eigen::MatrixXd::Zero(1, surface.element_count())),
+      is_loaded_(surface.control_point_count(), false) {}
+
+void SurfaceFields::note_load(int control_point) {
+  if (!is_loaded_[control_point]) loaded_.push_back(control_point);
+  is_loaded_[control_point] = true;
+}
 
 void SurfaceFields::add(const SurfaceContact& contact) {
   const nurbs::SurfacePoint& foot = contact.foot;
@@ -48,8 +54,13 @@ void SurfaceFields::add(const SurfaceContact& contact) {
 
   nurbs::RationalBasis<2> basis;
   nurbs::evaluate(surface_, foot, 0, basis);
-  for (int a = 0; a < basis.count; ++a) forces_.col(basis.control_point[a]) += basis.R[a] * q;
-  contacts_(surface_.first_element(foot.patch) + surface_.patch(foot.patch).element_at(foot.xi)) += 1.0;
+  for (int a = 0; a < basis.count; ++a) {
+    forces_.col(basis.control_point[a]) += basis.R[a] * q;
+    note_load(basis.control_point[a]);
+  }
+  const int element = surface_.first_element(foot.patch) + surface_.patch(foot.patch).element_at(foot.xi);
+  if (contacts_(element) == 0.0) counted_.push_back(element);
+  contacts_(element) += 1.0;
 }
 
 Eigen::MatrixXd SurfaceFields::sum_over_ranks(const Eigen::MatrixXd& local) const {
@@ -108,8 +119,13 @@ std::vector<vtk::PatchFields<2>> SurfaceFields::fields(const NodalVectors& contr
 
 void SurfaceFields::begin_interval() {
   samples_ = 0.0;
-  forces_.topRows(kWear).setZero();
-  contacts_.setZero();
+  for (const int c : loaded_) {
+    forces_.col(c).head<kWear>().setZero();
+    is_loaded_[c] = false;
+  }
+  loaded_.clear();
+  for (const int element : counted_) contacts_(element) = 0.0;
+  counted_.clear();
 }
 
 std::vector<double> SurfaceFields::save() const {
@@ -132,6 +148,9 @@ void SurfaceFields::load(const std::vector<double>& state) {
   const double* next = state.data() + 1;
   forces_ = share * Eigen::Map<const Eigen::MatrixXd>(next, kRows, forces_.cols());
   contacts_ = share * Eigen::Map<const Eigen::MatrixXd>(next + forces_.size(), 1, contacts_.cols());
+  for (int c = 0; c < forces_.cols(); ++c) note_load(c);
+  counted_.resize(contacts_.cols());
+  std::iota(counted_.begin(), counted_.end(), 0);
 }
 
 }  // namespace coupling

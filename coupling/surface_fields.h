@@ -61,6 +61,7 @@ class SurfaceFields {
  private:
   enum Row { kNormal, kShear, kWear = kShear + 3, kRows };
 
+  void note_load(int control_point);
   Eigen::MatrixXd sum_over_ranks(const Eigen::MatrixXd& local) const;
   Eigen::MatrixXd per_area(const Eigen::MatrixXd& sums) const;
   void measure(const NodalVectors& control_points);
@@ -74,6 +75,9 @@ class SurfaceFields {
   Eigen::MatrixXd forces_;    // kRows x control points [force], kWear [length^3]
   Eigen::MatrixXd contacts_;  // 1 x elements
   double samples_ = 0.0;
+  // where sums are not zero, so that a step without means need not look at all of the wall
+  std::vector<int> loaded_, counted_;  // control points, elements
+  std::vector<bool> is_loaded_;
 };
 
 }  // namespace coupling

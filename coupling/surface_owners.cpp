@@ -90,6 +90,15 @@ void SurfaceOwners::want(const std::vector<int>& control_points) {
     for (Link& link : *links) link.numbers.resize(kNumbers * link.control_points.size());
 }
 
+std::vector<int> SurfaceOwners::wanted_by_others() const {
+  std::vector<int> wanted;
+  for (const Link& client : clients_)
+    wanted.insert(wanted.end(), client.control_points.begin(), client.control_points.end());
+  std::sort(wanted.begin(), wanted.end());
+  wanted.erase(std::unique(wanted.begin(), wanted.end()), wanted.end());
+  return wanted;
+}
+
 void SurfaceOwners::bring_wanted(NodalVectors& positions, NodalVectors& velocities) {
   std::vector<MPI_Request> requests(owners_.size() + clients_.size());
   MPI_Request* request = requests.data();

@@ -28,10 +28,12 @@ class SurfaceOwners {
 
   /// From now on this rank wants these control points (rising), and has contacts with their elements alone.
   void want(const std::vector<int>& control_points);
-  /// Positions and velocities (3 x control_points), whose own columns are there, of what is wanted: one
-  /// message from each owner of some.
+  /// Of what this rank owns, what others want, rising.
+  std::vector<int> wanted_by_others() const;
+  /// Positions and velocities (3 x control_points), whose own columns that anybody wants are there,
+  /// of what is wanted: one message from each owner of some.
   void bring_wanted(NodalVectors& positions, NodalVectors& velocities);
-  /// The same of the whole surface.
+  /// The same of the whole surface, of which all own columns are there.
   void bring_all(NodalVectors& positions, NodalVectors& velocities) const;
   /// The contacts that others have with what this rank owns are added to `here`; `there[r]` go to rank r: one
   /// message to each owner of what is wanted, with contacts or without.  Throws std::logic_error for contacts

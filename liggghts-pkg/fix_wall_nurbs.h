@@ -81,8 +81,8 @@ class FixWallNurbs : public WallNurbsSetup, public FixWallGran {
   std::unique_ptr<liggghts_pkg::WallOutput> output_;        // null: none asked for
   std::unique_ptr<liggghts_pkg::OutputObserver> observer_;  // likewise
   liggghts_pkg::TriangleTwin twin_;
-  const coupling::NodalVectors* nodal_forces_ = nullptr;
-  coupling::NodalVectors no_forces_;
+  const coupling::NodalForces* nodal_forces_ = nullptr;
+  coupling::NodalForces no_forces_;
   bool rebuild_list_ = true, warned_of_gravity_ = false;
 };
 

@@ -7,7 +7,6 @@ using nurbs::Vector3;
 
 void CandidateList::set_surface(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points) {
   tree_.build(surface, control_points);
-  control_points_at_build_ = control_points;
 }
 
 void CandidateList::build(const coupling::RigidFrame& frame, const std::vector<Vector3>& images,

@@ -57,7 +57,6 @@ class CandidateList {
   const std::vector<int>& all_elements() const { return elements_; }
 
   /// Where the wall was when it was built.
-  const nurbs::NodalVectors& control_points_at_build() const { return control_points_at_build_; }
   const coupling::RigidFrame& frame_at_build() const { return frame_at_build_; }
 
  private:
@@ -66,7 +65,6 @@ class CandidateList {
   std::vector<int> elements_;
   std::vector<nurbs::Vector3> images_;
   search::MultiPatchTree tree_;
-  nurbs::NodalVectors control_points_at_build_;
   coupling::RigidFrame frame_at_build_;
 };
 

@@ -75,7 +75,7 @@ void ContactLoop::forget_lost_contacts(const ParticleView& particles) {
 double ContactLoop::wall_motion() {
   if (!wall_.deforms())
     return wall_.frame().max_displacement(candidates_.frame_at_build(), candidates_.wall_bounds());
-  return surface_motion_ = wall_.motion_since(candidates_.control_points_at_build());
+  return surface_motion_ = wall_.motion_of_shape();
 }
 
 bool ContactLoop::has_outgrown_list(const ParticleView& particles) const {

@@ -28,10 +28,10 @@ class Wall {
   void import();
   /// Of a wall that deforms: all of its shape.
   void import_all();
-  /// From now on contacts are with these elements alone.
+  /// A list is new: from now on contacts are with these elements alone, and motion counts.
   void follow(const std::vector<int>& elements) { exchange_.follow(elements); }
-  /// Largest distance of a control point of the whole wall, in its frame, from where it was [length].
-  double motion_since(const nurbs::NodalVectors& then) const { return exchange_.largest_motion(then); }
+  /// Largest distance of a control point of the whole wall, in its frame, from where it was then [length].
+  double motion_of_shape() const { return exchange_.largest_motion(); }
   /// Whether it is so on any rank, as far as they must agree.
   bool any(bool here) const { return exchange_.any(here); }
   /// The box of all elements, in the wall's frame, when the list of candidates was built.

@@ -73,14 +73,14 @@ void RigidSurface::begin_step() {
 
 // The nodal forces stand in the order of (tag, branch) summed over all ranks, so the sums here do not depend
 // on the number of ranks.
-void RigidSurface::end_step(const NodalVectors& forces) {
+void RigidSurface::end_step(const NodalForces& forces) {
   if (!servo_) return;
-  NURBS_ASSERT(forces.cols() == positions_.cols(), forces.cols(), positions_.cols());
+  NURBS_ASSERT(forces.values.cols() == positions_.cols(), forces.values.cols(), positions_.cols());
   const RigidFrame& frame = body_.frame();
   const Vector3 com = frame.to_body(servo_->com());
   Vector3 force = Vector3::Zero(), torque = Vector3::Zero();
-  for (int a = 0; a < forces.cols(); ++a) {
-    const Vector3 f = forces.col(a), X = positions_.col(a);
+  for (const Eigen::Index a : forces.touched) {
+    const Vector3 f = forces.values.col(a), X = positions_.col(a);
     force += f;
     torque += (X - com).cross(f);
   }

@@ -39,9 +39,9 @@ class RigidSurface final : public StructureSolver {
   Vector3 surface_velocity(const Vector3& x, const Vector3& normal) const override;
 
   void begin_run() override;
-  void initialise_forces(const NodalVectors&) override {}
+  void initialise_forces(const NodalForces&) override {}
   void begin_step() override;
-  void end_step(const NodalVectors& forces) override;
+  void end_step(const NodalForces& forces) override;
   void set_time_step(double dt) override { dt_ = dt; }
   double stable_time_step() const override;
 

@@ -13,7 +13,7 @@ surfaces: {top: zeta+}
                                                    "block.yaml");
   coupling::IgaStructure block(io::build_solver(model), {{0, nurbs::Face::zeta_plus}});
   block.set_time_step(0.1);
-  coupling::NodalVectors forces = coupling::NodalVectors::Constant(3, block.positions().cols(), 1.0);
+  const coupling::NodalForces forces(coupling::NodalVectors::Constant(3, block.positions().cols(), 1.0));
   block.initialise_forces(forces);
   block.begin_step();
   block.end_step(forces);

@@ -13,6 +13,7 @@
 
 namespace {
 
+using coupling::NodalForces;
 using coupling::NodalVectors;
 using coupling::Vector3;
 
@@ -31,13 +32,13 @@ coupling::IgaStructure block() {
 }
 
 /// Nodal forces of a point force F at parameters xi of the surface.
-NodalVectors nodal_forces(const coupling::IgaStructure& solver, const nurbs::Parameter<2>& xi,
-                          const Vector3& F) {
+NodalForces nodal_forces(const coupling::IgaStructure& solver, const nurbs::Parameter<2>& xi,
+                         const Vector3& F) {
   NodalVectors on_surface = NodalVectors::Zero(3, solver.surface().topology.control_point_count());
   coupling::FootBasis(solver.surface().topology, {0, xi}).distribute(F, on_surface);
   NodalVectors on_nodes = NodalVectors::Zero(3, solver.positions().cols());
   solver.surface().map.add_to_nodes(on_surface, on_nodes);
-  return on_nodes;
+  return NodalForces(on_nodes);
 }
 
 TEST(IgaStructure, SurfaceIsTheTopOfTheBlock) {
@@ -51,7 +52,7 @@ TEST(IgaStructure, SurfaceIsTheTopOfTheBlock) {
 TEST(IgaStructure, MomentumIsForceTimesTime) {
   coupling::IgaStructure solver = block();
   const Vector3 F(1.0, 0.5, -6.0);
-  const NodalVectors forces = nodal_forces(solver, {0.7, 0.4}, F);
+  const NodalForces forces = nodal_forces(solver, {0.7, 0.4}, F);
   solver.initialise_forces(forces);
   const int steps = 400;
   for (int n = 0; n < steps; ++n) {
@@ -65,14 +66,14 @@ TEST(IgaStructure, MomentumIsForceTimesTime) {
 TEST(IgaStructure, WorkOfTheForceIsTheEnergyOfTheBlock) {
   coupling::IgaStructure solver = block();
   const Vector3 F(0.0, 0.0, -6.0);
-  const NodalVectors forces = nodal_forces(solver, {0.5, 0.5}, F);
+  const NodalForces forces = nodal_forces(solver, {0.5, 0.5}, F);
   solver.initialise_forces(forces);
   double work = 0.0;
   for (int n = 0; n < 1000; ++n) {
     const NodalVectors before = solver.positions();
     solver.begin_step();
     solver.end_step(forces);
-    work += forces.cwiseProduct(solver.positions() - before).sum();
+    work += forces.values.cwiseProduct(solver.positions() - before).sum();
   }
   const double energy = solver.kinetic_energy() + solver.strain_energy();
   EXPECT_NEAR(energy / work, 1.0, 2e-3) << "error ~ (dt omega)^2";
@@ -80,7 +81,7 @@ TEST(IgaStructure, WorkOfTheForceIsTheEnergyOfTheBlock) {
 
 TEST(IgaStructure, LoadContinuesASavedStateToTheLastBit) {
   coupling::IgaStructure first = block(), second = block();
-  const NodalVectors forces = nodal_forces(first, {0.3, 0.6}, {0, 1, -5});
+  const NodalForces forces = nodal_forces(first, {0.3, 0.6}, {0, 1, -5});
   const auto advance = [&](coupling::IgaStructure& solver, int steps) {
     for (int n = 0; n < steps; ++n) {
       solver.begin_step();

@@ -41,8 +41,8 @@ class LateSurface final : public coupling::StructureSolver {
   const coupling::ContactSurface& surface() const override { return solver_->surface(); }
   coupling::RigidFrame frame() const override { return solver_->frame(); }
   void begin_run() override { solver_->begin_run(); }
-  void initialise_forces(const NodalVectors& forces) override { solver_->initialise_forces(forces); }
-  void end_step(const NodalVectors& forces) override { solver_->end_step(forces); }
+  void initialise_forces(const coupling::NodalForces& forces) override { solver_->initialise_forces(forces); }
+  void end_step(const coupling::NodalForces& forces) override { solver_->end_step(forces); }
   void set_time_step(double dt) override { solver_->set_time_step(dt); }
   double stable_time_step() const override { return solver_->stable_time_step(); }
   bool moves() const override { return solver_->moves(); }

@@ -21,6 +21,7 @@
 
 namespace {
 
+using coupling::NodalForces;
 using coupling::NodalVectors;
 using coupling::SubstepOptions;
 using coupling::Substeps;
@@ -54,11 +55,11 @@ struct Pair {
   }
   double mass() const { return problem.mass_ratio; }
   double stiffness() const { return mass() * problem.contact * problem.contact; }
-  NodalVectors on_body() {
+  NodalForces on_body() {
     F = -stiffness() * (x - body.positions()(2, 0));
     NodalVectors forces = NodalVectors::Zero(3, 4);
     forces.row(2).setConstant(-0.25 * F);
-    return forces;
+    return NodalForces(forces);
   }
   void start(const Eigen::Vector4d& state) {
     std::vector<double> saved(1 + 3 * 12, 0.0);
@@ -71,7 +72,7 @@ struct Pair {
     v += 0.5 * dt * F / mass();
     x += dt * v;
     body.begin_step();
-    const NodalVectors forces = on_body();
+    const NodalForces forces = on_body();
     v += 0.5 * dt * F / mass();
     body.end_step(forces);
   }
@@ -231,7 +232,7 @@ NodalVectors on_surface(const coupling::StructureSolver& body, const NodalVector
 }
 
 /// A force that follows the surface and drags at it, so that it depends on places and velocities.
-NodalVectors forces_on(const coupling::StructureSolver& body) {
+NodalForces forces_on(const coupling::StructureSolver& body) {
   const auto& topology = body.surface().topology;
   const NodalVectors x = on_surface(body, body.positions()), v = on_surface(body, body.velocities());
   NodalVectors spread = NodalVectors::Zero(3, topology.control_point_count());
@@ -245,7 +246,7 @@ NodalVectors forces_on(const coupling::StructureSolver& body) {
   foot.distribute(Vector3(1e-3, 0, -5e-3) - 0.05 * (at - Vector3(0.9, 2.1, 0)) - 0.01 * speed, spread);
   NodalVectors forces = NodalVectors::Zero(3, body.positions().cols());
   body.surface().map.add_to_nodes(spread, forces);
-  return forces;
+  return NodalForces(forces);
 }
 
 void run(Substeps& body, int steps) {
@@ -269,7 +270,7 @@ TEST_P(BothWays, ASingleStepIsThePlainOne) {
   body.initialise_forces(forces_on(body)), plain->initialise_forces(forces_on(*plain));
   for (int n = 0; n < 50; ++n) {
     body.begin_step(), plain->begin_step();
-    const NodalVectors forces = forces_on(*plain);
+    const NodalForces forces = forces_on(*plain);
     body.end_step(forces), plain->end_step(forces);
   }
   EXPECT_LT((on_surface(body, body.positions()) - on_surface(*plain, plain->positions())).norm(), 1e-13);
@@ -280,15 +281,15 @@ TEST_P(BothWays, ASingleStepIsThePlainOne) {
 TEST_P(BothWays, KeepMomentumToRoundOff) {
   Substeps body(block(), options(GetParam(), 5));
   body.set_time_step(step());
-  NodalVectors forces = forces_on(body);
+  NodalForces forces = forces_on(body);
   body.initialise_forces(forces);
   Vector3 impulse = Vector3::Zero();
   const int steps = 40;
   for (int n = 0; n < steps; ++n) {
-    impulse += 0.5 * step() * forces.rowwise().sum();
+    impulse += 0.5 * step() * forces.values.rowwise().sum();
     body.begin_step();
     forces = forces_on(body);
-    impulse += 0.5 * step() * forces.rowwise().sum();
+    impulse += 0.5 * step() * forces.values.rowwise().sum();
     body.end_step(forces);
   }
   impulse += 18.0 * steps * step() * Vector3(1e-4, 0, -2e-4);
@@ -302,18 +303,18 @@ TEST_P(BothWays, TheirLedgerIsClosedAndKnowsTheWorkOfContacts) {
   Substeps body(std::move(solid), options(GetParam(), 5));
   body.set_time_step(step());
   const bool inner = GetParam() == Fast::particles;
-  NodalVectors forces = forces_on(body);
+  NodalForces forces = forces_on(body);
   body.initialise_forces(forces);
   const double start = body.kinetic_energy();
   double contacts = 0.0;
   for (int n = 0; n < 200; ++n) {
-    const NodalVectors kick = 0.5 * step() * forces.cwiseProduct(inverse_mass);
+    const NodalVectors kick = 0.5 * step() * forces.values.cwiseProduct(inverse_mass);
     if (inner) {  // velocities at once before and after; within an outer step theirs have the outer half kick
       body.begin_step();
-      contacts += 0.5 * step() * forces.cwiseProduct(body.velocities() - 0.5 * kick).sum();
+      contacts += 0.5 * step() * forces.values.cwiseProduct(body.velocities() - 0.5 * kick).sum();
       forces = forces_on(body);
-      const NodalVectors second = 0.5 * step() * forces.cwiseProduct(inverse_mass);
-      contacts += 0.5 * step() * forces.cwiseProduct(body.velocities() + 0.5 * second).sum();
+      const NodalVectors second = 0.5 * step() * forces.values.cwiseProduct(inverse_mass);
+      contacts += 0.5 * step() * forces.values.cwiseProduct(body.velocities() + 0.5 * second).sum();
       body.end_step(forces);
     } else {
       run(body, 1);

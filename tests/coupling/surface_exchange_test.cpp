@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "contact/rising_sheet.h"
 #include "coupling/force_distribution.h"
 #include "coupling/iga_structure.h"
 #include "coupling/open_structure.h"
@@ -65,7 +66,9 @@ TEST(SurfaceExchange, ForcesAreBitwiseTheSameOnAnyNumberOfRanks) {
   for (long tag = particles; tag >= 1; --tag)  // against the order, dealt to the ranks in turn
     for (int branch = branches - 1; branch >= 0; --branch)
       if (tag % ranks.count == ranks.me) mine.push_back(contact(tag, branch));
-  const NodalVectors forces = exchange.export_add(mine);
+  const coupling::NodalForces& on_nodes = exchange.export_add(mine);
+  const NodalVectors& forces = on_nodes.values;
+  EXPECT_EQ(on_nodes.touched, coupling::NodalForces(forces).touched);
   EXPECT_EQ((forces - expected).cwiseAbs().maxCoeff(), 0.0);
   EXPECT_LE((forces.rowwise().sum() - total).norm(), 1e-13 * total.norm());
 }
@@ -76,8 +79,9 @@ TEST(SurfaceExchange, RanksWithoutContactsTakePart) {
   coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
   std::vector<ContactForce> mine;
   if (ranks.me == ranks.count - 1) mine.push_back(contact(3));
-  EXPECT_NEAR(exchange.export_add(mine).row(2).sum(), contact(3).F[2], 1e-13 * contact(3).F[2]);
-  EXPECT_EQ(exchange.export_add({}).cwiseAbs().maxCoeff(), 0.0) << "forces of an earlier step must not stay";
+  EXPECT_NEAR(exchange.export_add(mine).values.row(2).sum(), contact(3).F[2], 1e-13 * contact(3).F[2]);
+  EXPECT_EQ(exchange.export_add({}).values.cwiseAbs().maxCoeff(), 0.0)
+      << "forces of an earlier step must not stay";
 }
 
 TEST(SurfaceExchange, ImportBringsTheControlPoints) {
@@ -108,9 +112,9 @@ class SparseNodes final : public coupling::StructureSolver {
   const std::vector<NodeId>& nodes() const override { return nodes_; }
   const NodalVectors& positions() const override { return positions_; }
   const NodalVectors& velocities() const override { return positions_; }
-  void initialise_forces(const NodalVectors&) override {}
+  void initialise_forces(const coupling::NodalForces&) override {}
   void begin_step() override {}
-  void end_step(const NodalVectors&) override {}
+  void end_step(const coupling::NodalForces&) override {}
   void set_time_step(double) override {}
   double stable_time_step() const override { return 1.0; }
   bool moves() const override { return true; }
@@ -142,10 +146,38 @@ TEST(SurfaceExchange, KnowsNodesByTheirIds) {
   std::vector<ContactForce> mine;
   for (long tag = 1; tag <= 40; ++tag)
     if (tag % ranks.count == ranks.me) mine.push_back(contact(tag));
-  const NodalVectors expected = by_column.export_add(mine), forces = by_id.export_add(mine);
+  const NodalVectors expected = by_column.export_add(mine).values, forces = by_id.export_add(mine).values;
   ASSERT_EQ(forces.cols(), expected.cols() + 3);
   EXPECT_EQ(forces.middleCols(2, expected.cols()), expected);
   EXPECT_EQ(forces.leftCols(2).cwiseAbs().maxCoeff() + forces.rightCols(1).cwiseAbs().maxCoeff(), 0.0);
+}
+
+// Elements of degree 2: three by three control points of the corner and a row and a column around them.
+TEST(SurfaceExchange, BringsWhatIsFollowedAndMeasuresAll) {
+  const nurbs::Surface plane = nurbs::plane(
+      {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {nurbs::KnotVector::uniform(2, 8), nurbs::KnotVector::uniform(2, 8)});
+  test::RisingSheet sheet(plane, 0.5);
+  sheet.set_time_step(0.1);
+  coupling::SurfaceExchange exchange(MPI_COMM_WORLD, sheet);
+  sheet.begin_step();
+  exchange.import_surface();
+  const NodalVectors before = exchange.positions();
+  EXPECT_EQ(before, sheet.positions());
+  exchange.follow({0});
+  EXPECT_EQ(exchange.largest_motion(), 0.0);
+  sheet.begin_step();
+  exchange.import_followed();
+  EXPECT_NEAR(exchange.largest_motion(), 0.05, 1e-16);
+  int brought = 0;
+  for (int j = 0; j < 10; ++j)
+    for (int i = 0; i < 10; ++i) {
+      const int c = i + 10 * j;
+      const bool near = i < 4 && j < 4;
+      brought += near;
+      EXPECT_EQ(exchange.positions().col(c), near ? sheet.positions().col(c) : before.col(c))
+          << i << " " << j;
+    }
+  EXPECT_EQ(exchange.followed().size(), static_cast<std::size_t>(brought));
 }
 
 TEST(LateSurface, IsSeenAsItWasTwoStepsAgo) {
@@ -158,7 +190,7 @@ TEST(LateSurface, IsSeenAsItWasTwoStepsAgo) {
   const coupling::IgaStructure& now = *in_phase;
   test::LateSurface solver(std::move(in_phase), 2);
   solver.set_time_step(0.1);
-  const NodalVectors pull = NodalVectors::Ones(3, solver.positions().cols());
+  const coupling::NodalForces pull(NodalVectors::Ones(3, solver.positions().cols()));
   solver.initialise_forces(pull);
 
   coupling::SurfaceExchange exchange(MPI_COMM_WORLD, solver);

@@ -147,10 +147,15 @@ TEST(SurfaceFields, AreMeansOverTheInterval) {
   fields.begin_sample();  // a step without contacts
   const auto two = fields.fields(surface().control_points, kAtRest, kAll);
   fields.begin_interval();
+  fields.begin_sample();
   const auto none = fields.fields(surface().control_points, kAtRest, kAll);
+  fields.begin_interval();
+  add_all(fields, 10);
+  const auto again = fields.fields(surface().control_points, kAtRest, kAll);
   if (my_rank() != 0) return;
   for (const char* name : {"pressure", "shear", "contact_count"}) {
     EXPECT_EQ(field(two[0], name), 0.5 * field(one[0], name)) << name;
+    EXPECT_EQ(field(again[0], name), field(one[0], name)) << name;
     EXPECT_TRUE(field(none[0], name).isZero(0.0)) << name;
   }
   EXPECT_EQ(field(none[0], "wear"), field(one[0], "wear")) << "wear stays";
@@ -209,6 +214,13 @@ TEST(SurfaceFields, ComeBackFromARestart) {
   for (const char* name : {"pressure", "shear", "contact_count", "wear"})
     if (my_rank() == 0) {
       EXPECT_EQ(field(got[1], name), field(expected[1], name)) << name;
+    }
+  after.begin_interval();
+  after.begin_sample();
+  const auto none = after.fields(surface().control_points, kAtRest, kAll);
+  for (const char* name : {"pressure", "shear", "contact_count"})
+    if (my_rank() == 0) {
+      EXPECT_TRUE(field(none[1], name).isZero(0.0)) << name;
     }
   state.pop_back();
   EXPECT_THAT([&] { after.load(state); },

@@ -108,13 +108,17 @@ class BallsOnWall {
     loop.wall().import();
     if (loop.wall_motion() > 0.5 * kSkin || lists) build_list();
     evaluate();
-    structure_.end_step(exchange_.export_add(loop.forces_on_body()));
+    forces = &exchange_.export_add(loop.forces_on_body());
+    structure_.end_step(*forces);
     for (size_t k = 0; k < balls.v.size(); ++k) balls.v[k] += 0.5 * dt_ * balls.f[k];
   }
 
   static constexpr double kSkin = 0.2;
+  const coupling::SurfaceExchange& exchange() const { return exchange_; }
+
   Balls balls;
   Spring spring;
+  const coupling::NodalForces* forces = nullptr;  ///< on the structure, of the last step
 
  private:
   coupling::StructureSolver& structure_;

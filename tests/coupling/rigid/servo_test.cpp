@@ -10,6 +10,7 @@
 namespace {
 
 using coupling::BeltVelocity;
+using coupling::NodalForces;
 using coupling::NodalVectors;
 using coupling::RigidDrive;
 using coupling::RigidSurface;
@@ -58,10 +59,10 @@ RigidSurface turned_wall(ServoSettings settings) {
 }
 
 /// Force F at control point a.
-NodalVectors force_at(const RigidSurface& surface, int a, const Vector3& F) {
+NodalForces force_at(const RigidSurface& surface, int a, const Vector3& F) {
   NodalVectors forces = NodalVectors::Zero(3, surface.positions().cols());
   forces.col(a) = F;
-  return forces;
+  return NodalForces(forces);
 }
 
 /// A spring below the wall pushes back; returns its force after so many steps.
@@ -130,7 +131,7 @@ TEST(Servo, TheIntegralDoesNotWindUp) {
   ServoSettings settings = press();
   settings.ki = 50.0;
   RigidSurface surface = surface_with(settings);
-  const NodalVectors none = force_at(surface, 0, Vector3::Zero());
+  const NodalForces none = force_at(surface, 0, Vector3::Zero());
   for (int n = 0; n < 1000; ++n) {
     surface.begin_step();
     surface.end_step(none);
@@ -215,12 +216,12 @@ TEST(Servo, TorqueIsTurnedIntoSpace) {
   turned.end_step(force_at(turned, 7, F));
   turned.begin_step();
   // the same torque on a wall that has not been turned, from a couple
-  NodalVectors couple = force_at(straight, 0, Vector3::Zero());
+  NodalVectors couple = NodalVectors::Zero(3, straight.positions().cols());
   const Vector3 arm = straight.positions().col(1) - straight.positions().col(0);
   const Vector3 f = torque * Vector3::UnitZ().cross(arm) / Vector3::UnitZ().cross(arm).squaredNorm();
   couple.col(1) = f;
   couple.col(0) = -f;
-  straight.end_step(couple);
+  straight.end_step(NodalForces(couple));
   straight.begin_step();
   EXPECT_NEAR(turned.frame().angular_velocity.z(), straight.frame().angular_velocity.z(), 1e-14);
   EXPECT_GT(std::abs(straight.frame().angular_velocity.z()), 1e-4);
