@@ -210,11 +210,11 @@ void words_to_points(const LaneBasis& x, const Values& values_at, const double* 
     const double* const basis = x.basis + std::size_t(word) * 2 * (P + 1) * kLanes;
     with_points<P>(
         x.first_word[w + 1] - word, [&](auto points) __attribute__((always_inline)) {
-          const auto contract = [&](const PointBasis<P, points>& B, int c, int from, int to_quantity)
+          const auto contract = [&](const PointBasis<P, points>& B, int c, int row_of, int quantity)
               __attribute__((always_inline)) {
             Lanes value[P + 1];
-            values_at(window + (3 * c + from) * row, value);
-            to(B, value, values + word * point + (kQuantities * c + to_quantity) * kLanes, point);
+            values_at(window + (3 * c + row_of) * row, value);
+            to(B, value, values + word * point + (kQuantities * c + quantity) * kLanes, point);
           };
           const auto B = of_word<P, points>(basis, 0);
           for (int c = 0; c < fields; ++c) {
