@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "geometry_io/shape_changes.h"
 #include "geometry_io/shape_reader.h"
 
 namespace geometry_io {
@@ -49,10 +50,10 @@ GeometryFile read_geometry(const YamlMap& document, const OpenGeometry& open) {
   const Units units =
       units_from_name(document.word_of("units", {kUnitsNames[0], kUnitsNames[1], kUnitsNames[2]}));
   const YamlMap map = document.map("geometry");
-  const std::vector<std::string> keys = map.keys();
-  const bool other_file = keys.size() == 1 && keys.front() == "file";
+  expect_one_shape(map);
   GeometryFile geometry =
-      other_file ? open_other_file(map, units, open) : GeometryFile{units, read_shapes(map), {}};
+      map.has("file") ? open_other_file(map, units, open) : GeometryFile{units, read_shapes(map), {}};
+  change_shapes(map, geometry.patches);
   if (!document.has("surfaces")) return geometry;
 
   const YamlMap surfaces = document.map("surfaces");

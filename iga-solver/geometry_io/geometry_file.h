@@ -14,6 +14,8 @@
 //     tube: {origin, axis, inner_radius, outer_radius, length, angle, elements: [8,4,2]}        # a solid
 //     patches: [{degrees: [2,2], knots: [[..],[..]], control_points: [[x,y,z],..], weights: [..]}, ..]
 //     file: drum.h5                             # another geometry file, of any format; relative to this one
+//                                               # and, if wanted: refine, scale, rotate, move
+//                                               (shape_changes.h)
 //   surfaces: {top: zeta+}                      # a volume's face; `all` for surface patches
 //
 // Of several patches, counted from 0, a surface is a list of patches and of "PATCH FACE", as in

@@ -8,7 +8,8 @@
 #include <limits>
 #include <new>
 
-#include "nurbs/memory.h"
+#include "geometry_io/shape_changes.h"
+#include "geometry_io/shape_limits.h"
 #include "nurbs/primitives.h"
 
 namespace geometry_io {
@@ -25,46 +26,8 @@ using nurbs::Vector3;
 
 namespace {
 
-// Guards against a slip of the finger: elements of one direction, control points of a patch.
-#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // a fuzzer asks for every size: the same checks, sooner
-constexpr int kMaxElements = 300;
-constexpr double kMaxControlPoints = 1e4;
-#else
-constexpr int kMaxElements = 1000000;
-constexpr double kMaxControlPoints = std::numeric_limits<int>::max();
-#endif
-
-// Runs `build`; what it finds wrong with its arguments is an error of the file at `key`.
-template <class Build>
-auto blame(const YamlMap& map, const std::string& key, const std::string& prefix, Build build) {
-  try {
-    return build();
-  } catch (const std::invalid_argument& error) {
-    map.fail(key, prefix + error.what());
-  }
-}
-
-void expect_count(const YamlMap& map, const std::string& key, size_t given, size_t expected) {
-  if (given != expected) map.fail(key, fmt::format("{} is a list of {}, expected {}", key, given, expected));
-}
-
 // The key that gives the elements.
 const char* mesh_key(const YamlMap& map) { return map.has("breaks") ? "breaks" : "elements"; }
-
-// Before anything is allocated for them.
-void check_size(const YamlMap& map, const std::vector<int>& elements, const std::vector<int>& degrees) {
-  const std::string key = mesh_key(map), prefix = key == "elements" ? "" : key + ": ";
-  double count = 1.0;
-  for (size_t d = 0; d < elements.size(); ++d) count *= static_cast<double>(elements[d]) + degrees[d];
-  blame(map, key, prefix, [&] {
-    nurbs::expect_memory(sizeof(Vector3) * count, fmt::format("elements [{}]: {:.3g} control points",
-                                                              fmt::join(elements, ", "), count));
-  });
-  if (count > kMaxControlPoints)
-    map.fail(key,
-             prefix + fmt::format("elements are {}, about {:.3g} control points, expected at most {:.0f}",
-                                  fmt::join(elements, " x "), count, kMaxControlPoints));
-}
 
 // `degree`: one number for all directions or one for each.
 std::vector<int> read_degrees(const YamlMap& map, int dim) {
@@ -91,7 +54,7 @@ std::vector<KnotVector> read_mesh(const YamlMap& map, int dim) {
   if (map.has("elements")) {
     const std::vector<int> elements = map.integers("elements", 1, kMaxElements);
     expect_count(map, "elements", elements.size(), dim);
-    check_size(map, elements, degrees);
+    expect_size(map, mesh_key(map), elements, degrees);
     for (int d = 0; d < dim; ++d) knots.push_back(KnotVector::uniform(degrees[d], elements[d]));
   } else {
     const std::vector<std::vector<double>> breaks = map.table("breaks");
@@ -99,7 +62,7 @@ std::vector<KnotVector> read_mesh(const YamlMap& map, int dim) {
     std::vector<int> elements;
     for (const std::vector<double>& ends : breaks)
       elements.push_back(std::max(static_cast<int>(ends.size()), 1) - 1);
-    check_size(map, elements, degrees);
+    expect_size(map, mesh_key(map), elements, degrees);
     for (int d = 0; d < dim; ++d) knots.push_back(knots_from_breaks(map, degrees[d], breaks[d], d));
   }
   return knots;
@@ -134,7 +97,7 @@ Shape read_rolled_plate(const YamlMap& map) {
     strips.push_back(read_strip(strip));
     sizes[0] += std::min(strips.back().elements, std::numeric_limits<int>::max() - sizes[0]);
   }
-  check_size(map, sizes, degrees);
+  expect_size(map, "elements", sizes, degrees);
   const Vector3 origin = map.vector3("origin");
   const double width = map.number("width", positive());
   return blame(map, "strips", "", [&] {
@@ -170,7 +133,7 @@ RoundMesh read_round_mesh(const YamlMap& map, int dim) {
   expect_count(map, "elements", mesh.elements.size(), dim);
   if (map.has("degree")) mesh.degrees = read_degrees(map, dim);
   // the arcs of a whole turn add a control point per joint and degree
-  check_size(map, mesh.elements, std::vector<int>(dim, 4 * kMaxDegree));
+  expect_size(map, "elements", mesh.elements, std::vector<int>(dim, 4 * kMaxDegree));
   return mesh;
 }
 
@@ -344,13 +307,19 @@ std::vector<ShapeWords> shape_words() {
   return words;
 }
 
-std::vector<Shape> read_shapes(const YamlMap& geometry) {
+void expect_one_shape(const YamlMap& geometry) {
   const std::vector<std::string> known = all_keys();
-  geometry.allow_only(known);
-  const size_t given = geometry.keys().size();
+  std::vector<std::string> allowed = known;
+  allowed.insert(allowed.end(), change_words().begin(), change_words().end());
+  geometry.allow_only(allowed);
+  const auto given =
+      std::count_if(known.begin(), known.end(), [&](const auto& key) { return geometry.has(key); });
   if (given != 1)
     geometry.fail("geometry",
                   fmt::format("{} geometries given, expected one of: {}", given, fmt::join(known, ", ")));
+}
+
+std::vector<Shape> read_shapes(const YamlMap& geometry) {
   for (const ShapeKey& shape : shape_table())
     if (geometry.has(shape.key)) return {read_sized(shape, geometry.map(shape.key))};
   return read_patches(geometry);

@@ -17,6 +17,10 @@ struct ShapeWords {
 };
 std::vector<ShapeWords> shape_words();
 
+/// Throws InputError unless there is one shape, `patches` or `file`, beside what changes it
+/// (shape_changes.h).
+void expect_one_shape(const YamlMap& geometry);
+
 /// Patches of one shape, or those listed under `patches`; one at least.  Throws InputError, with file and
 /// line, what was given and what was expected.
 std::vector<Shape> read_shapes(const YamlMap& geometry);
