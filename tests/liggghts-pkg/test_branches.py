@@ -28,6 +28,12 @@ class Corner(unittest.TestCase):
                 self.assertEqual(ours["n"].max(), 2.0)
                 self.assertLessEqual(difference(ours, stock), 1e-10)
 
+    def test_a_corner_of_one_of_ours_and_a_plane_of_liggghts(self):
+        """Whichever comes first leaves force and torque on the ball, which are not the other's."""
+        stock = run(self.START, planes("zplane", "xplane"), program=decks.STOCK).table
+        for walls in (planes("xplane") + nurbs(), nurbs() + planes("xplane")):
+            self.assertLessEqual(difference(run(self.START, walls, model_file(FLOOR)).table, stock), 1e-10)
+
     def test_a_corner_at_a_periodic_face(self):
         """What makes the corner are images: of the side, which stands at the far face, and of the floor up to a seam a radius
         off.  The side's edge is so near that feet are found anew in each step."""
