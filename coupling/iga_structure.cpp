@@ -137,6 +137,18 @@ std::vector<Probe> IgaStructure::probes() const {
   return values;
 }
 
+void IgaStructure::watch(std::vector<structure::NamedSupport> supports) {
+  named_supports_ = std::move(supports);
+  if (!named_supports_.empty()) solver_.keep_reactions();
+}
+
+std::vector<Reaction> IgaStructure::reactions() const {
+  std::vector<Reaction> reactions;
+  for (const structure::NamedSupport& support : named_supports_)
+    reactions.push_back({support.name, solver_.reaction(support)});
+  return reactions;
+}
+
 Fingerprint IgaStructure::fingerprint() const {
   const structure::Body& body = solver_.body();
   const structure::Material& material = body.material();

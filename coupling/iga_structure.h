@@ -23,6 +23,8 @@ class IgaStructure final : public StructureSolver {
   IgaStructure(structure::ExplicitSolver solver, std::vector<structure::SkinPiece> skin,
                std::vector<structure::Probe> probes = {}, const std::optional<Vector3>& gravity = {},
                bool in_parts = false);
+  /// Supports whose reactions are asked for.
+  void watch(std::vector<structure::NamedSupport> supports);
   /// From now on writes histories; before the first run.
   void write_history(parallel::SharedHistory history) { history_.emplace(std::move(history)); }
   /// The same for fields.
@@ -57,6 +59,8 @@ class IgaStructure final : public StructureSolver {
   std::optional<SurfaceMaterial> material() const override;
   std::optional<Vector3> gravity() const override { return gravity_; }
   std::vector<Probe> probes() const override;
+  double truncation() const override { return solver_.truncation(solver_.strain_energy()); }
+  std::vector<Reaction> reactions() const override;
   std::vector<double> save() const override { return solver_.save(); }
   void load(const std::vector<double>& state) override;
   Fingerprint fingerprint() const override;
@@ -71,6 +75,7 @@ class IgaStructure final : public StructureSolver {
   FingerprintPart supports_;
   ContactSurface surface_;
   std::vector<structure::Probe> probes_;
+  std::vector<structure::NamedSupport> named_supports_;
   std::optional<Vector3> gravity_;
   std::optional<parallel::SharedHistory> history_;
   std::optional<parallel::SharedFields> fields_;

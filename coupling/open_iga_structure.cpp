@@ -21,8 +21,10 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
   const io::Cut cut = parallel::cut_among(comm);
   auto solver = std::make_unique<IgaStructure>(io::build_solver(model, cut), std::move(skin), model.probes,
                                                model.gravity, cut.parts > 1);
+  solver->watch(model.named_supports());
   if (model.output)
-    solver->write_history(parallel::SharedHistory(comm, *model.output, model.geometry.units, model.probes));
+    solver->write_history(parallel::SharedHistory(comm, *model.output, model.geometry.units, model.probes,
+                                                  model.named_supports()));
   if (model.output && model.output->fields) solver->write_fields(parallel::SharedFields(comm, model));
   return {std::move(solver), model.geometry.units};
 }

@@ -30,8 +30,15 @@ struct Probe {
   Vector3 displacement;  ///< [length]
 };
 
-/// Work since initialise_forces by the rule of the time step [energy]: a half kick by a force F that takes v
-/// to v' does dt/2 F . (v + v')/2, so kinetic energy + internal - loads - contacts is constant to round-off.
+/// Of a support that the model file names.
+struct Reaction {
+  std::string name;
+  Vector3 force;  ///< on the body [force]
+};
+
+/// Work since initialise_forces by the rule of the time step [energy]: a half kick by a force F
+/// that takes v to v' does dt/2 F . (v + v')/2, so kinetic energy + internal - loads - contacts is constant
+/// to round-off.
 struct Work {
   double contacts = 0.0;  ///< of the contact forces on the body
   double loads = 0.0;     ///< of its own loads
@@ -88,16 +95,21 @@ class StructureSolver {
   /// that are control points of the surface.  Empty if nothing is known, or nothing is integrated.
   virtual NodalVectors inverse_node_mass() const { return {}; }
   virtual Eigen::VectorXd control_node_mass()
-      const = 0;                                ///< [mass], one per node held; empty for a rigid surface
-  virtual double kinetic_energy() const = 0;    ///< sum m_A |v_A|^2 / 2 [energy]
-  virtual double strain_energy() const = 0;     ///< [energy]; may cost as much as a step
-  virtual Work work() const { return {}; }      ///< zero for a body that is not integrated
-  virtual Vector3 linear_momentum() const = 0;  ///< sum m_A v_A
+      const = 0;                              ///< [mass], one per node held; empty for a rigid surface
+  virtual double kinetic_energy() const = 0;  ///< sum m_A |v_A|^2 / 2 [energy]
+  virtual double strain_energy() const = 0;   ///< [energy]; may cost as much as a step
+  virtual Work work() const { return {}; }    ///< zero for a body that is not integrated
+  /// Internal work - the change of strain energy: the error of the time step, and what is dissipated
+  /// [energy].
+  virtual double truncation() const { return 0.0; }
+  virtual Vector3 linear_momentum() const = 0;                       ///< sum m_A v_A
   virtual Vector3 angular_momentum(const Vector3& about) const = 0;  ///< sum (x_A - about) x m_A v_A
   virtual std::optional<SurfaceMaterial> material() const = 0;
   /// Gravity among its own loads [length/time^2]; nothing if they have none.
   virtual std::optional<Vector3> gravity() const { return std::nullopt; }
   virtual std::vector<Probe> probes() const = 0;
+  /// At the time of the last forces; always the same supports.
+  virtual std::vector<Reaction> reactions() const { return {}; }
 
   /// The state as numbers, for restart files: of the whole structure, in the order of ids, whatever the ranks
   /// hold, so that other ranks may load it; complete on every rank.  load takes what is of this rank, and

@@ -56,6 +56,8 @@ class Substeps final : public StructureSolver {
   std::optional<SurfaceMaterial> material() const override { return body_->material(); }
   std::optional<Vector3> gravity() const override { return body_->gravity(); }
   std::vector<Probe> probes() const override { return body_->probes(); }
+  double truncation() const override { return body_->truncation(); }
+  std::vector<Reaction> reactions() const override { return body_->reactions(); }
 
   /// The body's own state; within an outer step followed by where in it particles stand, and what contacts
   /// have moved the nodes by.

@@ -10,7 +10,8 @@ using contact::WallContact;
 
 namespace {
 
-// In this order: the first of ContactTotals, the structure, its probes (three each), power, work.
+// In this order: the first of ContactTotals, the structure, its probes (three each), power, work, truncation,
+// reactions of supports (three each).
 constexpr int kTotalColumns = offsetof(ContactTotals, power) / sizeof(double);
 constexpr int kStructureColumns = 9;
 constexpr int kWorkColumns = 3;
@@ -19,11 +20,15 @@ static_assert(offsetof(WallContact, torque) == WallColumns::kLocalColumns * size
 
 }  // namespace
 
-int WallColumns::count() const { return kTotalColumns + kStructureColumns + 3 * probes_ + 1 + kWorkColumns; }
+int WallColumns::count() const { return power_column() + 1 + kWorkColumns + 1 + 3 * supports_; }
+
+int WallColumns::power_column() const { return kTotalColumns + kStructureColumns + 3 * probes_; }
 
 double WallColumns::operator[](int column) {
-  const int power = count() - 1 - kWorkColumns;
+  const int power = power_column(), after_work = column - (power + 1 + kWorkColumns);
   if (column == power) return totals().power;
+  if (after_work == 0) return structure_.truncation();
+  if (after_work > 0) return structure_.reactions()[(after_work - 1) / 3].force[(after_work - 1) % 3];
   if (column > power) {
     const coupling::Work work = structure_.work();
     return column == power + 1 ? work.contacts : column == power + 2 ? work.loads : work.internal;

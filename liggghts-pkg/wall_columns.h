@@ -21,7 +21,8 @@ class WallColumns {
       : structure_(structure),
         loop_(loop),
         comm_(comm),
-        probes_(static_cast<int>(structure.probes().size())) {}
+        probes_(static_cast<int>(structure.probes().size())),
+        supports_(static_cast<int>(structure.reactions().size())) {}
 
   int count() const;
   /// From 0; collective.
@@ -36,11 +37,12 @@ class WallColumns {
  private:
   const contact::ContactTotals& totals();
   double of_structure(int column) const;
+  int power_column() const;
 
   const coupling::StructureSolver& structure_;
   const contact::ContactLoop& loop_;
   MPI_Comm comm_;
-  int probes_;
+  int probes_, supports_;
   contact::ContactSums sums_;
   contact::ContactTotals totals_{};
   bool totals_are_summed_ = false;

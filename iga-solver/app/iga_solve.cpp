@@ -139,7 +139,9 @@ void run(const Options& options) {
   const structure::NodalVectors no_forces = structure::NodalVectors::Zero(3, solver.body().node_count());
   with_name(model, [&] { solver.initialise_forces(no_forces); });
   std::optional<parallel::SharedHistory> history;
-  if (model.output) history.emplace(MPI_COMM_WORLD, *model.output, model.geometry.units, model.probes);
+  if (model.output)
+    history.emplace(MPI_COMM_WORLD, *model.output, model.geometry.units, model.probes,
+                    model.named_supports());
   if (history) history->record_if_due(solver);
   std::optional<parallel::SharedFields> fields;
   if (model.output && model.output->fields) fields.emplace(MPI_COMM_WORLD, model);

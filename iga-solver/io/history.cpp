@@ -52,11 +52,17 @@ struct History::Writer {
   SeriesFile file;
   std::string full_path;  // since the current directory may change
   std::vector<structure::Probe> probes;
+  std::vector<structure::NamedSupport> supports;
   int time, kinetic_energy, strain_energy, load_work, linear_momentum, angular_momentum, largest_displacement;
-  std::vector<int> probe_displacement;
+  int work_of_contacts, work_of_loads, internal_work, truncation;
+  std::vector<int> probe_displacement, support_reaction;
 
-  Writer(SeriesFile file_in, std::vector<structure::Probe> probes_in)
-      : file(std::move(file_in)), full_path(full_name(file.path())), probes(std::move(probes_in)) {
+  Writer(SeriesFile file_in, std::vector<structure::Probe> probes_in,
+         std::vector<structure::NamedSupport> supports_in)
+      : file(std::move(file_in)),
+        full_path(full_name(file.path())),
+        probes(std::move(probes_in)),
+        supports(std::move(supports_in)) {
     open_files().insert(full_path);
   }
   ~Writer() { open_files().erase(full_path); }
@@ -75,6 +81,12 @@ struct History::Writer {
     largest_displacement = series("largest_displacement", 1, unit.length);
     for (const structure::Probe& probe : probes)
       probe_displacement.push_back(series("probes/" + probe.name, 3, unit.length));
+    work_of_contacts = series("ledger/contacts", 1, unit.energy);
+    work_of_loads = series("ledger/loads", 1, unit.energy);
+    internal_work = series("ledger/internal", 1, unit.energy);
+    truncation = series("ledger/truncation", 1, unit.energy);
+    for (const structure::NamedSupport& support : supports)
+      support_reaction.push_back(series("reactions/" + support.name, 3, unit.force));
   }
   void add_series(geometry_io::Units units) {
     file.set_attribute("units", geometry_io::units_name(units));
@@ -117,18 +129,21 @@ bool OutputTimes::take(const structure::ExplicitSolver& solver) {
 History::History(std::unique_ptr<Writer> writer, double every, std::optional<double> last_time)
     : writer_(std::move(writer)), last_time_(last_time), times_(every, last_time) {}
 
-History::History(const HistoryOutput& output, geometry_io::Units units, std::vector<structure::Probe> probes)
-    : History(std::make_unique<Writer>(SeriesFile(checked_path(output)), std::move(probes)), output.every,
-              {}) {
+History::History(const HistoryOutput& output, geometry_io::Units units, std::vector<structure::Probe> probes,
+                 std::vector<structure::NamedSupport> supports)
+    : History(
+          std::make_unique<Writer>(SeriesFile(checked_path(output)), std::move(probes), std::move(supports)),
+          output.every, {}) {
   writer_->add_series(units);
 }
 
 History History::resume(const HistoryOutput& output, geometry_io::Units units,
-                        std::vector<structure::Probe> probes, double time) {
+                        std::vector<structure::Probe> probes, double time,
+                        std::vector<structure::NamedSupport> supports) {
   const std::string path = checked_path(output);
-  if (!std::filesystem::exists(path)) return {output, units, std::move(probes)};
+  if (!std::filesystem::exists(path)) return {output, units, std::move(probes), std::move(supports)};
   try {
-    auto writer = std::make_unique<Writer>(SeriesFile::open(path), std::move(probes));
+    auto writer = std::make_unique<Writer>(SeriesFile::open(path), std::move(probes), std::move(supports));
     const std::optional<double> last = writer->find_series(units, time);
     return {std::move(writer), output.every, last};
   } catch (const std::runtime_error& problem) {
@@ -144,19 +159,25 @@ History::History(History&&) noexcept = default;
 const std::string& History::path() const { return writer_->file.path(); }
 
 void History::record_if_due(const structure::ExplicitSolver& solver) {
-  if (times_.take(solver)) record(measure(solver, writer_->probes));
+  if (times_.take(solver)) record(measure(solver, writer_->probes, writer_->supports));
 }
 
-HistoryRow measure(const structure::ExplicitSolver& solver, const std::vector<structure::Probe>& probes) {
+HistoryRow measure(const structure::ExplicitSolver& solver, const std::vector<structure::Probe>& probes,
+                   const std::vector<structure::NamedSupport>& supports) {
+  const double strain_energy = solver.strain_energy();
   HistoryRow row{solver.time(),
                  solver.kinetic_energy(),
-                 solver.strain_energy(),
+                 strain_energy,
                  solver.load_work(),
+                 solver.work(),
+                 solver.truncation(strain_energy),
                  solver.linear_momentum(),
                  solver.angular_momentum(Vector3::Zero()),
                  solver.largest_displacement(),
+                 {},
                  {}};
   for (const structure::Probe& probe : probes) row.probes.push_back(solver.displacement(probe));
+  for (const structure::NamedSupport& support : supports) row.reactions.push_back(solver.reaction(support));
   return row;
 }
 
@@ -170,6 +191,12 @@ void History::record(const HistoryRow& row) {
   w.append(w.largest_displacement, row.largest_displacement);
   for (std::size_t i = 0; i < w.probe_displacement.size(); ++i)
     w.append(w.probe_displacement[i], row.probes[i]);
+  w.append(w.work_of_contacts, row.work.forces);
+  w.append(w.work_of_loads, row.work.loads);
+  w.append(w.internal_work, row.work.internal);
+  w.append(w.truncation, row.truncation);
+  for (std::size_t i = 0; i < w.support_reaction.size(); ++i)
+    w.append(w.support_reaction[i], row.reactions[i]);
   w.file.end_row(row.time);
   last_time_ = row.time;
 }

@@ -31,24 +31,30 @@ class OutputTimes {
 /// One row, in the order of the file's data sets.
 struct HistoryRow {
   double time, kinetic_energy, strain_energy, load_work;
+  structure::Work work;
+  double truncation;
   Vector3 linear_momentum, angular_momentum;
   double largest_displacement;
-  std::vector<Vector3> probes;  ///< displacements
+  std::vector<Vector3> probes;     ///< displacements
+  std::vector<Vector3> reactions;  ///< of supports
 };
 /// Collective, as what it asks of the solver.
-HistoryRow measure(const structure::ExplicitSolver& solver, const std::vector<structure::Probe>& probes);
+HistoryRow measure(const structure::ExplicitSolver& solver, const std::vector<structure::Probe>& probes,
+                   const std::vector<structure::NamedSupport>& supports = {});
 
 class History {
  public:
   /// Creates `<output.file>.h5`, replacing an older one.  Throws std::runtime_error, naming the file, if that
   /// fails, and geometry_io::InputError if it is one of `output.inputs`, by whatever name or link, or the
   /// file of another history that is there.
-  History(const HistoryOutput& output, geometry_io::Units units, std::vector<structure::Probe> probes);
+  History(const HistoryOutput& output, geometry_io::Units units, std::vector<structure::Probe> probes,
+          std::vector<structure::NamedSupport> supports = {});
   /// Goes on with the file of an earlier run, from `time`: later rows are dropped, and come anew.  Without
   /// such a file as above.  Throws std::runtime_error if it is the file of something else, which it leaves as
   /// it is.
   static History resume(const HistoryOutput& output, geometry_io::Units units,
-                        std::vector<structure::Probe> probes, double time);
+                        std::vector<structure::Probe> probes, double time,
+                        std::vector<structure::NamedSupport> supports = {});
   ~History();
   History(History&&) noexcept;
 

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <new>
 
 #include "geometry_io/file_kind.h"
@@ -46,7 +48,7 @@ nurbs::Face read_face(const YamlMap& map, const std::string& key, const std::str
 }
 
 FixedFaces read_fixed_faces(const YamlMap& map) {
-  map.allow_only({"fix", "faces"});
+  map.allow_only({"name", "fix", "faces"});
   FixedFaces fixed{{false, false, false}, {}};
   for (const std::string& word : map.words("fix")) {
     if (word != "x" && word != "y" && word != "z")
@@ -54,7 +56,19 @@ FixedFaces read_fixed_faces(const YamlMap& map) {
     fixed.directions[word[0] - 'x'] = true;
   }
   for (const std::string& name : map.words("faces")) fixed.faces.push_back(read_face(map, "faces", name));
+  if (map.has("name")) fixed.name = map.word("name");
   return fixed;
+}
+
+std::vector<FixedFaces> read_boundary(const std::vector<YamlMap>& entries) {
+  std::vector<FixedFaces> boundary;
+  for (const YamlMap& entry : entries) {
+    boundary.push_back(read_fixed_faces(entry));
+    for (std::size_t i = 0; i + 1 < boundary.size(); ++i)
+      if (!boundary[i].name.empty() && boundary[i].name == boundary.back().name)
+        entry.fail("name", fmt::format("name '{}' is given twice, expected once", boundary[i].name));
+  }
+  return boundary;
 }
 
 structure::Probe read_probe(const YamlMap& probes, const std::string& name, const nurbs::Space<3>& space) {
@@ -135,9 +149,7 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
                        "initial", "time", "integration"});
   ModelFile model = read_required(document, read_and_note);
   if (document.has("integration")) model.integration = read_integration(document.map("integration"));
-  if (document.has("boundary"))
-    for (const YamlMap& entry : document.list_of_maps("boundary"))
-      model.boundary.push_back(read_fixed_faces(entry));
+  if (document.has("boundary")) model.boundary = read_boundary(document.list_of_maps("boundary"));
   if (document.has("probes")) {
     const YamlMap probes = document.map("probes");
     for (const std::string& name : probes.keys())
@@ -152,6 +164,22 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   }
   if (document.has("time")) model.time = read_time(document.map("time"));
   return model;
+}
+
+std::vector<structure::NamedSupport> ModelFile::named_supports() const {
+  std::vector<structure::NamedSupport> named;
+  structure::Supports all;
+  std::vector<Eigen::Index> before;
+  for (const FixedFaces& entry : boundary) {
+    for (const nurbs::Face face : entry.faces)
+      all.fix(structure::nodes_on(volume().space, {face}), entry.directions);
+    structure::NamedSupport support{entry.name, {}};
+    std::set_difference(all.fixed_dofs().begin(), all.fixed_dofs().end(), before.begin(), before.end(),
+                        std::back_inserter(support.dofs));
+    before = all.fixed_dofs();
+    if (!entry.name.empty()) named.push_back(std::move(support));
+  }
+  return named;
 }
 
 ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& read) {
@@ -222,6 +250,7 @@ structure::ExplicitSolver build_solver(const ModelFile& model, const Cut& cut) {
   v.leftCols(solver.halo().held(v.cols())).colwise() = model.initial_velocity;
   solver.set_load(f_ext);
   solver.set_velocities(v);
+  if (!model.named_supports().empty()) solver.keep_reactions();
   return solver;
 }
 

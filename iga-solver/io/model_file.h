@@ -13,6 +13,7 @@
 
 #include "geometry_io/geometry_io.h"
 #include "io/output_keys.h"
+#include "structure/conditions/named_support.h"
 #include "structure/conditions/probe.h"
 #include "structure/partition.h"
 #include "structure/solid/solid.h"
@@ -26,6 +27,7 @@ using nurbs::Vector3;
 struct FixedFaces {
   structure::Directions directions;
   std::vector<nurbs::Face> faces;
+  std::string name = {};  ///< empty: reactions are not recorded
 };
 
 /// One entry of `loads: tractions`: dead traction [force/length^2] on a face.
@@ -52,6 +54,9 @@ struct ModelFile {
   std::vector<FaceTraction> tractions = {};
   Vector3 initial_velocity = Vector3::Zero();  ///< [length/time], uniform
   std::optional<TimeSpan> time = {};
+
+  /// Those of `boundary` that have names; a degree of freedom that several entries fix is the first one's.
+  std::vector<structure::NamedSupport> named_supports() const;
 
   const nurbs::Volume& volume() const { return std::get<nurbs::Volume>(geometry.patches.front()); }
 };

@@ -11,8 +11,8 @@ namespace parallel {
 void SharedHistory::open(double time) {
   double last = std::numeric_limits<double>::quiet_NaN();  // no row yet
   on_first_rank(comm_, [&] {
-    history_.emplace(resumes_ ? io::History::resume(output_, units_, probes_, time)
-                              : io::History(output_, units_, probes_));
+    history_.emplace(resumes_ ? io::History::resume(output_, units_, probes_, time, supports_)
+                              : io::History(output_, units_, probes_, supports_));
     last = history_->last_time().value_or(last);
   });
   MPI_Bcast(&last, 1, MPI_DOUBLE, 0, comm_);
@@ -22,7 +22,7 @@ void SharedHistory::open(double time) {
 void SharedHistory::record_if_due(const structure::ExplicitSolver& solver) {
   if (!times_) open(solver.time());
   if (!times_->take(solver)) return;
-  const io::HistoryRow row = io::measure(solver, probes_);
+  const io::HistoryRow row = io::measure(solver, probes_, supports_);
   on_first_rank(comm_, [&] { history_->record(row); });
 }
 

@@ -17,8 +17,12 @@ namespace parallel {
 class SharedHistory {
  public:
   SharedHistory(MPI_Comm comm, io::HistoryOutput output, geometry_io::Units units,
-                std::vector<structure::Probe> probes)
-      : comm_(comm), output_(std::move(output)), units_(units), probes_(std::move(probes)) {}
+                std::vector<structure::Probe> probes, std::vector<structure::NamedSupport> supports = {})
+      : comm_(comm),
+        output_(std::move(output)),
+        units_(units),
+        probes_(std::move(probes)),
+        supports_(std::move(supports)) {}
 
   /// The solver has got a saved state: the first row goes on with the file of then, if it is there.
   void resume() { resumes_ = true; }
@@ -35,6 +39,7 @@ class SharedHistory {
   io::HistoryOutput output_;
   geometry_io::Units units_;
   std::vector<structure::Probe> probes_;
+  std::vector<structure::NamedSupport> supports_;
   bool resumes_ = false;
   std::optional<io::OutputTimes> times_;  // from the first call on
   std::optional<io::History> history_;    // the same, on rank 0

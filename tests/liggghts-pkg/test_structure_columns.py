@@ -74,5 +74,30 @@ class StructureColumns(unittest.TestCase):
         self.assertLessEqual(abs(energy[apart] - energy[0]).max(), 1e-7 * energy[0])
 
 
+class Supports(unittest.TestCase):
+    def test_forces_are_the_change_of_momentum(self):
+        """A block that two supports hold, under its weight and a ball: columns 26-28 and 29-31 are their reactions."""
+        g = 1e5
+        held = "boundary: [{name: below, fix: [z], faces: [zeta-]}, {name: side, fix: [x, y, z], faces: [xi-]}]\n"
+        model = bob.block(SIZE, density=DENSITY, fixed=()) + held + f"loads: {{gravity: [0, 0, {-g}]}}\n"
+        deck = bob.prelude(velocity=(0.5, 0, -1), timestep=STEP, friction=0.3) + bob.wall() + bob.output(range(1, 32)) + "run 600\n"
+        table = decks.good(deck, files={"block.yaml": model}).table
+        columns = {first: vector(table, *(f"plate{first + k}" for k in range(3))) for first in (1, 9, 26, 29)}
+        weight = DENSITY * np.prod(SIZE) * np.array([0, 0, -g])
+        force = weight + columns[1] + columns[26] + columns[29]
+        change = 0.5 * STEP * (force[1:] + force[:-1])
+        np.testing.assert_allclose(np.diff(columns[9], axis=0), change, rtol=0, atol=1e-11 * abs(columns[9]).max())
+        self.assertGreater(abs(columns[1]).max(), 0.1 * abs(weight).max(), "the ball is felt")
+        self.assertGreater(abs(columns[26][:, 2]).max(), 0.1 * abs(columns[1]).max(), "and held")
+        np.testing.assert_array_equal(columns[26][:, :2], 0)
+
+    def test_truncation_is_what_internal_work_exceeds_the_strain_by(self):
+        deck = bob.prelude(timestep=STEP) + bob.wall() + bob.output(range(1, 26)) + "run 600\n"
+        table = decks.good(deck, files={"block.yaml": bob.block()}).table
+        strain = table["plate16"] - table["plate16"][0]
+        np.testing.assert_allclose(table["plate25"], table["plate24"] - strain, rtol=0, atol=1e-14 * strain.max())
+        self.assertGreater(abs(table["plate25"]).max(), 0)
+
+
 if __name__ == "__main__":
     unittest.main()

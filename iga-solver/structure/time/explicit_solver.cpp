@@ -79,6 +79,7 @@ void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   accelerate(F, 0.0);
   largest_u_ = u_.lpNorm<Eigen::Infinity>();
   ledger_ = WorkLedger();
+  strain_start_.reset();
   budget_.reset();
   check_divergence(F);
 }
@@ -144,19 +145,45 @@ void ExplicitSolver::accelerate(const NodalVectors& F, double h) {
   halo_->for_each_run(v_.cols(), [&](Eigen::Index first, Eigen::Index count) {
     sums_.push_back(accelerate_and_kick(h, {f_int_, f_ext_, F}, inverse_mass_, first, count, a_, v_));
   });
+  if (keeps_reactions_) find_reactions(F);
   halo_->owners_to_ghosts(a_);
   const Eigen::Index ghosts = v_.cols() - halo_->owned(v_.cols());
   v_.rightCols(ghosts) += h * a_.rightCols(ghosts);
 }
 
+void ExplicitSolver::find_reactions(const NodalVectors& F) {
+  const std::vector<Eigen::Index>& fixed = supports_.fixed_dofs();
+  reactions_.resize(fixed.size());
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    reactions_[i] = f_int_.data()[fixed[i]] - f_ext_.data()[fixed[i]] - F.data()[fixed[i]];
+}
+
+Vector3 ExplicitSolver::reaction(const NamedSupport& support) const {
+  std::array<ExactSum, 3> sums;
+  const Eigen::Index own = 3 * halo_->owned(u_.cols());
+  for (std::size_t i = 0; i < reactions_.size(); ++i) {
+    const Eigen::Index dof = supports_.fixed_dofs()[i];
+    if (dof < own &&
+        std::binary_search(support.dofs.begin(), support.dofs.end(), 3 * node_ids_[dof / 3] + Id(dof % 3)))
+      sums[dof % 3].add(reactions_[i]);
+  }
+  halo_->sum(sums.data(), sums.size());
+  return {sums[0].value(), sums[1].value(), sums[2].value()};
+}
+
+double ExplicitSolver::truncation(double strain) const {
+  return work().internal - (strain - strain_start_.value_or(strain));
+}
+
 void ExplicitSolver::start_energy_budget() {
   constexpr double kNegligibleStrain = 1e-9;
   const Work work = ledger_.work(*halo_);
-  const double kinetic = kinetic_energy(), kick = 0.125 * dt_ * dt_ * nodal_sum(a_);
+  const double strain = strain_energy(), kinetic = kinetic_energy(), kick = 0.125 * dt_ * dt_ * nodal_sum(a_);
   kinetic_start_ = kinetic + work.internal - work.loads - work.forces;
-  budget_.emplace(kinetic + strain_energy() + kick, body_->material().youngs_modulus() *
-                                                        halo_->total(body_->volume_sum()) *
-                                                        kNegligibleStrain * kNegligibleStrain);
+  if (!strain_start_) strain_start_ = strain - work.internal;
+  budget_.emplace(kinetic + strain + kick, body_->material().youngs_modulus() *
+                                               halo_->total(body_->volume_sum()) * kNegligibleStrain *
+                                               kNegligibleStrain);
 }
 
 // One message of all ranks, and no pass over the nodes: the ledger knows the kinetic energy, and is not

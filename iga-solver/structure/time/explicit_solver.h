@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "structure/body.h"
+#include "structure/conditions/named_support.h"
 #include "structure/conditions/probe.h"
 #include "structure/conditions/supports.h"
 #include "structure/halo.h"
@@ -89,6 +90,17 @@ class ExplicitSolver {
   Vector3 linear_momentum() const;                       ///< sum m_A v_A
   Vector3 angular_momentum(const Vector3& about) const;  ///< sum (x_A - about) x m_A v_A
 
+  /// By how much the work against internal forces exceeds the change of strain energy since then:
+  /// the error of the time step, of order dt^2, and what the material has dissipated.
+  /// `strain`: strain_energy().
+  double truncation(double strain) const;
+
+  /// From the next forces on reactions are known.
+  void keep_reactions() { keeps_reactions_ = true; }
+  /// Force of a support on the body [force], at the time of the last forces: what its degrees of freedom need
+  /// to stay where they are, f_int - f_ext - F.  Collective.
+  Vector3 reaction(const NamedSupport& support) const;
+
   /// Displacement of a point whose nodes are those of the whole body.  Collective.
   Vector3 displacement(const Probe& probe) const;
 
@@ -120,6 +132,7 @@ class ExplicitSolver {
   const NodalVectors& led_displacements();
   /// From f_int_, whole at own nodes: accelerations under F too, and a kick of `h` by them.
   void accelerate(const NodalVectors& F, double h);
+  void find_reactions(const NodalVectors& F);
   /// Sum of m_A |q_A|^2 over all nodes.
   double nodal_sum(const NodalVectors& q) const;
   /// Over the nodes of all parts.
@@ -145,9 +158,12 @@ class ExplicitSolver {
   WorkLedger ledger_;
   ExactSum added_energy_;                              // by add_motion in this step
   const NodalVectors* added_displacements_ = nullptr;  // likewise
-  double kinetic_start_ = 0.0;                         // what the ledger's work goes on from
-  double power_ = 0.0;                                 // of f_ext and F [energy/time]
-  std::optional<EnergyBudget> budget_;                 // since state or loads were set
+  bool keeps_reactions_ = false;
+  std::vector<double> reactions_;       // of the supports' fixed dofs
+  std::optional<double> strain_start_;  // strain energy when the ledger began
+  double kinetic_start_ = 0.0;          // what the ledger's work goes on from
+  double power_ = 0.0;                  // of f_ext and F [energy/time]
+  std::optional<EnergyBudget> budget_;  // since state or loads were set
   mutable std::optional<double> stable_time_step_;
   std::optional<StretchWatch> watch_;  // if the stable step is known
   std::optional<double> stable_now_;   // when it was found last
