@@ -202,35 +202,54 @@ std::unique_ptr<structure::Solid> build_solid(const ModelFile& model, const stru
   }
 }
 
-/// One that fails on one rank fails on all.
-std::unique_ptr<structure::Solid> build_part(const ModelFile& model, const Cut& cut,
-                                             const structure::Part& part) {
+structure::Supports supports_of(const ModelFile& model) {
+  structure::Supports supports;
+  for (const FixedFaces& fixed : model.boundary)
+    for (nurbs::Face face : fixed.faces)
+      supports.fix(structure::nodes_on(model.volume().space, {face}), fixed.directions);
+  return supports;
+}
+
+struct OwnPart {
+  structure::Part part;
   std::unique_ptr<structure::Solid> solid;
+  structure::Supports supports;
+};
+
+/// Takes the memory that a solver will need, for a moment: where it ends, it does so here.
+void expect_room_for_solver(const structure::Part& part) {
+  constexpr std::size_t kBytesPerColumn = 300;
+  ::operator delete(::operator new(kBytesPerColumn* part.columns));
+}
+
+/// What fails on one rank fails on all: nothing here waits for another.
+OwnPart build_part(const ModelFile& model, const Cut& cut) {
+  const nurbs::Space<3>& space = model.volume().space;
+  OwnPart own;
   std::string problem;
   try {
-    solid = build_solid(model, &part);
+    own.part = structure::Partition(space, structure::box_cuts(space), cut.parts).part(cut.part);
+    own.solid = build_solid(model, &own.part);
+    own.supports = supports_of(model).on(own.part.nodes);
+    expect_room_for_solver(own.part);
   } catch (const std::bad_alloc&) {
     problem = nurbs::out_of_memory(model.file);
   } catch (const std::exception& error) {
     problem = error.what();
   }
   cut.agree(problem);
-  return solid;
+  return own;
 }
 
 structure::ExplicitSolver build_solver_at_rest(const ModelFile& model, const Cut& cut) {
-  structure::Supports supports;
-  for (const FixedFaces& fixed : model.boundary)
-    for (nurbs::Face face : fixed.faces)
-      supports.fix(structure::nodes_on(model.volume().space, {face}), fixed.directions);
+  if (cut.parts > 1) {
+    OwnPart own = build_part(model, cut);
+    return {std::move(own.solid), std::move(own.supports), cut.halo(std::move(own.part))};
+  }
   const nurbs::Space<3>& space = model.volume().space;
-  structure::Part part = structure::Partition(space, structure::box_cuts(space), cut.parts).part(cut.part);
-  if (cut.parts == 1)
-    return {build_solid(model, nullptr), std::move(supports),
-            std::make_unique<const structure::Halo>(part.runs)};
-  std::unique_ptr<structure::Solid> solid = build_part(model, cut, part);
-  structure::Supports own_supports = supports.on(part.nodes);
-  return {std::move(solid), std::move(own_supports), cut.halo(std::move(part))};
+  std::vector<Eigen::Index> runs = structure::Partition(space, structure::box_cuts(space), 1).part(0).runs;
+  return {build_solid(model, nullptr), supports_of(model),
+          std::make_unique<const structure::Halo>(std::move(runs))};
 }
 
 }  // namespace
@@ -240,12 +259,8 @@ structure::ExplicitSolver build_solver(const ModelFile& model, const Cut& cut) {
   const std::vector<structure::Id>& nodes = solver.node_ids();
   structure::NodalVectors f_ext =
       model.gravity.value_or(Vector3::Zero()) * solver.mass().nodal_mass().transpose();
-  for (const FaceTraction& traction : model.tractions) {
-    const structure::NodalVectors whole =
-        structure::traction_load(solver.body(), {0, traction.face}, traction.value);
-    for (std::size_t column = 0; column < nodes.size(); ++column)
-      if (nodes[column] >= 0) f_ext.col(column) += whole.col(nodes[column]);
-  }
+  for (const FaceTraction& traction : model.tractions)
+    structure::add_traction_load(solver.body(), {0, traction.face}, traction.value, nodes, f_ext);
   structure::NodalVectors v = structure::NodalVectors::Zero(3, nodes.size());
   v.leftCols(solver.halo().held(v.cols())).colwise() = model.initial_velocity;
   solver.set_load(f_ext);

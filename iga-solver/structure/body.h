@@ -81,7 +81,7 @@ class Body {
   /// Smallest current over reference volume det(I + H) [-] at the element's quadrature points: <= 0 if it is
   /// folded.
   virtual double smallest_volume_ratio(int element, const double* u) const = 0;
-  /// For messages: "element 7 (spans 1, 0, 2 of xi, eta, zeta, undeformed about (1, 2, 3))".
+  /// For messages: "spans 1, 0, 2 of xi, eta, zeta, undeformed about (1, 2, 3)".
   virtual std::string describe_element(int element) const = 0;
 
   /// Neighbours in the net of control nodes: pairs of columns of nodal arrays, some twice; none: strains are

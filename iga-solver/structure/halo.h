@@ -6,6 +6,9 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <limits>
+#include <numeric>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -76,6 +79,15 @@ class Halo {
     for_each_run(columns, [&](Eigen::Index first, Eigen::Index count) { all.add(run(first, count)); });
     return total(all);
   }
+  /// What is said by the part whose value is the largest of all, and whose id is the lowest if several are;
+  /// on all parts.  `value` is a number, `id` not negative where it is above -infinity.
+  template <class Words>
+  std::string words_of_largest(double value, Id id, Words words) const {
+    constexpr double kNone = -std::numeric_limits<double>::infinity();
+    const bool is_largest = largest(value) == value && value > kNone;
+    const double lowest = -largest(is_largest ? -static_cast<double>(id) : kNone);
+    return shared(is_largest && static_cast<double>(id) == lowest ? words() : std::string());
+  }
   /// Whether it is so on any part.
   bool any(bool here) const { return largest(here ? 1.0 : 0.0) > 0.0; }
   /// Columns of the nodes that the part owns: what sums over nodes go over.
@@ -88,6 +100,14 @@ class Halo {
   }
 
  private:
+  /// Words that some parts have, all of them the same, on all.
+  std::string shared(const std::string& words) const {
+    std::vector<Id> places(words.size());
+    std::iota(places.begin(), places.end(), Id(0));
+    const std::vector<double> all = in_order(places, {words.begin(), words.end()});
+    return {all.begin(), all.begin() + static_cast<long>(largest(static_cast<double>(words.size())))};
+  }
+
   std::vector<Eigen::Index> runs_;
 };
 

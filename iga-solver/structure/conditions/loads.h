@@ -2,7 +2,10 @@
 // Nodal forces (3 x n) [force] of loads that do not depend on the motion.
 #pragma once
 
+#include <vector>
+
 #include "structure/body.h"
+#include "structure/id.h"
 
 namespace structure {
 
@@ -12,5 +15,8 @@ NodalVectors gravity_load(const Body& body, const Vector3& g);
 /// On the nodes of the whole body, integral of t R_A over a piece of the skin: uniform dead traction t
 /// [force/length^2], per reference area, direction fixed in space.
 NodalVectors traction_load(const Body& body, const SkinPiece& piece, const Vector3& traction);
+/// Adds the same to forces f on a part: a column for each id of `nodes`, -1 for columns of no node.
+void add_traction_load(const Body& body, const SkinPiece& piece, const Vector3& traction,
+                       const std::vector<Id>& nodes, NodalVectors& f);
 
 }  // namespace structure

@@ -209,8 +209,8 @@ std::string Solid::describe_element(int element) const {
   const nurbs::Space<3>& space = patch_->space;
   const std::array<int, 3> spans = spans_of(element);
   const nurbs::Parameter<3> centre = space.element_centre(space.element_index(spans));
-  return fmt::format("element {} (spans {}, {}, {} of xi, eta, zeta, undeformed about {})", element, spans[0],
-                     spans[1], spans[2], text(nurbs::interpolate(space, patch_->control_points, centre)));
+  return fmt::format("spans {}, {}, {} of xi, eta, zeta, undeformed about {}", spans[0], spans[1], spans[2],
+                     text(nurbs::interpolate(space, patch_->control_points, centre)));
 }
 
 std::vector<std::array<int, 2>> Solid::net_edges() const {

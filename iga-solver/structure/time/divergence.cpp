@@ -11,15 +11,37 @@ namespace structure {
 
 namespace {
 
-std::string node_text(const LastStep& step, int node) {
-  return fmt::format("control node {}, undeformed at {}", node, text(step.body.reference().col(node)));
+constexpr double kNone = -std::numeric_limits<double>::infinity();
+
+/// A node that the part owns, by its column, and how bad it is; kNone if it has none.
+struct Worst {
+  double value = kNone;
+  Eigen::Index column = 0;
+};
+
+/// "WORDS at control node 7, undeformed at (1, 2, 3)": what the worst of all parts says.
+std::string at_worst(const LastStep& step, const Worst& worst, const std::string& words) {
+  const Id id = worst.value > kNone ? step.halo.node_id(worst.column) : -1;
+  return step.halo.words_of_largest(worst.value, id, [&] {
+    return fmt::format("{} at control node {}, undeformed at {}", words, id,
+                       text(step.body.reference().col(worst.column)));
+  });
 }
 
-/// The first node whose value is not finite; -1: none.
-int first_not_finite(const NodalVectors& values) {
-  for (int A = 0; A < values.cols(); ++A)
-    if (!values.col(A).allFinite()) return A;
-  return -1;
+/// Of the part's own nodes the one with the largest value, the first if several have it.
+template <class Values>
+Worst largest_of(const Values& values) {
+  Worst worst;
+  if (values.size() > 0) worst.value = values.maxCoeff(&worst.column);
+  return worst;
+}
+
+/// The first node whose value is not finite.
+Worst not_finite(const LastStep& step, const NodalVectors& values) {
+  const auto own = step.halo.own(values);
+  for (Eigen::Index A = 0; A < own.cols(); ++A)
+    if (!own.col(A).allFinite()) return {1.0, A};
+  return {};
 }
 
 /// What is out of bounds, and at which node.
@@ -27,22 +49,22 @@ std::string symptom(const LastStep& step) {
   for (const auto& [values, name] :
        {std::pair{&step.displacements, "displacement"}, std::pair{&step.velocities, "velocity"},
         std::pair{&step.accelerations, "acceleration"}})
-    if (const int node = first_not_finite(*values); node >= 0)
-      return fmt::format("the {} is not finite at {}", name, node_text(step, node));
-  if (step.displacements.cols() == 0) return "in another part of it";
-  int node = 0;
-  const double largest = step.displacements.colwise().norm().maxCoeff(&node);
-  if (largest > kLargestDisplacement)
-    return fmt::format("the displacement is {:.3g} at {}", largest, node_text(step, node));
+    if (const Worst worst = not_finite(step, *values); step.halo.any(worst.value > kNone))
+      return at_worst(step, worst, fmt::format("the {} is not finite", name));
+  const Eigen::VectorXd lengths = step.halo.own(step.displacements).colwise().norm();
+  const Worst longest = largest_of(lengths);
+  if (step.halo.any(longest.value > kLargestDisplacement))
+    return at_worst(step, longest, fmt::format("the displacement is {:.3g}", longest.value));
+  const auto v = step.halo.own(step.velocities);
   const Eigen::VectorXd energies =
-      step.velocities.colwise().squaredNorm().transpose().cwiseProduct(step.mass.nodal_mass());
-  energies.maxCoeff(&node);
+      v.colwise().squaredNorm().transpose().cwiseProduct(step.mass.nodal_mass().head(v.cols()));
   const double kinetic = step.kinetic_energy;
-  if (!std::isfinite(kinetic))
-    return fmt::format("its kinetic energy is not finite, most at {}", node_text(step, node));
-  return fmt::format(
-      "its kinetic energy {:.3g} is more than {} times the {:.3g} that it was given, most at {}", kinetic,
-      EnergyBudget::kExcess, step.energy_given, node_text(step, node));
+  return at_worst(step, largest_of(energies),
+                  std::isfinite(kinetic)
+                      ? fmt::format("its kinetic energy {:.3g} is more than {} times the {:.3g} that it was "
+                                    "given, most",
+                                    kinetic, EnergyBudget::kExcess, step.energy_given)
+                      : "its kinetic energy is not finite, most");
 }
 
 /// The element that is squeezed most, if it is folded: nothing is said of displacements that are not finite.
@@ -56,12 +78,15 @@ std::string folded_element(const LastStep& step) {
     const double ratio = body.smallest_volume_ratio(e, u.data());
     if (ratio < lowest) lowest = ratio, folded = e;
   }
-  return folded < 0 ? "" : body.describe_element(folded) + " is folded";
+  const Id id = folded < 0 ? -1 : step.halo.element_id(folded);
+  return step.halo.words_of_largest(folded < 0 ? kNone : -lowest, id, [&] {
+    return fmt::format("element {} ({}) is folded", id, body.describe_element(folded));
+  });
 }
 
 std::string likely_cause(const LastStep& step) {
-  if (const int node = first_not_finite(step.F); node >= 0)
-    return fmt::format("the contact force is not finite at {}", node_text(step, node));
+  if (const Worst worst = not_finite(step, step.F); step.halo.any(worst.value > kNone))
+    return at_worst(step, worst, "the contact force is not finite");
   const double dt = step.time_step;
   const std::optional<double>& stable = step.stable_time_step;
   const std::string known = stable ? fmt::format(" (the stable step was {:.6g} at the start)", *stable) : "";

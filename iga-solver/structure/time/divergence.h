@@ -10,6 +10,7 @@
 
 #include "nurbs/usable_number.h"
 #include "structure/body.h"
+#include "structure/halo.h"
 #include "structure/time/mass.h"
 
 namespace structure {
@@ -50,9 +51,10 @@ class EnergyBudget {
   double given_, most_;
 };
 
-/// The end of a body's last step; arrays are 3 x node_count, as in ExplicitSolver.
+/// The end of a body's last step, or of a part's; arrays are 3 x node_count, as in ExplicitSolver.
 struct LastStep {
   const Body& body;
+  const Halo& halo;
   const MassOperator& mass;
   const NodalVectors &displacements, &velocities, &accelerations;
   const NodalVectors& F;  ///< forces of others [force]
@@ -62,7 +64,8 @@ struct LastStep {
 };
 
 /// What is wrong with a body that has blown up: time, control node, and the likely cause among the forces F,
-/// a time step above the stable one, and folded elements.
+/// a time step above the stable one, and folded elements.  Collective: the worst of all parts, in the same
+/// words on each.
 std::string describe_divergence(const LastStep& step);
 
 }  // namespace structure

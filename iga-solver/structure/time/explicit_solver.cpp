@@ -206,7 +206,7 @@ void ExplicitSolver::check_divergence(const NodalVectors& F) {
   if (!starts) budget_->add(0.5 * dt_ * (power_before + power_) + sums[kAdded].value());
   if (!budget_->allows(kinetic) || sums[kPartsBeyond].value() > 0.0)
     throw Diverged(describe_divergence(
-        {*body_, *mass_, u_, v_, a_, F, time_, dt_, stable_time_step_, kinetic, budget_->most()}));
+        {*body_, *halo_, *mass_, u_, v_, a_, F, time_, dt_, stable_time_step_, kinetic, budget_->most()}));
   if (sums[kPartsStrained].value() > 0.0) find_stable_step_anew();
 }
 
@@ -215,7 +215,8 @@ void ExplicitSolver::find_stable_step_anew() {
   stable_now_ = structure::stable_time_step(*body_, *mass_, supports_, u_, *halo_);
   const double room = *stable_now_ / dt_;
   if (room < 1.0)
-    throw Diverged(describe_too_strained(*body_, *watch_, {time_, dt_, stable_time_step(), *stable_now_}));
+    throw Diverged(
+        describe_too_strained(*body_, *halo_, *watch_, {time_, dt_, stable_time_step(), *stable_now_}));
   watch_->allow_more(std::max(kLeastGrowth, room * room));
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "structure/body.h"
+#include "structure/halo.h"
 
 namespace structure {
 
@@ -58,7 +59,9 @@ struct WatchedStep {
   double time, time_step, stable_at_start, stable_now;
 };
 
-/// What is wrong where the stable step has come down to the time step, in one line.
-std::string describe_too_strained(const Body& body, const StretchWatch& watch, const WatchedStep& step);
+/// What is wrong where the stable step has come down to the time step, in one line.  Collective: of all
+/// parts, in the same words on each.
+std::string describe_too_strained(const Body& body, const Halo& halo, const StretchWatch& watch,
+                                  const WatchedStep& step);
 
 }  // namespace structure

@@ -31,11 +31,12 @@ def plate(elements="[40, 36, 2]", degree=2, law="saint_venant_kirchhoff", method
     return PLATE.format(elements=elements, degree=degree, law=law, method=method, quadrature=quadrature, end=end)
 
 
-def solve(model: str, ranks: int, *words: str) -> tuple[subprocess.CompletedProcess, dict]:
+def solve(model: str, ranks: int, *words: str, before: tuple[str, ...] = ()) -> tuple[subprocess.CompletedProcess, dict]:
+    """`before`: words in front of the program's name."""
     with tempfile.TemporaryDirectory() as folder:
         (Path(folder) / "plate.yaml").write_text(model)
         done = subprocess.run(
-            [MPIEXEC, "-n", str(ranks), PROGRAM, "plate.yaml", *words], cwd=folder, capture_output=True, text=True, timeout=60,
+            [MPIEXEC, "-n", str(ranks), *before, PROGRAM, "plate.yaml", *words], cwd=folder, capture_output=True, text=True, timeout=60,
             check=False,
         )  # fmt: skip
         series = {}
@@ -76,6 +77,21 @@ class Ranks(unittest.TestCase):
         self.assertNotEqual(done.returncode, 0)
         self.assertEqual(done.stderr.count("ERROR"), 1, done.stderr)
         self.assertIn("above the stable step", done.stderr)
+
+    def test_a_solid_that_blows_up_is_told_of_in_the_same_words(self):
+        model = plate().replace("-1e8", "-1e13")
+        told = [solve(model, ranks)[0].stderr.splitlines()[0] for ranks in (1, 2, 4)]
+        self.assertRegex(told[0], "blown up at time .* at control node [0-9]+, undeformed at .*element [0-9]+ .*is folded")
+        self.assertEqual(told[1:], 2 * told[:1])
+
+    def test_memory_that_ends_on_one_rank(self):
+        """Its part does not fit, or memory ends while it is built: the others do not wait for it."""
+        big = plate(elements="[64, 120, 9]", method="elements", end=1e-9)  # tables of 640 MB for each of two ranks
+        for megabytes in (600, 800):
+            limit = f'[ "$OMPI_COMM_WORLD_RANK" = 1 ] && ulimit -v {1000 * megabytes}; exec "$0" "$@"'
+            done, _ = solve(big, 2, before=("bash", "-c", limit))
+            self.assertNotEqual(done.returncode, 0)
+            self.assertEqual(done.stderr.count("ERROR"), 1, done.stderr)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A body in two parts, each with a solver and a thread of its own, moves as the whole does: the seam is
 // enough.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -23,6 +24,7 @@ using models::NodalVectors;
 using models::Vector3;
 using structure::ExplicitSolver;
 using structure::Solid;
+using testing::HasSubstr;
 
 /// Where the two threads meet: each leaves numbers, and takes those of the other.
 class MeetingPlace {
@@ -131,6 +133,7 @@ struct Results {
   structure::Work work;
   Vector3 linear, angular;
   std::optional<double> blown_up_at;
+  std::string words;  // of that
 };
 
 /// From random velocities v, under gravity and forces F, fixed at the foot if it has one.
@@ -148,8 +151,9 @@ Results run(ExplicitSolver solver, const NodalVectors& v, const NodalVectors& F,
       solver.begin_step();
       solver.end_step(F);
     }
-  } catch (const structure::Diverged&) {
+  } catch (const structure::Diverged& problem) {
     r.blown_up_at = solver.time();
+    r.words = problem.what();
     return r;
   }
   r.u = solver.displacements(), r.v = solver.velocities();
@@ -244,6 +248,67 @@ TEST(Halo, BothPartsNoticeThatTheBodyBlowsUp) {
   for (const Results& r : runs.parts) {
     ASSERT_TRUE(r.blown_up_at);
     EXPECT_EQ(*r.blown_up_at, *runs.whole.blown_up_at);
+    EXPECT_EQ(r.words, runs.whole.words);
+  }
+}
+
+/// What is said of a last step with these displacements and velocities under forces F, by the whole body and
+/// by both parts.
+std::array<std::string, 3> said_of(const NodalVectors& u, const NodalVectors& v, const NodalVectors& F) {
+  const Tower tower;
+  const NodalVectors a = NodalVectors::Zero(3, kWhole);
+  const auto say = [&](const Solid& body, const structure::Halo& halo, const auto& own) {
+    const structure::LumpedMass mass(structure::whole(halo, body.row_sum_mass()));
+    const NodalVectors of_u = own(u), of_v = own(v), of_a = own(a), of_F = own(F);
+    return structure::describe_divergence(
+        {body, halo, mass, of_u, of_v, of_a, of_F, 2.0, 0.1, {}, 50.0, 3.0});
+  };
+  MeetingPlace place;
+  const auto say_of_part = [&](int part) {
+    return say(*tower.half(part), TwoPartHalo(place, part),
+               [&](const NodalVectors& values) { return Tower::own(values, part); });
+  };
+  std::array<std::string, 3> said;
+  said[0] =
+      say(*tower.solid(tower.whole), structure::Halo(), [](const NodalVectors& values) { return values; });
+  std::thread lower([&] { said[1] = say_of_part(0); });
+  said[2] = say_of_part(1);
+  lower.join();
+  return said;
+}
+
+/// Each half is a patch, with spans of its own.
+std::string up_to_spans(const std::string& words) { return words.substr(0, words.find("(spans")); }
+
+TEST(Halo, BothPartsTellOfTheWorstNodeOfAll) {
+  const NodalVectors none = NodalVectors::Zero(3, kWhole);
+  for (const int node : {3, kNodesBelow - 1, kNodesBelow, kHalf - 1, kWhole - 1}) {
+    NodalVectors one = none, lesser = none, no_number = none;
+    one(1, node) = 7.0;
+    lesser(2, kWhole - 1 - node) = 6.0;
+    no_number(0, node) = std::nan("");
+    const std::string at_node = " at control node " + std::to_string(node) + ",";
+    for (const auto& [said, what] :
+         {std::pair{said_of(no_number, none, none), "displacement is not finite"},
+          std::pair{said_of(1e101 * one + 1e101 * lesser, none, none), "displacement is 7e+101"},
+          std::pair{said_of(none, one + lesser, none), "given, most"},
+          std::pair{said_of(none, one, no_number), "contact force is not finite"}}) {
+      EXPECT_THAT(said[0], HasSubstr(what + at_node));
+      EXPECT_EQ(up_to_spans(said[1]), up_to_spans(said[0]));
+      EXPECT_EQ(said[2], said[1]);
+    }
+  }
+}
+
+TEST(Halo, BothPartsTellOfTheElementThatIsFoldedMost) {
+  for (const int layer : {1, 5}) {  // inside of either part
+    NodalVectors u = NodalVectors::Zero(3, kWhole);
+    u(2, layer * kLayer + 5) = 3.0;
+    u(2, (6 - layer) * kLayer + 5) = -2.5;
+    const std::array<std::string, 3> said = said_of(u, u, 0.0 * u);
+    EXPECT_THAT(said[0], HasSubstr("is folded"));
+    EXPECT_EQ(up_to_spans(said[1]), up_to_spans(said[0]));
+    EXPECT_EQ(said[2], said[1]);
   }
 }
 
