@@ -74,21 +74,37 @@ class NumberReader {
 
 }  // namespace
 
-double checksum(const std::vector<double>& values) {
-  constexpr double kGoldenRatio = 0.61803398874989485;  // its multiples modulo 1 are all different
-  double sum = 0.0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const double place = kGoldenRatio * static_cast<double>(i);
+namespace {
+
+/// checksum() of numbers that come one by one.
+class Checksum {
+ public:
+  void add(double value) {
+    constexpr double kGoldenRatio = 0.61803398874989485;  // its multiples modulo 1 are all different
+    const double place = kGoldenRatio * static_cast<double>(count_++);
     const double c = 0.5 + 0.5 * (place - std::floor(place));
-    sum += 2.0 * std::abs(values[i]) + c * values[i];
+    sum_ += 2.0 * std::abs(value) + c * value;
   }
-  return sum;
+  double sum() const { return sum_; }
+
+ private:
+  std::size_t count_ = 0;
+  double sum_ = 0.0;
+};
+
+}  // namespace
+
+double checksum(const std::vector<double>& values) {
+  Checksum checksum;
+  for (const double value : values) checksum.add(value);
+  return checksum.sum();
 }
 
 template <int Dim>
 FingerprintPart geometry_part(const std::vector<nurbs::Space<Dim>>& patches,
                               const nurbs::NodalVectors& control_points) {
-  std::vector<double> knots, weights, numbers{Dim, static_cast<double>(patches.size())};
+  std::vector<double> knots, numbers{Dim, static_cast<double>(patches.size())};
+  Checksum weights, coordinates;
   int elements = 0;
   for (const nurbs::Space<Dim>& patch : patches) {
     elements += patch.element_count();
@@ -97,11 +113,11 @@ FingerprintPart geometry_part(const std::vector<nurbs::Space<Dim>>& patches,
       numbers.push_back(direction.degree());
       numbers.push_back(direction.element_count());
     }
-    for (int A = 0; A < patch.control_point_count(); ++A) weights.push_back(patch.weight(A));
+    for (int A = 0; A < patch.control_point_count(); ++A) weights.add(patch.weight(A));
   }
-  const std::vector<double> x(control_points.data(), control_points.data() + control_points.size());
-  numbers.insert(numbers.end(),
-                 {static_cast<double>(x.size()), checksum(x), checksum(knots), checksum(weights)});
+  for (Eigen::Index i = 0; i < control_points.size(); ++i) coordinates.add(control_points.data()[i]);
+  numbers.insert(numbers.end(), {static_cast<double>(control_points.size()), coordinates.sum(),
+                                 checksum(knots), weights.sum()});
 
   std::ostringstream text;
   if (patches.size() == 1)

@@ -63,6 +63,7 @@ class IgaStructure final : public StructureSolver {
   std::vector<Reaction> reactions() const override;
   std::vector<double> save() const override { return solver_.save(); }
   void load(const std::vector<double>& state) override;
+  std::size_t state_size() const override { return solver_.state_size(); }
   Fingerprint fingerprint() const override;
 
  private:

@@ -117,6 +117,8 @@ class StructureSolver {
   /// are.
   virtual std::vector<double> save() const = 0;
   virtual void load(const std::vector<double>& state) = 0;
+  /// How many numbers save() gives; collective.
+  virtual std::size_t state_size() const { return save().size(); }
   /// What these numbers belong to: all that must be the same in the solver that loads them.
   virtual Fingerprint fingerprint() const = 0;
 };

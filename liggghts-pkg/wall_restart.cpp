@@ -9,20 +9,18 @@
 
 namespace liggghts_pkg {
 
-std::vector<double> WallRestart::packed(const WallState::Origin& origin, const WallOutput* output) const {
-  const std::vector<double> fields =
-      output ? output->save(lmp_->update->get_cur_time()) : std::vector<double>();
-  return pack({structure_.save(), fields, origin});
+std::vector<double> WallRestart::fields(const WallOutput* output) const {
+  return output ? output->save(lmp_->update->get_cur_time()) : std::vector<double>();
 }
 
 void WallRestart::reserve(const WallState::Origin& origin, const WallOutput* output) {
   constexpr std::size_t kMayGrowBy = 1000;  // motions that `fix_modify` adds to a rigid wall
-  const std::size_t now = packed(origin, output).size();
+  const std::size_t now = structure_.state_size() + pack({{}, fields(output), origin}).size();
   blocks_.reserve(now + now * 2 / 3 + kMayGrowBy);  // within an outer step a solid saves 15 for 9 numbers
 }
 
 void WallRestart::write(std::FILE* file, const WallState::Origin& origin, const WallOutput* output) {
-  write_block(lmp_->world, file, blocks_.split(packed(origin, output)));
+  write_block(lmp_->world, file, blocks_.split(pack({structure_.save(), fields(output), origin})));
 }
 
 void WallRestart::read(const char* buffer, const WallState::Origin& origin, WallOutput* output) {

@@ -43,7 +43,7 @@ class WallRestart {
   void warn_of_state_not_taken();
 
  private:
-  std::vector<double> packed(const WallState::Origin& origin, const WallOutput* output) const;
+  std::vector<double> fields(const WallOutput* output) const;
 
   LAMMPS_NS::LAMMPS* lmp_;
   std::string id_, file_;

@@ -46,11 +46,15 @@ std::vector<double> pack(const WallState& state) {
   const WallState::Origin& origin = state.origin.value();
   const std::vector<double> memory = {static_cast<double>(origin.contacts),
                                       static_cast<double>(origin.history)};
+  const std::vector<double> fingerprint = coupling::to_numbers(origin.fingerprint);
+  const std::vector<double>* const parts[] = {&state.structure, &state.fields, &fingerprint, &memory};
+  std::size_t numbers = 1;
+  for (const std::vector<double>* part : parts) numbers += 1 + part->size();
   std::vector<double> all{-kVersion};
-  for (const std::vector<double>& part :
-       {state.structure, state.fields, coupling::to_numbers(origin.fingerprint), memory}) {
-    all.push_back(static_cast<double>(part.size()));
-    all.insert(all.end(), part.begin(), part.end());
+  all.reserve(numbers);
+  for (const std::vector<double>* part : parts) {
+    all.push_back(static_cast<double>(part->size()));
+    all.insert(all.end(), part->begin(), part->end());
   }
   return all;
 }

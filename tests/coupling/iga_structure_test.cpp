@@ -90,6 +90,7 @@ TEST(IgaStructure, LoadContinuesASavedStateToTheLastBit) {
   };
   first.initialise_forces(forces);
   advance(first, 20);
+  EXPECT_EQ(first.state_size(), first.save().size());
   second.load(first.save());
   advance(first, 20);
   advance(second, 20);
