@@ -22,11 +22,20 @@ std::shared_ptr<const structure::Material> read_constants(const YamlMap& map,
                                                           const structure::MaterialLaw& law) {
   std::vector<std::string> keys = {"law"};
   for (const structure::MaterialConstant& constant : law.constants) keys.emplace_back(constant.key);
+  for (const structure::MaterialDirection& direction : law.directions) keys.emplace_back(direction.key);
   map.allow_only(keys);
   std::vector<double> values;
   for (const structure::MaterialConstant& constant : law.constants)
     values.push_back(map.number(constant.key, {constant.low, constant.high}));
-  return law.make(values);
+  for (const structure::MaterialDirection& direction : law.directions) {
+    const Vector3 v = map.has(direction.key) ? map.vector3(direction.key) : direction.otherwise;
+    values.insert(values.end(), v.begin(), v.end());
+  }
+  try {
+    return law.make(values);
+  } catch (const std::invalid_argument& error) {
+    map.fail("law", error.what());
+  }
 }
 
 std::shared_ptr<const structure::Material> read_material(const YamlMap& map) {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A law of two elastic constants behind the material seam.
+// A law without memory behind the material seam.
 #pragma once
 
 #include "structure/material/isotropic_elastic.h"
 #include "structure/material/linear_elastic.h"
+#include "structure/material/orthotropic_constants.h"
 #include "structure/material/tensor.h"
 
 namespace structure {
@@ -14,15 +15,17 @@ constexpr bool is_for_small_strain = false;
 template <>
 constexpr bool is_for_small_strain<LinearElasticLaw> = true;
 
-/// Law: a struct of lambda and mu with kWord, stress(H) and energy_density(H) for any kind of number.
+/// Law: a struct with kWord, stress(H) and energy_density(H) for any kind of number, made by its Constants
+/// (IsotropicElastic: of lambda and mu).
 template <class Law>
-class ElasticMaterial final : public IsotropicElastic {
+class ElasticMaterial final : public Law::Constants {
  public:
-  /// Arguments and errors as IsotropicElastic.
-  ElasticMaterial(double youngs_modulus, double poissons_ratio, double density)
-      : IsotropicElastic(Law::kWord, youngs_modulus, poissons_ratio, density), law_{lambda(), mu()} {}
+  /// Arguments and errors as those of the Constants.
+  template <class... Arguments>
+  explicit ElasticMaterial(const Arguments&... arguments)
+      : Law::Constants(Law::kWord, arguments...), law_(this->template point_law<Law>()) {}
 
-  const Law& point_law() const { return law_; }
+  const Law& inlined_law() const { return law_; }
 
   const char* law() const override { return Law::kWord; }
   Matrix3 stress(const Matrix3& H, const double* /*state*/) const override {

@@ -15,6 +15,10 @@ class IsotropicElastic : public Material {
   double mu() const { return mu_; }
 
  protected:
+  template <class Law>
+  Law point_law() const {
+    return {lambda_, mu_};
+  }
   /// E [Pa], nu [-], density [kg/m^3].  Throws std::invalid_argument, naming the law, unless E > 0,
   /// -1 < nu < 0.5 and density > 0.
   IsotropicElastic(const char* law, double youngs_modulus, double poissons_ratio, double density);

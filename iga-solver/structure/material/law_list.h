@@ -3,6 +3,8 @@
 #pragma once
 
 #include "structure/material/linear_elastic.h"
+#include "structure/material/neo_hooke.h"
+#include "structure/material/orthotropic_elastic.h"
 #include "structure/material/saint_venant_kirchhoff.h"
 
 namespace structure {
@@ -12,6 +14,6 @@ struct LawList {
   static constexpr int kCount = sizeof...(Laws);
 };
 
-using ElasticLaws = LawList<LinearElasticLaw, SaintVenantKirchhoffLaw>;
+using ElasticLaws = LawList<LinearElasticLaw, SaintVenantKirchhoffLaw, NeoHookeLaw, OrthotropicElasticLaw>;
 
 }  // namespace structure

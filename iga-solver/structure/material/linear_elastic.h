@@ -7,7 +7,10 @@
 
 namespace structure {
 
+class IsotropicElastic;
+
 struct LinearElasticLaw {
+  using Constants = IsotropicElastic;
   static constexpr const char* kWord = "linear_elastic";
   double lambda, mu;  // Lame constants [Pa]
 

@@ -9,36 +9,21 @@
 
 namespace structure {
 
+class IsotropicElastic;
+
 struct SaintVenantKirchhoffLaw {
+  using Constants = IsotropicElastic;
   static constexpr const char* kWord = "saint_venant_kirchhoff";
   double lambda, mu;  // Lame constants [Pa]
 
   template <class Number>
   [[gnu::always_inline]] Tensor<Number> stress(const Tensor<Number>& H) const {
-    const Tensor<Number> S = hooke(lambda, mu, twice_green_lagrange(H));
-    Tensor<Number> P = S;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        for (int k = 0; k < 3; ++k) P(i, j) += H(i, k) * S(k, j);
-    return P;
+    return first_piola(H, hooke(lambda, mu, twice_green_lagrange(H)));
   }
   template <class Number>
   [[gnu::always_inline]] Number energy_density(const Tensor<Number>& H) const {
     const Tensor<Number> twice_E = twice_green_lagrange(H);
     return 0.25 * double_dot(hooke(lambda, mu, twice_E), twice_E);
-  }
-
- private:
-  // From H, not from F: no digits are lost where strains are small.
-  template <class Number>
-  [[gnu::always_inline]] static Tensor<Number> twice_green_lagrange(const Tensor<Number>& H) {
-    Tensor<Number> A = plus_transposed(H);
-    for (int i = 0; i < 3; ++i)
-      for (int j = i; j < 3; ++j) {
-        for (int k = 0; k < 3; ++k) A(i, j) += H(k, i) * H(k, j);
-        A(j, i) = A(i, j);
-      }
-    return A;
   }
 };
 

@@ -15,7 +15,7 @@ LawCall find(const Material& material, LawList<Laws...>) {
   LawCall call{sizeof...(Laws), nullptr};
   int i = 0;
   const auto look = [&](const auto* elastic) {
-    if (elastic) call = {i, &elastic->point_law()};
+    if (elastic) call = {i, &elastic->inlined_law()};
     ++i;
   };
   (look(dynamic_cast<const ElasticMaterial<Laws>*>(&material)), ...);

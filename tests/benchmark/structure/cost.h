@@ -21,6 +21,8 @@ struct MaterialFlops {
   static constexpr double kLinear = 2 + 1 + 6 + 6;
   /// E = (H + H^T + H^T H) / 2: 6 (5 + 3); S: 2 + 1 + 6 + 3; P = S + H S: 9 x 6.
   static constexpr double kSaintVenantKirchhoff = 48 + 12 + 54;
+  /// cof F - I: 3 + 6 x 3 + 3 x 4; J, J - 1: 3 + 5 + 3; ln J and 1 / J: 24; g: 5; P: 9 x 3 + 3.
+  static constexpr double kNeoHooke = 33 + 11 + 24 + 5 + 30;
 };
 
 /// Displacements read, forces read and written.

@@ -3,6 +3,8 @@
 
 #include <Eigen/LU>
 
+#include <cmath>
+
 #include "nurbs/gauss_legendre.h"
 
 namespace benchmarks {
@@ -30,8 +32,16 @@ void evaluate_point(const nurbs::Volume& volume, int element, const nurbs::Param
   out.nodes.assign(basis.control_point, basis.control_point + basis.count);
 }
 
+/// In long double: F - F^-T has lost digits where H is small.
+Matrix3d neo_hooke(double lambda, double mu, const Matrix3d& H) {
+  using Long = Eigen::Matrix<long double, 3, 3>;
+  const Long F = Long::Identity() + H.cast<long double>(), inverse = F.inverse().transpose();
+  return (mu * (F - inverse) + lambda * std::log(F.determinant()) * inverse).cast<double>();
+}
+
 /// P of H.
 Matrix3d stress(const std::string& law, double lambda, double mu, const Matrix3d& H) {
+  if (law == "neo_hooke") return neo_hooke(lambda, mu, H);
   const Matrix3d I = Matrix3d::Identity(), F = I + H;
   const bool linear = law == "linear_elastic";
   const Matrix3d E =

@@ -29,8 +29,8 @@ struct Gradients {
 };
 Gradients gradients(const nurbs::Volume& volume, int element, Rule rule);
 
-/// Nodal forces of displacements u [length] under `law`, "linear_elastic" or "saint_venant_kirchhoff"; Lame
-/// constants [stress].
+/// Nodal forces of displacements u [length] under `law`, "linear_elastic", "saint_venant_kirchhoff" or
+/// "neo_hooke"; Lame constants [stress].
 nurbs::NodalVectors integrated_force(const nurbs::Volume& volume, Rule rule, const std::string& law,
                                      double lambda, double mu, const nurbs::NodalVectors& u);
 

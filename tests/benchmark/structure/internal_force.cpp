@@ -34,10 +34,12 @@ struct Sizes {
 };
 
 double material_flops(const std::string& law) {
-  return law == "linear_elastic" ? MaterialFlops::kLinear : MaterialFlops::kSaintVenantKirchhoff;
+  return law == "linear_elastic" ? MaterialFlops::kLinear
+         : law == "neo_hooke"    ? MaterialFlops::kNeoHooke
+                                 : MaterialFlops::kSaintVenantKirchhoff;
 }
 
-const std::vector<std::string> kLaws = {"linear_elastic", "saint_venant_kirchhoff"};
+const std::vector<std::string> kLaws = {"linear_elastic", "saint_venant_kirchhoff", "neo_hooke"};
 
 /// A body and its displacements.
 struct Case {

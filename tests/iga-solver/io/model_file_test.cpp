@@ -143,7 +143,10 @@ TEST(ModelFile, RefusesBadInputInOneLineThatNamesFileLineGivenAndExpected) {
       {"0.286", "-1", 4, {"poissons_ratio", "-1", "0.5"}},
       {"210.6e9", "0", 4, {"youngs_modulus", "0", "> 0"}},
       {"210.6e9", ".nan", 4, {"youngs_modulus"}},
-      {"linear_elastic", "jelly", 4, {"jelly", "linear_elastic", "saint_venant_kirchhoff"}},
+      {"linear_elastic",
+       "jelly",
+       4,
+       {"jelly", "linear_elastic", "saint_venant_kirchhoff", "neo_hooke", "orthotropic_elastic"}},
       {"units: si", "units: imperial", 1, {"imperial", "si", "cgs", "mm-g-ms"}},
       {"fix: [z]", "fix: [w]", 7, {"'w'", "x, y, z"}},
       {"faces: [zeta-]", "faces: [bottom]", 7, {"bottom", "zeta-"}},
@@ -190,6 +193,43 @@ TEST(ModelFile, RefusesBadInputInOneLineThatNamesFileLineGivenAndExpected) {
       for (const char* words : bad.said) EXPECT_THAT(message, HasSubstr(words));
       EXPECT_THAT(message, testing::Not(HasSubstr("\n")));
     }
+  }
+}
+
+std::string with_material(const std::string& material) {
+  const std::size_t begin = kPlate.find("material:"), end = kPlate.find("boundary:");
+  return std::string(kPlate).replace(begin, end - begin, "material: {" + material + "}\n");
+}
+
+TEST(ModelFile, ReadsEveryLaw) {
+  for (const char* law : {"linear_elastic", "saint_venant_kirchhoff", "neo_hooke"}) {
+    const ModelFile model = io::parse_model_file(
+        with_material(std::string("law: ") + law + ", youngs_modulus: 2, poissons_ratio: 0.3, density: 7"),
+        "a.yaml");
+    EXPECT_STREQ(model.material->law(), law);
+    EXPECT_EQ(model.material->youngs_modulus(), 2.0);
+  }
+  const std::string nine =
+      "law: orthotropic_elastic, E_1: 12, E_2: 0.9, E_3: 0.5, nu_12: 0.4, nu_13: 0.45, nu_23: 0.5, G_12: "
+      "0.8, "
+      "G_13: 0.6, G_23: 0.05, density: 500";
+  const ModelFile along = io::parse_model_file(with_material(nine), "a.yaml");
+  EXPECT_THAT(along.material->further_constants(),
+              testing::ElementsAre(12, 0.9, 0.5, 0.4, 0.45, 0.5, 0.8, 0.6, 0.05, 1, 0, 0, 0, 1, 0));
+  const ModelFile turned = io::parse_model_file(
+      with_material(nine + ", direction_1: [0, 0, 2], direction_2: [1, 0, 1]"), "a.yaml");
+  structure::Matrix3 H = structure::Matrix3::Zero();
+  H(2, 2) = 1e-10;
+  EXPECT_GT(turned.material->stress(H, nullptr)(2, 2), 12e-10) << "axis 1 lies along z";
+  for (const auto& [wrong, said] :
+       {std::pair{"nu_12: 3.7",
+                  "a.yaml:4: orthotropic_elastic: nu_12 is 3.7, expected less than sqrt(E_1 / E_2)"},
+        {"nu_21: 0.4", "unknown key 'nu_21' in material, did you mean"},
+        {"nu_12: 0.4, direction_1: [0, 1, 0]", "span a plane"}}) {
+    std::string text = with_material(nine);
+    text.replace(text.find("nu_12: 0.4"), 10, wrong);
+    EXPECT_THAT([&] { io::parse_model_file(text, "a.yaml"); },
+                testing::ThrowsMessage<geometry_io::InputError>(HasSubstr(said)));
   }
 }
 

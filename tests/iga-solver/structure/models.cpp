@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "models.h"
 
+#include <string>
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -14,6 +16,20 @@ using nurbs::KnotVector;
 
 std::shared_ptr<const structure::Material> elastic(double E, double nu, double density) {
   return std::make_shared<structure::LinearElastic>(E, nu, density);
+}
+
+std::shared_ptr<const structure::Material> make_law(const structure::MaterialLaw& law, double E, double nu,
+                                                    double density) {
+  if (law.directions.empty()) return law.make({E, nu, density});
+  return law.make(
+      {E, 0.6 * E, 0.4 * E, nu, 0.25, 0.2, 0.3 * E, 0.25 * E, 0.2 * E, density, 1, 2, 3, 0, 1, -1});
+}
+
+std::vector<std::shared_ptr<const structure::Material>> large_strain_laws(double E) {
+  std::vector<std::shared_ptr<const structure::Material>> laws;
+  for (const structure::MaterialLaw& law : structure::material_laws())
+    if (law.word != std::string("linear_elastic")) laws.push_back(make_law(law, E));
+  return laws;
 }
 
 nurbs::Volume block(const Vector3& size, const std::array<int, 3>& elements,

@@ -37,7 +37,7 @@ std::vector<std::shared_ptr<const Material>> laws() {
   std::vector<std::shared_ptr<const Material>> made{
       std::make_shared<test::StandardLinearSolid>(2.0, 0.3, 1.0, 0.3, 2.0)};
   for (const structure::MaterialLaw& law : structure::material_laws())
-    made.push_back(law.make({2.0, 0.3, 1.0}));
+    made.push_back(models::make_law(law, 2.0));
   return made;
 }
 
