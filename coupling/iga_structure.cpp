@@ -97,7 +97,11 @@ void IgaStructure::initialise_forces(const NodalForces& forces) {
 }
 
 void IgaStructure::end_step(const NodalForces& forces) {
-  solver_.end_step(forces.values);
+  try {
+    solver_.end_step(forces.values);
+  } catch (const structure::TooStrained& problem) {
+    throw structure::TooStrained(fmt::format("{}, or 'substeps auto'", problem.what()));
+  }
   write_output();
 }
 
@@ -116,8 +120,9 @@ void IgaStructure::set_time_step(double dt) {
   const double stable = solver_.stable_time_step();
   if (dt > stable)
     throw std::invalid_argument(fmt::format(
-        "timestep {:.6g} is above the structure's stable step {:.6g}; use a timestep of at most {:.3g}", dt,
-        stable, 0.9 * stable));
+        "timestep {:.6g} is above the structure's stable step {:.6g}; use a timestep of at most {:.3g}, or "
+        "'substeps auto'",
+        dt, stable, 0.9 * stable));
   solver_.set_time_step(dt);
 }
 

@@ -47,6 +47,7 @@ class IgaStructure final : public StructureSolver {
   /// Also throws if dt is above the stable step, naming both numbers.
   void set_time_step(double dt) override;
   double stable_time_step() const override { return solver_.stable_time_step(); }
+  double stable_time_step_with_contacts() const override { return solver_.stable_time_step_now(); }
 
   bool moves() const override { return true; }
   NodalVectors inverse_node_mass() const override { return solver_.inverse_mass(); }

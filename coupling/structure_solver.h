@@ -7,6 +7,7 @@
 //   end_step    a(n+1) = M^-1 (F(n+1) + f_ext - f_int(x(n+1))),  v(n+1) = v(n+1/2) + dt/2 a(n+1)
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -83,8 +84,13 @@ class StructureSolver {
   virtual void set_time_step(double dt) = 0;
   /// Largest stable dt [time]; infinity for a body that is not integrated.
   virtual double stable_time_step() const = 0;
+  /// The same [time], as far as known now, of what happens in a step together with contacts; infinity for a
+  /// body that has steps of its own.
+  virtual double stable_time_step_with_contacts() const { return std::numeric_limits<double>::infinity(); }
   /// For the log, after set_time_step: how it takes the step, if not as one.
   virtual std::string describe_step() const { return ""; }
+  /// For the log: how it takes steps from now on, if the last one has changed that; asked for once.
+  virtual std::string take_change() { return ""; }
 
   virtual bool moves() const = 0;  ///< whether begin_step and end_step do anything
   /// Whether positions() change; if not, what moves is the frame.

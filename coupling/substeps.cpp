@@ -6,14 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "coupling/two_masses.h"
+#include "structure/material/linear_elastic.h"
+#include "structure/time/stable_time_step.h"
 
 namespace coupling {
 
 namespace {
 
+using structure::damped_stable_step;
 using Fast = SubstepOptions::Fast;
 
 constexpr double kPi = 3.14159265358979323846;
@@ -27,9 +31,8 @@ constexpr double kDamping = 0.02;
 /// How much later the displacements are that internal forces belong to, with a fast structure.
 double lead(double dt) { return 2.0 * kDamping / kPi * dt; }
 
-/// The stable step of a body that is damped so: (omega h)^2 + 2 omega^2 lead h = 4 bounds the step h.
-double damped_stable_step(double stable, double lead) {
-  return std::sqrt(stable * stable + lead * lead) - lead;
+bool is_linear(const structure::Body& body) {
+  return body.material().law() == std::string_view(structure::LinearElasticLaw::kWord);
 }
 
 /// Columns of the nodes that the surface hangs on.
@@ -51,12 +54,15 @@ Substeps::Substeps(std::unique_ptr<IgaStructure> body, SubstepOptions options)
       solver_(body_->solver()),
       options_(std::move(options)),
       surface_nodes_(surface_nodes(*body_)),
+      spread_(solver_),
       F_(NodalVectors::Zero(3, solver_.positions().cols())),
       no_forces_(F_),
       x_(body_->positions()),
       v_(body_->velocities()),
       du_(F_.values),
-      dv_(F_.values) {}
+      dv_(F_.values) {
+  if (!options_.count) solver_.go_on_when_strained();
+}
 
 void Substeps::set_time_step(double dt) {
   if (done_ > 0) {
@@ -66,26 +72,72 @@ void Substeps::set_time_step(double dt) {
           "are done: change it {} steps later",
           dt, count_, dt_, done_, count_ - done_));
   } else {
+    stable_ = body_->stable_time_step();
+    if (!options_.count) stable_ = std::min(stable_, solver_.renew_stable_time_step());
     choose(dt);
   }
-  dt_ = dt;
-  const double stable = body_->stable_time_step();
-  const bool damped = !particles_fast() && count_ > 1;
-  if (damped && dt / count_ > damped_stable_step(stable, lead(dt)))
-    throw std::invalid_argument(
-        fmt::format("{}: that is above its stable step {:.6g}, less what damping takes; use at least {:.0f}",
-                    describe_step(), stable, std::ceil(dt / damped_stable_step(stable, lead(dt)))));
-  if (particles_fast() && count_ * dt > stable)
-    throw std::invalid_argument(fmt::format("{}: that is above its stable step {:.6g}; use at most {:.0f}",
-                                            describe_step(), stable, std::max(1.0, std::floor(stable / dt))));
-  solver_.set_lead(damped ? lead(dt) : 0.0);
-  body_->set_time_step(particles_fast() ? count_ * dt : dt / count_);
+  take_steps(dt);
 }
 
 void Substeps::choose(double dt) {
   fast_ = options_.fast;
-  if (fast_ == Fast::by_time_step) fast_ = dt > body_->stable_time_step() ? Fast::structure : Fast::particles;
+  if (fast_ == Fast::by_time_step) fast_ = dt > stable_ ? Fast::structure : Fast::particles;
   count_ = options_.count ? *options_.count : particles_fast() ? particle_steps(dt) : structure_steps(dt);
+  spreads_ = !particles_fast() && count_ > 1 && needs_spread(dt);
+}
+
+// Damping alone costs nothing, but heavy particles make vibrations grow all the same.  Growth is largest
+// close to the body's stable step, so `auto` may take some steps more.
+bool Substeps::needs_spread(double dt) {
+  const TwoMasses highest{2.0 / stable_, kContactAngle / dt, heaviest_ratio()};
+  if (highest.mass_ratio == 0.0) return false;  // no particles yet: the next run knows more
+  const auto grows = [&](int count, bool spread) {
+    return most_growth_of_structure_substeps(highest, dt, count, lead(dt), spread);
+  };
+  const double damped = grows(count_, false);
+  if (damped <= kMostGrowth) return false;
+  const int most = options_.count ? count_ : std::min(count_ + 4, kMostSubsteps);
+  for (int count = count_; is_linear(solver_.body()) && count <= most; ++count) {
+    if (grows(count, true) > kMostGrowth) continue;
+    count_ = count;
+    return true;
+  }
+  if (!options_.count)
+    throw std::invalid_argument(fmt::format(
+        "substeps auto: with timestep {:.6g} and {} steps of the structure in it contacts may make "
+        "vibrations "
+        "grow by {:.2g} per step, expected at most {:.0g}; use a timestep of at most {:.3g}, or 'substeps "
+        "structure {}' to take that",
+        dt, count_, damped, kMostGrowth, 0.9 * stable_, count_));
+  return false;
+}
+
+void Substeps::take_steps(double dt) {
+  dt_ = dt;
+  const bool damped = !particles_fast() && count_ > 1;
+  const double stable = damped_stable_step(body_->stable_time_step(), damped ? lead(dt) : 0.0),
+               step = particles_fast() ? count_ * dt : dt / count_;
+  if (step > stable)
+    throw std::invalid_argument(
+        fmt::format("{}: that is above its stable step {:.6g}{}", describe_step(), stable,
+                    !particles_fast() ? fmt::format("; use at least {:.0f}", std::ceil(dt / stable))
+                    : dt > stable     ? "; use 'substeps structure auto'"
+                                      : fmt::format("; use at most {:.0f}", std::floor(stable / dt))));
+  solver_.set_lead(damped ? lead(dt) : 0.0);
+  body_->set_time_step(step);
+}
+
+// Contacts kick the body by as much as before, if in other shares.
+void Substeps::choose_again(const NodalForces& forces) {
+  stable_ = solver_.stable_time_step_now();
+  choose(dt_);
+  take_steps(dt_);
+  change_ =
+      fmt::format("{}, since strain has brought its stable step down to {:.6g}", describe_step(), stable_);
+  if (particles_fast()) return;
+  F_ = forces;
+  set_impulse();
+  solver_.change_forces(F_.values);
 }
 
 // Of a particle's mass to that of a node of the surface: the heaviest and the lightest.
@@ -97,46 +149,41 @@ double Substeps::heaviest_ratio() const {
 }
 
 int Substeps::particle_steps(double dt) const {
-  const double ratio = heaviest_ratio(), stable = body_->stable_time_step();
+  if (dt > stable_)
+    throw std::invalid_argument(
+        fmt::format("substeps particles auto: timestep {:.6g} is above the structure's stable step {:.6g}; "
+                    "use a timestep of "
+                    "at most {:.3g}, or 'substeps auto'",
+                    dt, stable_, 0.9 * stable_));
+  const double ratio = heaviest_ratio();
   if (ratio == 0.0) return 1;  // no particles yet: the next run knows more
-  const int most = static_cast<int>(std::clamp<double>(stable / dt, 1.0, kMostSubsteps));
-  return most_particle_substeps({2.0 / stable, kContactAngle / dt, ratio}, dt, most);
+  const int most = static_cast<int>(std::min<double>(stable_ / dt, kMostSubsteps));
+  return most_particle_substeps({2.0 / stable_, kContactAngle / dt, ratio}, dt, most);
 }
 
 int Substeps::structure_steps(double dt) const {
-  const double stable = body_->stable_time_step();
-  if (dt <= stable) return 1;
-  const double steps = std::ceil(dt / damped_stable_step(stable, lead(dt)));
+  if (dt <= stable_) return 1;
+  const double steps = std::ceil(dt / damped_stable_step(stable_, lead(dt)));
   if (!(steps <= kMostSubsteps))
     throw std::invalid_argument(fmt::format(
         "substeps auto: timestep {:.6g} needs {:.6g} steps of the structure, whose stable step is "
         "{:.6g}, expected at most {}",
-        dt, steps, stable, kMostSubsteps));
-  const int count = static_cast<int>(steps);
-  const double most = most_growth_of_structure_substeps({2.0 / stable, kContactAngle / dt, heaviest_ratio()},
-                                                        dt, count, lead(dt));
-  if (most > kMostGrowth)
-    throw std::invalid_argument(fmt::format(
-        "substeps auto: with timestep {:.6g} and {} steps of the structure in it contacts may make "
-        "vibrations "
-        "grow by {:.2g} per step, expected at most {:.0g}; use a timestep of at most {:.3g}, or 'substeps "
-        "structure {}' to take that",
-        dt, count, most, kMostGrowth, 0.9 * stable, count));
-  return count;
+        dt, steps, stable_, kMostSubsteps));
+  return static_cast<int>(steps);
 }
 
 std::string Substeps::describe_step() const {
   if (particles_fast())
     return fmt::format("substeps particles {}: the structure takes one step of {:.6g} in {} particle steps",
                        count_, count_ * dt_, count_);
-  return fmt::format("substeps structure {}: the structure takes {} steps of {:.6g} in a particle step",
-                     count_, count_, dt_ / count_);
+  return fmt::format("substeps structure {}: the structure takes {} steps of {:.6g} in a particle step{}",
+                     count_, count_, dt_ / count_, spreads_ ? ", contacts are spread over its waves" : "");
 }
 
 void Substeps::initialise_forces(const NodalForces& forces) {
   F_ = forces;
   if (!particles_fast()) {
-    F_.values *= count_;
+    set_impulse();
     return body_->initialise_forces(F_);
   }
   solver_.halo().owners_to_ghosts(F_.values);
@@ -161,20 +208,30 @@ void Substeps::begin_step() {
 void Substeps::end_step(const NodalForces& forces) {
   F_ = forces;
   if (!particles_fast()) {
-    F_.values *= count_;  // two half kicks of dt/count, which are to be those of dt
-    return body_->end_step(F_);
+    set_impulse();
+    body_->end_step(F_);
+  } else {
+    solver_.halo().owners_to_ghosts(F_.values);
+    kick_by_contact();
+    if (done_ == count_) end_outer_step();
+    place_surface();
   }
-  solver_.halo().owners_to_ghosts(F_.values);
-  kick_by_contact();
-  if (done_ == count_) {
-    body_->begin_step();
-    solver_.add_motion(du_, dv_);
-    body_->end_step(no_forces_);
-    done_ = 0;
-    du_.setZero();
-    dv_.setZero();
-  }
-  place_surface();
+  if (done_ == 0 && solver_.is_too_strained()) choose_again(forces);
+}
+
+void Substeps::end_outer_step() {
+  body_->begin_step();
+  solver_.add_motion(du_, dv_);
+  body_->end_step(no_forces_);
+  done_ = 0;
+  du_.setZero();
+  dv_.setZero();
+}
+
+// From the forces of the step: two half kicks of dt/count, which are to be those of dt.
+void Substeps::set_impulse() {
+  F_.values *= count_;
+  if (spreads_) spread_.apply(F_.values, dt_ / count_, count_);
 }
 
 void Substeps::kick_by_contact() {

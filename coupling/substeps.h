@@ -5,7 +5,8 @@
 //   `count` particle steps, contact kicks the nodes of the surface in every particle step, and these move on
 //   by their own velocities (r-RESPA, impulse form: Tuckerman, Berne & Martyna 1992, J. Chem. Phys. 97,
 //   1990). Structure fast (a thin body): the body takes `count` steps in a particle step, contact kicks it at
-//   the ends of these.  Its fast modes are damped a little, since such impulses resonate.
+//   the ends of these.  Such impulses resonate: the body's fast modes are damped a little and, beside heavy
+//   particles, the impulses are spread (spread_impulse.h).
 // Both are symmetric, of second order (but for the damping), and keep momentum and the ledger of work to
 // round-off.
 #pragma once
@@ -13,9 +14,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coupling/iga_structure.h"
+#include "coupling/spread_impulse.h"
 #include "coupling/substep_options.h"
 
 namespace coupling {
@@ -38,12 +41,18 @@ class Substeps final : public StructureSolver {
   void begin_step() override;
   void end_step(const NodalForces& forces) override;
 
-  /// Of the particles.  Chooses who is fast and by how much where that is left open.  Also throws
-  /// std::invalid_argument if `auto` finds no number that lets nothing grow, and if dt changes within an
-  /// outer step.
+  /// Of the particles.  Chooses who is fast and by how much where that is left open, for the body as it is
+  /// strained now.  Also throws std::invalid_argument if `auto` finds no number that lets nothing grow, and
+  /// if dt changes within an outer step.
   void set_time_step(double dt) override;
   double stable_time_step() const override { return body_->stable_time_step(); }
+  double stable_time_step_with_contacts() const override {
+    return count_ == 1 ? body_->stable_time_step_with_contacts()
+                       : StructureSolver::stable_time_step_with_contacts();  // two_masses.h
+  }
   std::string describe_step() const override;
+  /// With `auto`, where strain has brought the body's stable step down to its own: another number.
+  std::string take_change() override { return std::exchange(change_, {}); }
 
   bool moves() const override { return true; }
   NodalVectors inverse_node_mass() const override { return body_->inverse_node_mass(); }
@@ -70,10 +79,15 @@ class Substeps final : public StructureSolver {
 
  private:
   void choose(double dt);
+  void take_steps(double dt);
+  void choose_again(const NodalForces& forces);
   int particle_steps(double dt) const;
   int structure_steps(double dt) const;
   double heaviest_ratio() const;
+  bool needs_spread(double dt);
+  void set_impulse();
   void kick_by_contact();
+  void end_outer_step();
   void place_surface();
 
   std::unique_ptr<IgaStructure> body_;
@@ -83,6 +97,10 @@ class Substeps final : public StructureSolver {
   SubstepOptions::Fast fast_ = SubstepOptions::Fast::structure;
   int count_ = 1, done_ = 0;  // particle steps of the outer step that are done
   double dt_ = 0.0;           // of the particles
+  double stable_ = 0.0;       // of the body, as it was strained when this was chosen
+  std::string change_;
+  bool spreads_ = false;  // structure fast: impulses are spread
+  SpreadImpulse spread_;
   NodalForces F_, no_forces_;
   // Particles fast: the surface now, and what contacts have added since the outer step began.
   NodalVectors x_, v_, du_, dv_;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "coupling/spread_impulse.h"
+
 namespace coupling {
 
 namespace {
@@ -60,12 +62,13 @@ Eigen::Matrix4d particle_substeps_matrix(const TwoMasses& problem, double dt, in
   return motion.matrix();
 }
 
-Eigen::Matrix4d structure_substeps_matrix(const TwoMasses& problem, double dt, int count, double lead) {
+Eigen::Matrix4d structure_substeps_matrix(const TwoMasses& problem, double dt, int count, double lead,
+                                          bool spread) {
   Motion motion(problem);
-  const double inner = dt / count;
+  const double inner = dt / count, share = spread ? spread_share(problem.mode, inner, count) : 1.0;
   for (int i = 0; i < count; ++i) {
     motion.kick_by_internal_force(inner, lead);
-    if (i == 0) motion.kick_by_contact(dt);
+    if (i == 0) motion.kick_by_contact(share * dt, dt);
     motion.drift_mode(inner);
   }
   motion.drift_particle(dt);
@@ -82,11 +85,12 @@ double most_growth_of_particle_substeps(const TwoMasses& highest, double dt, int
   });
 }
 
-double most_growth_of_structure_substeps(const TwoMasses& highest, double dt, int count, double lead) {
+double most_growth_of_structure_substeps(const TwoMasses& highest, double dt, int count, double lead,
+                                         bool spread) {
   constexpr double kAngle = 0.02;  // of a mode in a step, from one to the next: damped resonances are wider
   const int modes = static_cast<int>(std::ceil(highest.mode * dt / kAngle));
   return largest_on_grid(highest, std::clamp(modes, 24, 10000), 4, [&](const TwoMasses& problem) {
-    return growth(structure_substeps_matrix(problem, dt, count, lead));
+    return growth(structure_substeps_matrix(problem, dt, count, lead, spread));
   });
 }
 

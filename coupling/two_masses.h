@@ -20,8 +20,10 @@ struct TwoMasses {
 /// Martyna 1992), half kicks by the body's internal forces about `count` particle steps dt.
 Eigen::Matrix4d particle_substeps_matrix(const TwoMasses& problem, double dt, int count);
 /// The same of one particle step dt of `count` steps of the body: contact acts at its ends, internal forces
-/// are those of the displacements `lead` [time] later.  Velocities are those of the half step before.
-Eigen::Matrix4d structure_substeps_matrix(const TwoMasses& problem, double dt, int count, double lead);
+/// are those of the displacements `lead` [time] later; `spread`: impulses are (spread_impulse.h).  Velocities
+/// are those of the half step before.
+Eigen::Matrix4d structure_substeps_matrix(const TwoMasses& problem, double dt, int count, double lead,
+                                          bool spread = false);
 
 /// Largest |eigenvalue| less 1: what amplitudes grow by in a step, at worst.
 double growth(const Eigen::Matrix4d& step);
@@ -31,7 +33,8 @@ constexpr double kMostGrowth = 1e-6;
 
 /// The largest growth of all modes up to `highest.mode` and all contacts up to `highest.contact`.
 double most_growth_of_particle_substeps(const TwoMasses& highest, double dt, int count);
-double most_growth_of_structure_substeps(const TwoMasses& highest, double dt, int count, double lead);
+double most_growth_of_structure_substeps(const TwoMasses& highest, double dt, int count, double lead,
+                                         bool spread = false);
 
 /// The largest number of particle steps dt in a step of the body, up to `most`, up to which no number lets
 /// anything grow beyond kMostGrowth.

@@ -227,6 +227,8 @@ contact::ParticleView FixWallNurbs::particles() {
 
 void FixWallNurbs::final_integrate() {
   in_step([&] { structure_.end_step(*nodal_forces_); });
+  const std::string change = structure_.take_change();
+  if (!change.empty()) messages_.print(fmt::format("step {}: {}", update->ntimestep, change));
 }
 
 void FixWallNurbs::end_of_step() {

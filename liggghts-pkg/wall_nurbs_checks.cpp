@@ -121,7 +121,8 @@ std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::Str
 
 std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, MPI_Comm world) {
   const contact::RunAlarm inside = loop.inside().of_all_ranks(world),
-                          crossing = loop.crossing().of_all_ranks(world);
+                          crossing = loop.crossing().of_all_ranks(world),
+                          stiff = loop.stiff().of_all_ranks(world);
   std::vector<std::string> alarms;
   if (inside.count > 0)
     alarms.push_back(fmt::format(
@@ -135,6 +136,12 @@ std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, MPI_Com
         "cases of this kind in this run): use a timestep of at most {:.3g}",
         crossing.tag, crossing.speed, crossing.count, kFraction * crossing.radius / crossing.speed));
   }
+  if (stiff.count > 0)
+    alarms.push_back(
+        fmt::format("the contact of particle {} and the solid together may be unstable ({} cases of this "
+                    "kind in this run): "
+                    "they are not with a timestep of at most {:.3g}",
+                    stiff.tag, stiff.count, 2.0 / stiff.speed));
   return alarms;
 }
 

@@ -21,7 +21,7 @@ ContactLoop::ContactLoop(const coupling::StructureSolver& structure, coupling::S
 
 void ContactLoop::forget_reports() {
   search_.reset();
-  inside_ = crossing_ = RunAlarm();
+  inside_ = crossing_ = stiff_ = RunAlarm();
 }
 
 /* ---------------------------------------------------------------------- the list of candidates */
@@ -95,6 +95,7 @@ void ContactLoop::step(const ParticleView& particles, const StepInfo& step, Cont
   contacts_.clear();
   forces_on_body_.clear();
   tracker_.begin_step(surface_motion_);
+  body_squared_frequency_ = wall_.squared_frequency();
   ContactTracker::Query queries[kBlock];
   const int candidates = static_cast<int>(candidates_.candidates().size());
   for (int candidate = 0; candidate < candidates;) {
@@ -256,11 +257,11 @@ inline void ContactLoop::apply(const ParticleView& particles, const StepInfo& st
 }
 
 // A spring k between a particle and the surface has the squared frequency k (sum R_A^2 / m_A + 1 / m), and
-// the body's own stiffness only adds to the largest (Rayleigh's quotient): beyond 4 / dt^2 the run blows up
-// whatever the body.  k is the secant of the law, no more than its tangent as overlaps grow; in the first
-// step of a touch it is that over the way of a step.
-void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& step,
-                                const Contact& contact) const {
+// the body's own stiffness only adds to the largest (Rayleigh's quotient), at most its own largest (Weyl):
+// beyond 4 / dt^2 the run blows up whatever the body, and below it together with the body's it does not.  k
+// is the secant of the law, no more than its tangent as overlaps grow; in the first step of a touch it is
+// that over the way of a step.
+void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
   const nurbs::NodalVectors& inverse_masses = wall_.inverse_masses();
   if (inverse_masses.cols() == 0) return;
   const int i = contact.particle;
@@ -268,10 +269,13 @@ void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& s
   const double depth = std::max(contact.overlap, step.dt * std::abs(n.dot(v)));
   const double stiffness = n.dot(contact.force) / depth, limit = 4.0 / (step.dt * step.dt);
   const double of_particle = particles.mass ? 1.0 / particles.mass[i] : 0.0;
-  if (!(stiffness * (wall_.largest_inverse_mass() + of_particle) > limit)) return;
+  const double of_body = body_squared_frequency_;
+  if (!(stiffness * (wall_.largest_inverse_mass() + of_particle) + of_body > limit)) return;
   const double of_wall = coupling::FootBasis(wall_.surface(), contact.foot).sum_of_squares(n, inverse_masses);
   const double squared_frequency = stiffness * (of_wall + of_particle);
-  if (!(squared_frequency > limit)) return;
+  if (!(squared_frequency + of_body > limit)) return;
+  if (!(squared_frequency > limit))
+    return stiff_.raise(particles.tag[i], particles.radius[i], std::sqrt(squared_frequency + of_body));
   const double stable = 2.0 / std::sqrt(squared_frequency);
   throw std::runtime_error(
       fmt::format("the contact of particle {} is too stiff for the timestep {:.6g} at step {}: stiffness "

@@ -102,6 +102,9 @@ class ContactLoop {
   const LocalSearch::Counts& searches() const { return search_.counts(); }
   const RunAlarm& inside() const { return inside_; }      ///< centres inside the body
   const RunAlarm& crossing() const { return crossing_; }  ///< centres that may cross the surface in a step
+  /// Contacts that together with the body's vibrations may be too stiff for the step, which either alone is
+  /// not.  No frequency of the two is above that of the alarm.
+  const RunAlarm& stiff() const { return stiff_; }
 
  private:
   void expect_images_to_stay(const std::vector<Vector3>& images) const;
@@ -119,7 +122,7 @@ class ContactLoop {
   void apply(const ParticleView& particles, const StepInfo& step, const Contact& contact);
   void answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,
               ContactObserver* observer);
-  void expect_stable(const ParticleView& particles, const StepInfo& step, const Contact& contact) const;
+  void expect_stable(const ParticleView& particles, const StepInfo& step, const Contact& contact);
   [[noreturn]] static void fail_as_not_finite(const ParticleView& particles, const StepInfo& step,
                                               const Contact& contact);
 
@@ -137,7 +140,8 @@ class ContactLoop {
   std::vector<Contact> batch_;
   std::vector<WallContact> contacts_;
   std::vector<coupling::ContactForce> forces_on_body_;
-  RunAlarm inside_, crossing_;
+  RunAlarm inside_, crossing_, stiff_;
+  double body_squared_frequency_ = 0.0;  // in this step [1/time^2]
 };
 
 }  // namespace contact

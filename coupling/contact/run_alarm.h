@@ -8,8 +8,8 @@ namespace contact {
 
 struct RunAlarm {
   long count = 0;
-  // Of the fastest of these particles:
-  double speed = 0.0;   ///< [length/time]
+  // Of the worst of these particles:
+  double speed = 0.0;   ///< [length/time]; of a stiff contact its frequency [1/time]
   double radius = 0.0;  ///< [length]
   long tag = 0;
 

@@ -43,6 +43,11 @@ class Wall {
   /// Of the body's control points (SurfaceExchange), and the largest of them [1/mass].
   const nurbs::NodalVectors& inverse_masses() const { return exchange_.inverse_masses(); }
   double largest_inverse_mass() const { return largest_inverse_mass_; }
+  /// Of the body's fastest vibration, at most, if it takes the same steps as the particles [1/time^2].
+  double squared_frequency() const {
+    const double stable = structure_.stable_time_step_with_contacts();
+    return 4.0 / (stable * stable);
+  }
   search::MultiPatchProjector& projector() { return projector_; }
 
   bool deforms() const { return deforms_; }

@@ -17,6 +17,7 @@
 #include "one_mode.h"
 #include "structure/conditions/loads.h"
 #include "structure/material/laws.h"
+#include "structure/material/saint_venant_kirchhoff.h"
 #include "structure/solid/solid.h"
 
 namespace {
@@ -170,14 +171,72 @@ TEST(Substeps, AutoLetsNothingGrowAndTakesTheLargestNumberThatDoesNot) {
   }
 }
 
-TEST(Substeps, AutoRefusesAFastStructureThatContactsMakeGrow) {
+constexpr double kLead = 2.0 * 0.02 / kPi;  // of particle steps of 1
+
+/// Of modes up to `highest`, on a fine grid close to the resonances.
+double worst_near_resonances(double highest, double ratio, int count, bool spread) {
+  double worst = 0.0;
+  for (int k = 1; k <= 3; ++k)
+    for (double turn = -0.05; turn <= 0.05; turn += 0.0007)
+      for (int j = 1; j <= 7; ++j) {  // by the angle of the body's own steps
+        const double mode = 2.0 * count * std::sin(0.5 * (k + turn) * kPi / count);
+        if (mode > highest || (k + turn) > count) continue;
+        const TwoMasses problem{mode, 4.03 / 100.0 * j / 7, ratio};
+        worst = std::max(
+            worst, coupling::growth(coupling::structure_substeps_matrix(problem, 1.0, count, kLead, spread)));
+      }
+  return worst;
+}
+
+// Impulses of heavy particles are spread: beside 100 and 1000 times the mass nothing grows, up to the stable
+// step, where damping alone lets it grow by 5e-4.
+TEST(TwoMasses, SpreadImpulsesOfHeavyParticlesDoNotGrow) {
+  for (const auto& [count, ratio] : {std::pair{3, 100.0}, {5, 1000.0}, {10, 1000.0}}) {
+    const double highest = 2.0 * (std::hypot(1.0 / count, kLead) - kLead) * count * count;
+    const TwoMasses two{highest, 4.03 / 100.0, ratio};
+    EXPECT_LE(coupling::most_growth_of_structure_substeps(two, 1.0, count, kLead, true), 1e-6) << count;
+    EXPECT_LE(worst_near_resonances(highest, ratio, count, true), 1e-6) << count;
+    EXPECT_GT(coupling::most_growth_of_structure_substeps(two, 1.0, count, kLead, false), 1e-4) << count;
+  }
+}
+
+TEST(TwoMasses, AreWhatSpreadImpulsesDo) {
+  const int count = 4;
+  for (const double turn : {0.3, 0.99, 1.6, 2.01}) {
+    const TwoMasses problem{turn * kPi, 0.04, 100.0};
+    // The body takes nodes of a quarter of its mass for the lightest.
+    Pair pair(problem, 1.0, options(Fast::structure, count, 25.0));
+    const bool spread = pair.body.describe_step().find("spread") != std::string::npos;
+    EXPECT_EQ(spread, turn > 1.0) << "growth between pi and 2 pi";
+    pair.start({0.0, 0.0, 0.3, -0.2});
+    const double k_over_m = problem.contact * problem.contact,
+                 share = spread ? coupling::spread_share(problem.mode, 1.0 / count, count) : 1.0;
+    // Velocities of half a step before, so that those after it are of half a kick; the damping sees them.
+    const double damping = 1.0 - problem.mode * problem.mode * kLead / count;
+    Eigen::Vector4d state(0.0, -0.5 * share * k_over_m * problem.mass_ratio * 0.3 / damping, 0.3,
+                          -0.2 + 0.5 * k_over_m * 0.3);
+    const Eigen::Matrix4d A = coupling::structure_substeps_matrix(problem, 1.0, count, kLead, spread);
+    for (int n = 0; n < 200; ++n) {
+      pair.step();
+      state = A * state;
+      ASSERT_NEAR(pair.body.positions()(2, 0), state[0], 1e-11) << turn << " " << n;
+      ASSERT_NEAR(pair.x, state[2], 1e-11);
+    }
+  }
+}
+
+TEST(Substeps, AutoSpreadsImpulsesOfHeavyParticles) {
   Substeps light = one_mode(5.0, options(Fast::by_time_step, {}, 1e-5));
   light.set_time_step(1.0);
   EXPECT_FALSE(light.particles_fast());
   EXPECT_THAT(light.describe_step(), testing::HasSubstr("substeps structure 3"));
+  EXPECT_THAT(light.describe_step(), testing::Not(testing::HasSubstr("spread")));
   Substeps heavy = one_mode(5.0, options(Fast::by_time_step, {}, 10.0));
+  heavy.set_time_step(1.0);
+  EXPECT_THAT(heavy.describe_step(), testing::HasSubstr("contacts are spread"));
+  Substeps far_too_heavy = one_mode(5.0, options(Fast::by_time_step, {}, 1e4));
   try {
-    heavy.set_time_step(1.0);
+    far_too_heavy.set_time_step(1.0);
     FAIL();
   } catch (const std::invalid_argument& problem) {
     EXPECT_THAT(problem.what(), testing::HasSubstr("may make vibrations grow"));
@@ -210,7 +269,8 @@ TEST(Substeps, HoldTheRightStepAgainstTheStableOne) {
 }
 
 /// A block of 3 x 3 x 2 elements, free or on a fixed ground.
-std::unique_ptr<coupling::IgaStructure> block(bool fixed = false) {
+std::unique_ptr<coupling::IgaStructure> block(bool fixed = false,
+                                              std::shared_ptr<const structure::Material> material = {}) {
   const auto knots = [](int n) { return nurbs::KnotVector::uniform(2, n); };
   nurbs::Volume patch = nurbs::box({0, 0, -2}, {3, 3, 2}, {knots(3), knots(3), knots(2)});
   structure::Supports supports;
@@ -218,8 +278,8 @@ std::unique_ptr<coupling::IgaStructure> block(bool fixed = false) {
     supports.fix(structure::nodes_on(patch.space, {nurbs::Face::zeta_minus}), {true, true, true});
     supports.fix(structure::nodes_on(patch.space, {nurbs::Face::xi_minus}), {false, false, true});
   }
-  auto soft = std::make_shared<structure::LinearElastic>(1.0, 0.3, 1.0);
-  structure::ExplicitSolver solver(std::make_unique<structure::Solid>(std::move(patch), soft), supports);
+  if (!material) material = std::make_shared<structure::LinearElastic>(1.0, 0.3, 1.0);
+  structure::ExplicitSolver solver(std::make_unique<structure::Solid>(std::move(patch), material), supports);
   solver.set_load(structure::gravity_load(solver.body(), {1e-4, 0, -2e-4}));
   return std::make_unique<coupling::IgaStructure>(
       std::move(solver), std::vector<structure::SkinPiece>{{0, nurbs::Face::zeta_plus}});
@@ -256,14 +316,29 @@ void run(Substeps& body, int steps) {
   }
 }
 
-class BothWays : public testing::TestWithParam<Fast> {
- protected:
-  double step() const { return GetParam() == Fast::particles ? 0.02 : 1.0; }
+struct Way {
+  Fast fast;
+  double step;
+  double heaviest;  // of heavy particles the impulses are spread
 };
-INSTANTIATE_TEST_SUITE_P(Substeps, BothWays, testing::Values(Fast::particles, Fast::structure));
+
+class BothWays : public testing::TestWithParam<Way> {
+ protected:
+  double step() const { return GetParam().step; }
+  SubstepOptions how(int count) const { return options(GetParam().fast, count, GetParam().heaviest); }
+};
+INSTANTIATE_TEST_SUITE_P(Substeps, BothWays,
+                         testing::Values(Way{Fast::particles, 0.02, 0.0}, Way{Fast::structure, 1.0, 0.0},
+                                         Way{Fast::structure, 1.8, 0.3}));
+
+TEST_P(BothWays, AreWhatTheyAreSaidToBe) {
+  Substeps body(block(true), how(5));
+  body.set_time_step(step());
+  EXPECT_EQ(body.describe_step().find("spread") != std::string::npos, GetParam().heaviest > 0.0);
+}
 
 TEST_P(BothWays, ASingleStepIsThePlainOne) {
-  Substeps body(block(true), options(GetParam(), 1));
+  Substeps body(block(true), how(1));
   const std::unique_ptr<coupling::IgaStructure> plain = block(true);
   const double dt = 0.02;
   body.set_time_step(dt), plain->set_time_step(dt);
@@ -279,7 +354,7 @@ TEST_P(BothWays, ASingleStepIsThePlainOne) {
 }
 
 TEST_P(BothWays, KeepMomentumToRoundOff) {
-  Substeps body(block(), options(GetParam(), 5));
+  Substeps body(block(), how(5));
   body.set_time_step(step());
   NodalForces forces = forces_on(body);
   body.initialise_forces(forces);
@@ -300,9 +375,9 @@ TEST_P(BothWays, KeepMomentumToRoundOff) {
 TEST_P(BothWays, TheirLedgerIsClosedAndKnowsTheWorkOfContacts) {
   std::unique_ptr<coupling::IgaStructure> solid = block(true);
   const NodalVectors inverse_mass = solid->solver().inverse_mass();
-  Substeps body(std::move(solid), options(GetParam(), 5));
+  Substeps body(std::move(solid), how(5));
   body.set_time_step(step());
-  const bool inner = GetParam() == Fast::particles;
+  const bool inner = GetParam().fast == Fast::particles;
   NodalForces forces = forces_on(body);
   body.initialise_forces(forces);
   const double start = body.kinetic_energy();
@@ -331,7 +406,7 @@ TEST_P(BothWays, TheirLedgerIsClosedAndKnowsTheWorkOfContacts) {
 
 TEST_P(BothWays, ContinueFromASavedStateToTheLastBit) {
   for (const int before : {10, 13}) {  // at the end of an outer step, and within one
-    Substeps first(block(true), options(GetParam(), 5)), second(block(true), options(GetParam(), 5));
+    Substeps first(block(true), how(5)), second(block(true), how(5));
     first.set_time_step(step()), second.set_time_step(step());
     first.initialise_forces(forces_on(first));
     run(first, before);
@@ -376,6 +451,88 @@ TEST(Substeps, WithinAnOuterStepTheBodysNumbersAreThoseOfItsBeginning) {
   EXPECT_EQ(body.work().contacts, work);
   run(body, 1);
   EXPECT_NE(body.kinetic_energy(), kinetic);
+}
+
+/// A block whose lower face stays while the rest flies off, of a law that stiffens.
+std::unique_ptr<coupling::IgaStructure> stretched_block(double speed) {
+  auto body = block(true, std::make_shared<structure::SaintVenantKirchhoff>(1.0, 0.3, 1.0));
+  NodalVectors v = NodalVectors::Zero(3, body->positions().cols());
+  v.row(2).setConstant(speed);
+  body->solver().set_velocities(v);
+  return body;
+}
+
+struct Changes {
+  std::vector<std::string> said;
+  std::vector<int> counts;
+};
+
+Changes run_and_listen(Substeps& body, int steps) {
+  Changes changes;
+  for (int n = 0; n < steps; ++n) {
+    run(body, 1);
+    if (std::string change = body.take_change(); !change.empty()) {
+      changes.said.push_back(std::move(change));
+      changes.counts.push_back(body.count());
+    }
+  }
+  EXPECT_EQ(body.take_change(), "");
+  return changes;
+}
+
+void expect_closed_ledger(const Substeps& body, double start) {
+  const coupling::Work work = body.work();
+  EXPECT_NEAR(body.kinetic_energy() + work.internal - work.loads - work.contacts, start, 1e-12 * start);
+}
+
+// Strain shortens the stable step: fewer particle steps in one of the body's, then more steps of the body in
+// one of theirs.
+TEST(Substeps, AutoTakesAnotherNumberWhereStrainAsksForIt) {
+  const double stable = stretched_block(0.3)->stable_time_step();
+  for (const bool by_time_step : {true, false}) {
+    Substeps body(stretched_block(0.3),
+                  options(by_time_step ? Fast::by_time_step : Fast::particles, {}, 1e-4));
+    body.set_time_step(0.32 * stable);
+    EXPECT_EQ(body.count(), 3);
+    body.initialise_forces(forces_on(body));
+    const double start = body.kinetic_energy();
+    const Changes changes = run_and_listen(body, 30);
+    ASSERT_EQ(changes.said.size(), 1u);
+    EXPECT_THAT(changes.said[0], testing::HasSubstr("substeps particles 2"));
+    EXPECT_THAT(changes.said[0], testing::HasSubstr("brought its stable step down to"));
+    expect_closed_ledger(body, start);
+  }
+  for (const Fast fast : {Fast::by_time_step, Fast::structure}) {
+    Substeps body(stretched_block(0.3), options(fast, {}, 1e-4));
+    body.set_time_step(0.97 * stable);
+    EXPECT_EQ(body.count(), 1);
+    body.initialise_forces(forces_on(body));
+    const double start = body.kinetic_energy();
+    const Changes changes = run_and_listen(body, 20);
+    ASSERT_EQ(changes.said.size(), 1u);
+    EXPECT_THAT(changes.said[0], testing::HasSubstr("substeps structure 2"));
+    expect_closed_ledger(body, start);
+  }
+}
+
+TEST(Substeps, ANumberStaysAndSaysWhatHelps) {
+  const double stable = stretched_block(0.3)->stable_time_step();
+  const auto failure = [&](Fast fast, std::optional<int> count, double dt) -> std::string {
+    Substeps body(stretched_block(0.3), options(fast, count, 1e-4));
+    try {
+      body.set_time_step(dt);
+      body.initialise_forces(forces_on(body));
+      run(body, 60);
+    } catch (const std::exception& problem) {
+      return problem.what();
+    }
+    return "";
+  };
+  EXPECT_THAT(failure(Fast::particles, 3, 0.32 * stable), testing::HasSubstr("or 'substeps auto'"));
+  EXPECT_THAT(failure(Fast::structure, 1, 0.97 * stable), testing::HasSubstr("or 'substeps auto'"));
+  EXPECT_THAT(failure(Fast::particles, {}, 0.97 * stable),
+              testing::AllOf(testing::HasSubstr("above the structure's stable step"),
+                             testing::HasSubstr("or 'substeps auto'")));
 }
 
 }  // namespace

@@ -25,6 +25,11 @@ struct Diverged : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The stable step has come down to the time step.
+struct TooStrained : Diverged {
+  using Diverged::Diverged;
+};
+
 /// The energy that a solid has been given.  Below the stable step a linear solid's kinetic energy never
 /// exceeds
 ///   K(0) + S(0) + dt^2/8 a(0) . M a(0) + sum of dt/2 (P(n-1) + P(n)),

@@ -70,6 +70,7 @@ void ExplicitSolver::set_time_step(double dt) {
     throw std::invalid_argument(fmt::format("ExplicitSolver: time step is {}, expected a number > 0", dt));
   dt_ = dt;
   watch_.reset();
+  is_too_strained_ = false;
 }
 
 void ExplicitSolver::initialise_forces(const NodalVectors& F) {
@@ -87,7 +88,7 @@ void ExplicitSolver::initialise_forces(const NodalVectors& F) {
 void ExplicitSolver::begin_step() {
   if (dt_ == 0.0) throw std::logic_error("ExplicitSolver: begin_step before set_time_step");
   if (!watch_ && stable_time_step_) {
-    const double room = *stable_time_step_ / dt_;
+    const double room = *stable_time_step_ / undamped_step(dt_, lead_);
     watch_.emplace(*body_, room * room);
   }
   for (const ForceSums& run : sums_) ledger_.half_kick(run.work_from_now(0.5 * dt_));
@@ -138,6 +139,12 @@ void ExplicitSolver::end_step(const NodalVectors& F) {
   body_->commit();
   time_ += dt_;
   check_divergence(F);
+}
+
+void ExplicitSolver::change_forces(const NodalVectors& F) {
+  check_size(F, "forces");
+  accelerate(F, 0.0);
+  budget_.reset();
 }
 
 void ExplicitSolver::accelerate(const NodalVectors& F, double h) {
@@ -197,7 +204,7 @@ void ExplicitSolver::check_divergence(const NodalVectors& F) {
   for (const ForceSums& run : sums_) sums[kPower].add(run.f_v[kLoads] + run.f_v[kForces]);
   sums[kAdded] = std::exchange(added_energy_, ExactSum());
   sums[kPartsBeyond].add(largest_u_ <= kLargestDisplacement ? 0.0 : 1.0);
-  sums[kPartsStrained].add(watch_ && watch_->look(x_) ? 1.0 : 0.0);
+  sums[kPartsStrained].add(watch_ && !is_too_strained_ && watch_->look(x_) ? 1.0 : 0.0);
   halo_->sum(sums.data(), sums.size());
 
   const double kinetic =
@@ -207,23 +214,38 @@ void ExplicitSolver::check_divergence(const NodalVectors& F) {
   if (!budget_->allows(kinetic) || sums[kPartsBeyond].value() > 0.0)
     throw Diverged(describe_divergence(
         {*body_, *halo_, *mass_, u_, v_, a_, F, time_, dt_, stable_time_step_, kinetic, budget_->most()}));
-  if (sums[kPartsStrained].value() > 0.0) find_stable_step_anew();
+  if (sums[kPartsStrained].value() > 0.0) look_at_strain();
 }
 
-void ExplicitSolver::find_stable_step_anew() {
+void ExplicitSolver::look_at_strain() {
   constexpr double kLeastGrowth = 1.005;  // of the stiffness, until it is worth to look again
-  stable_now_ = structure::stable_time_step(*body_, *mass_, supports_, u_, *halo_);
-  const double room = *stable_now_ / dt_;
-  if (room < 1.0)
-    throw Diverged(
-        describe_too_strained(*body_, *halo_, *watch_, {time_, dt_, stable_time_step(), *stable_now_}));
+  stable_now_ = find_stable_step(u_);
+  const double room = *stable_now_ / undamped_step(dt_, lead_);
+  is_too_strained_ = room < 1.0;
+  if (is_too_strained_ && !goes_on_when_strained_)
+    throw TooStrained(describe_too_strained(*body_, *halo_, *watch_,
+                                            {time_, dt_, damped_stable_step(stable_time_step(), lead_),
+                                             damped_stable_step(*stable_now_, lead_)}));
   watch_->allow_more(std::max(kLeastGrowth, room * room));
 }
 
+double ExplicitSolver::find_stable_step(const NodalVectors& u) const {
+  return structure::stable_time_step(*body_, *mass_, supports_, u, *halo_);
+}
+
 double ExplicitSolver::stable_time_step() const {
-  if (!stable_time_step_)
-    stable_time_step_ = structure::stable_time_step(*body_, *mass_, supports_, u_, *halo_);
+  if (!stable_time_step_) {
+    const bool remembers = body_->material().state_size() > 0;
+    stable_time_step_ = find_stable_step(remembers ? u_ : NodalVectors(NodalVectors::Zero(3, u_.cols())));
+  }
   return *stable_time_step_;
+}
+
+double ExplicitSolver::renew_stable_time_step() {
+  const bool is_strained = largest_displacement() > 0.0;
+  if (!is_strained || !is_stiffened_by_strain(body_->material())) return stable_time_step();
+  stable_now_ = find_stable_step(u_);
+  return *stable_now_;
 }
 
 double ExplicitSolver::nodal_sum(const NodalVectors& q) const {

@@ -49,7 +49,8 @@ class ExplicitSolver {
   /// Accelerations under further nodal forces F [force] and half kick.  Throws Diverged when the solid blows
   /// up: values that are not finite, displacements beyond kLargestDisplacement, or more kinetic energy than
   /// the EnergyBudget allows; a step later the state would mean nothing.  Also if the body is
-  /// strained so much that the stable step has come down to dt.
+  /// strained so much that the stable step has come down to dt: TooStrained, unless somebody is to shorten
+  /// it.
   void end_step(const NodalVectors& F);
 
   // For time steps that are made of several (coupling/substeps.h).
@@ -60,6 +61,11 @@ class ExplicitSolver {
   /// Internal forces are those of the displacements u + lead v from now on: a mode of frequency omega is
   /// damped by the ratio omega lead/2.
   void set_lead(double lead) { lead_ = lead; }
+  /// From now on steps go on where the stable step has come down to dt; somebody sees that and sets another.
+  void go_on_when_strained() { goes_on_when_strained_ = true; }
+  bool is_too_strained() const { return is_too_strained_; }
+  /// Between steps: other forces F [force] than those of the last one, as if it had ended with them.
+  void change_forces(const NodalVectors& F);
   /// Of each dof [1/mass], 3 x node_count: 0 where it is fixed.
   const NodalVectors& inverse_mass() const { return inverse_mass_; }
   const Halo& halo() const { return *halo_; }
@@ -74,8 +80,11 @@ class ExplicitSolver {
   const NodalVectors& velocities() const { return v_; }     ///< [length/time]; v(n+1/2) within a step
   const NodalVectors& accelerations() const { return a_; }  ///< [length/time^2]
 
-  /// 2 / omega_max about the state of the first call, which takes seconds for large models; then remembered.
+  /// 2 / omega_max of the undeformed body, which takes seconds for large models; then remembered.  If the
+  /// material has a memory, about the state of the first call.
   double stable_time_step() const;
+  /// About the present state, if that makes a difference to the law; collective.
+  double renew_stable_time_step();
   /// The same about the last state for which it was worked out anew: if it is known, steps watch how the body
   /// is strained, and do so where it may have come down to the time step.
   double stable_time_step_now() const { return stable_now_.value_or(stable_time_step()); }
@@ -139,8 +148,9 @@ class ExplicitSolver {
   Vector3 sum_of_own(const std::function<Vector3(Eigen::Index node)>& value) const;
   void start_energy_budget();
   void check_divergence(const NodalVectors& F);
-  /// Throws Diverged if the time step is above it.
-  void find_stable_step_anew();
+  /// Throws TooStrained if the time step is above the stable one, unless it is to go on.
+  void look_at_strain();
+  double find_stable_step(const NodalVectors& u) const;
   std::vector<Id> element_ids() const;
 
   std::unique_ptr<Body> body_;
@@ -167,6 +177,7 @@ class ExplicitSolver {
   mutable std::optional<double> stable_time_step_;
   std::optional<StretchWatch> watch_;  // if the stable step is known
   std::optional<double> stable_now_;   // when it was found last
+  bool goes_on_when_strained_ = false, is_too_strained_ = false;
 };
 
 }  // namespace structure

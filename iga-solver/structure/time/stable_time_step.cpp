@@ -175,4 +175,10 @@ double stable_time_step(const Body& body, const MassOperator& mass, const Suppor
   return 2.0 / std::sqrt(eigenvalue);  // infinity if nothing can move
 }
 
+double damped_stable_step(double stable, double lead) {
+  return lead == 0.0 || std::isinf(stable) ? stable : std::hypot(stable, lead) - lead;
+}
+
+double undamped_step(double dt, double lead) { return lead == 0.0 ? dt : std::sqrt(dt * (dt + 2.0 * lead)); }
+
 }  // namespace structure

@@ -19,4 +19,13 @@ namespace structure {
 double stable_time_step(const Body& body, const MassOperator& mass, const Supports& supports,
                         const NodalVectors& u, const Halo& halo = Halo());
 
+// Internal forces of the displacements u + lead v, v being that of half a step before, damp a mode of
+// frequency omega by the ratio xi = omega lead/2 and take from its stable step: omega dt <= 2 (sqrt(1 + xi^2)
+// - xi), the root of (omega dt)^2 + 2 omega^2 lead dt = 4 (its amplification matrix then has the eigenvalue
+// -1).
+/// The stable step [time] of a body that is damped so, from that without.
+double damped_stable_step(double stable, double lead);
+/// The step [time] that asks as much of the body without damping as dt with it: dt is stable while this is.
+double undamped_step(double dt, double lead);
+
 }  // namespace structure

@@ -41,16 +41,6 @@ double stretched_stiffness(const Material& material, double stretch) {
   return std::max(acoustic_stiffness(material, along_x), acoustic_stiffness(material, along_all));
 }
 
-StretchWatch::StretchWatch(const Body& body, double allowed)
-    : material_(&body.material()), allowed_(allowed) {
-  set_limits();
-  if (lowest_ == 0.0 && std::isinf(highest_)) return;
-  const NodalVectors& X = body.reference();
-  for (const auto& [a, b] : body.net_edges())
-    if (const double square = (X.col(a) - X.col(b)).squaredNorm(); square > 0.0)
-      edges_.push_back({{a, b}, 1.0 / square});
-}
-
 namespace {
 
 /// How far the stretch may go from 1 by factors of `step` and no further; `end` if that is as far as it may.
@@ -70,15 +60,31 @@ double farthest(double step, double end, const IsAllowed& is_allowed) {
 }  // namespace
 
 // Stiffness may grow both ways, as that of a law with ln J does.
-void StretchWatch::set_limits() {
+StretchLimits stretch_limits(const Material& material, double allowed) {
   constexpr double kStep = 1.01, kMostSquashed = 0.1, kMostStretched = 10.0;
   constexpr double kRounding = 1e-6;  // of a law whose stiffness stays the same
-  const double limit = std::max(allowed_, 1.0 + kRounding) * stretched_stiffness(*material_, 1.0);
-  const auto is_allowed = [&](double s) { return stretched_stiffness(*material_, s) <= limit; };
+  const double limit = std::max(allowed, 1.0 + kRounding) * stretched_stiffness(material, 1.0);
+  const auto is_allowed = [&](double s) { return stretched_stiffness(material, s) <= limit; };
   const double low = farthest(1.0 / kStep, kMostSquashed, is_allowed),
                high = farthest(kStep, kMostStretched, is_allowed);
-  lowest_ = low > kMostSquashed ? low * low : 0.0;
-  highest_ = high < kMostStretched ? high * high : std::numeric_limits<double>::infinity();
+  return {low > kMostSquashed ? low : 0.0,
+          high < kMostStretched ? high : std::numeric_limits<double>::infinity()};
+}
+
+StretchWatch::StretchWatch(const Body& body, double allowed)
+    : material_(&body.material()), allowed_(allowed) {
+  if (!set_limits()) return;
+  const NodalVectors& X = body.reference();
+  for (const auto& [a, b] : body.net_edges())
+    if (const double square = (X.col(a) - X.col(b)).squaredNorm(); square > 0.0)
+      edges_.push_back({{a, b}, 1.0 / square});
+}
+
+bool StretchWatch::set_limits() {
+  const StretchLimits limits = stretch_limits(*material_, allowed_);
+  lowest_ = limits.lowest * limits.lowest;
+  highest_ = limits.highest * limits.highest;
+  return limits.matter();
 }
 
 bool StretchWatch::look(const NodalVectors& positions) {

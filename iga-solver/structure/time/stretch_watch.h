@@ -6,6 +6,7 @@
 // directions alike.  That is an estimate: when it rings, the stable step itself has the word.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -19,6 +20,18 @@ namespace structure {
 /// Largest acoustic stiffness [stress] of a law without memory at a stretch s: of waves along e_x in a
 /// material that is stretched along e_x, or along all three.
 double stretched_stiffness(const Material& material, double stretch);
+
+/// Stretches within which that is at most `allowed` times what it is undeformed: 0 and infinity where it is
+/// as far as anybody will stretch it.
+struct StretchLimits {
+  double lowest, highest;
+  bool matter() const { return lowest > 0.0 || std::isfinite(highest); }
+};
+StretchLimits stretch_limits(const Material& material, double allowed);
+
+inline bool is_stiffened_by_strain(const Material& material) {
+  return stretch_limits(material, 1.0).matter();
+}
 
 class StretchWatch {
  public:
@@ -40,7 +53,7 @@ class StretchWatch {
   const std::optional<Edge>& rung() const { return rung_; }
 
  private:
-  void set_limits();
+  bool set_limits();  ///< whether there are any
 
   struct NetEdge {
     int nodes[2];

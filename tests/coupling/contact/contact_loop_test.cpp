@@ -6,12 +6,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "balls.h"
 #include "coupling/contact/contact_totals.h"
+#include "coupling/force_distribution.h"
 #include "coupling/rigid/rigid_surface.h"
 #include "nurbs/primitives.h"
 #include "rising_sheet.h"
@@ -193,6 +195,41 @@ TEST(ContactLoop, StopsWhereAContactIsTooStiffForTheStep) {
   }
   sheet.inverse_mass.setZero();  // held
   EXPECT_NO_THROW(BallsOnWall(sheet, balls, kStiffness, 1.001 * stable));
+}
+
+// Nodes of the sheet on springs of their own, and the ball's between: the dense matrix says when the step is
+// too long, and the alarm never comes later.
+TEST(ContactLoop, WarnsWhereContactAndBodyTogetherMayBeTooStiff) {
+  constexpr double kStiffness = 100.0, kNodeMass = 0.2;
+  RisingSheet sheet(floor(), 0.0);
+  const auto nodes = sheet.positions().cols();
+  sheet.inverse_mass = Vector3(0, 0, 1.0 / kNodeMass).replicate(1, nodes);
+  const nurbs::SurfacePoint foot{0, {0.6, 0.7}};
+  const Vector3 place = nurbs::interpolate(sheet.surface().topology.patch(0), sheet.positions(), foot.xi);
+  nurbs::NodalVectors unit = nurbs::NodalVectors::Zero(3, nodes);
+  coupling::FootBasis(sheet.surface().topology, foot).distribute(Vector3(0, 0, 1), unit);
+  Eigen::VectorXd b(nodes + 1);  // the spring's elongation for motion over root mass: of nodes, of the ball
+  b << unit.row(2).transpose() / std::sqrt(kNodeMass), -1.0;
+  Balls balls;
+  balls.add(place + Vector3(0, 0, 0.9 * kRadius), kRadius);
+  for (const bool alike : {true, false})
+    for (const double omega : {1.0, 10.0, 30.0}) {
+      Eigen::VectorXd squares = Eigen::VectorXd::Constant(nodes + 1, omega * omega);
+      if (!alike) squares.tail(nodes).setLinSpaced(0.0, omega * omega);
+      squares[nodes] = 0.0;
+      if (!alike) squares[0] = omega * omega;  // far from the contact
+      const Eigen::MatrixXd A = Eigen::MatrixXd(squares.asDiagonal()) + kStiffness * b * b.transpose();
+      const double highest = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(A).eigenvalues().maxCoeff(),
+                   bound = omega * omega + kStiffness * b.squaredNorm();
+      EXPECT_LE(highest, bound);
+      sheet.stable_step = 2.0 / omega;
+      const auto alarms = [&](double dt) { return BallsOnWall(sheet, balls, kStiffness, dt).loop.stiff(); };
+      EXPECT_EQ(alarms(0.999 * 2.0 / std::sqrt(bound)).count, 0);
+      const contact::RunAlarm alarm = alarms(1.001 * 2.0 / std::sqrt(bound));
+      EXPECT_EQ(alarm.count, 1);
+      EXPECT_EQ(alarm.tag, 1);
+      EXPECT_NEAR(alarm.speed, std::sqrt(bound), 1e-9 * alarm.speed);
+    }
 }
 
 // The wall feels the opposite of what the balls feel, at the feet, and gives the power that its motion has.

@@ -2,6 +2,7 @@
 // The smallest structure that deforms, for tests of contact.
 #pragma once
 
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -36,6 +37,7 @@ class RisingSheet final : public coupling::StructureSolver {
   void end_step(const coupling::NodalForces&) override {}
   double stable_time_step() const override { return 1.0; }
   coupling::NodalVectors inverse_node_mass() const override { return inverse_mass; }
+  double stable_time_step_with_contacts() const override { return stable_step; }
   Eigen::VectorXd control_node_mass() const override { return {}; }
   double kinetic_energy() const override { return 0.0; }
   double strain_energy() const override { return 0.0; }
@@ -48,6 +50,7 @@ class RisingSheet final : public coupling::StructureSolver {
   coupling::Fingerprint fingerprint() const override { return {}; }
 
   coupling::NodalVectors inverse_mass;
+  double stable_step = std::numeric_limits<double>::infinity();
 
  private:
   coupling::ContactSurface surface_;

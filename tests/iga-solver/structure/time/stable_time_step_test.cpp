@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -348,6 +349,27 @@ TEST(StableTimeStep, RefusesNumbersThatAreNotFinite) {
   const Solid soft(models::block({1e70, 1e70, 1e70}, {2, 1, 1}, 2), models::elastic(1e-100, 0.3, 1e90));
   EXPECT_THAT(message(soft, u),
               AllOf(HasSubstr("no finite number > 0"), HasSubstr("Young's modulus 1e-100")));
+}
+
+/// Largest |eigenvalue| of the map (u(n), v(n-1/2)) -> (u(n+1), v(n+1/2)) with a(n) = -omega^2 (u(n) + lead
+/// v(n-1/2)).
+double spectral_radius(double omega, double lead, double dt) {
+  Eigen::Matrix2d kick, drift;
+  kick << 1.0, 0.0, -dt * omega * omega, 1.0 - dt * omega * omega * lead;
+  drift << 1.0, dt, 0.0, 1.0;
+  return Eigen::EigenSolver<Eigen::Matrix2d>(drift * kick, false).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+TEST(StableTimeStep, OfADampedBodyEndsWhereItsAmplificationMatrixDoes) {
+  for (const double omega : {0.5, 3.0})
+    for (const double ratio : {0.0, 0.001, 0.02, 0.3, 2.0}) {
+      const double lead = 2.0 * ratio / omega, stable = 2.0 / omega,
+                   damped = structure::damped_stable_step(stable, lead);
+      EXPECT_NEAR(omega * damped, 2.0 * (std::sqrt(1.0 + ratio * ratio) - ratio), 1e-12);
+      EXPECT_NEAR(structure::undamped_step(damped, lead), stable, 1e-12 * stable);
+      EXPECT_LT(spectral_radius(omega, lead, (1.0 - 1e-6) * damped), 1.0 + 1e-12) << ratio;
+      EXPECT_GT(spectral_radius(omega, lead, (1.0 + 1e-6) * damped), 1.0 + 1e-7) << ratio;
+    }
 }
 
 }  // namespace

@@ -148,4 +148,62 @@ TEST(StretchWatch, LeavesARunWithRoomAlone) {
   EXPECT_EQ(pull(linear, 0.99 * stable, 100).message, "");
 }
 
+TEST(StretchWatch, CountsWhatDampingTakes) {
+  ExplicitSolver solver = pulled_bar(svk(0.0), 0.15);
+  const double stable = solver.stable_time_step(), share = 0.7, lead = 0.25 * stable;
+  solver.set_lead(lead);
+  const End end = pull(solver, share * stable, 100);
+  const double predicted = std::sqrt((2.0 / (share * (share + 0.5)) + 1.0) / 3.0);
+  EXPECT_NEAR(end.stretch, predicted, 0.15 * share * stable * 2.0);
+  EXPECT_GT(solver.stable_time_step_now(), share * stable) << "without damping there would be room";
+}
+
+TEST(StretchWatch, LeavesItToSomebodyWhoAsksForThat) {
+  ExplicitSolver solver = pulled_bar(svk(0.0), 0.1);
+  const double stable = solver.stable_time_step();
+  const NodalVectors none = NodalVectors::Zero(3, solver.body().node_count());
+  solver.go_on_when_strained();
+  solver.set_time_step(0.95 * stable);
+  solver.initialise_forces(none);
+  const double start = solver.kinetic_energy();
+  int steps = 0;
+  for (; !solver.is_too_strained() && steps < 100; ++steps) {
+    solver.begin_step();
+    solver.end_step(none);
+  }
+  EXPECT_LT(steps, 100);
+  EXPECT_LT(solver.stable_time_step_now(), 0.95 * stable);
+  EXPECT_EQ(solver.renew_stable_time_step(), solver.stable_time_step_now());
+  solver.set_time_step(0.5 * stable);
+  EXPECT_FALSE(solver.is_too_strained());
+  NodalVectors push = none;
+  push.row(0).setConstant(100.0);
+  solver.change_forces(push);
+  for (int n = 0; n < 10; ++n) {
+    solver.begin_step();
+    solver.end_step(push);
+  }
+  EXPECT_FALSE(solver.is_too_strained());
+  const structure::Work work = solver.work();
+  EXPECT_GT(work.forces, 0.0);
+  EXPECT_NEAR(solver.kinetic_energy() + work.internal - work.forces, start, 1e-12 * start) << "the ledger";
+}
+
+TEST(StretchWatch, TheStableStepOfAStateIsThatOfItsStrain) {
+  ExplicitSolver linear = pulled_bar(models::elastic(1.0, 0.0), 0.5), bar = pulled_bar(svk(0.0), 0.5);
+  const double stable = bar.stable_time_step();
+  EXPECT_EQ(bar.renew_stable_time_step(), stable) << "not strained yet";
+  for (ExplicitSolver* solver : {&linear, &bar}) {
+    solver->stable_time_step();
+    pull(*solver, 0.4 * stable, 3);
+  }
+  EXPECT_LT(bar.renew_stable_time_step(), 0.98 * stable);
+  EXPECT_EQ(linear.renew_stable_time_step(), linear.stable_time_step());
+  // Whenever it is asked for first.
+  ExplicitSolver again = pulled_bar(svk(0.0), 0.5);
+  again.load(bar.save());
+  EXPECT_EQ(again.stable_time_step(), stable);
+  EXPECT_EQ(again.renew_stable_time_step(), bar.renew_stable_time_step());
+}
+
 }  // namespace
