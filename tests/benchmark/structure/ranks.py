@@ -23,7 +23,7 @@ from study.run.summary import Row, table, write_json
 DECK = Path(__file__).resolve().parents[3] / "inputs" / "ball_plate"
 PLATE = (31, 31, 8)  # of the deck
 PIECE = (32, 32, 8)  # of a rank
-LARGE, TINY = (124, 124, 8), (4, 4, 4)  # for memory
+LARGE, TINY = (320, 320, 8), (4, 4, 4)  # for memory: a million control nodes, and hardly any
 GRIDS = {1: (1, 1), 2: (2, 1), 4: (2, 2), 8: (4, 2)}
 STEPS = (10, 110)  # the difference of two runs has no set-up in it
 REPETITIONS = 3
