@@ -3,20 +3,13 @@
 #pragma once
 
 #include "structure/material/isotropic_elastic.h"
-#include "structure/material/linear_elastic.h"
 #include "structure/material/orthotropic_constants.h"
 #include "structure/material/tensor.h"
 
 namespace structure {
 
-/// Whether a law is one for small strain: P is the Cauchy stress.
-template <class Law>
-constexpr bool is_for_small_strain = false;
-template <>
-constexpr bool is_for_small_strain<LinearElasticLaw> = true;
-
-/// Law: a struct with kWord, stress(H) and energy_density(H) for any kind of number, made by its Constants
-/// (IsotropicElastic: of lambda and mu).
+/// Law: a struct with kWord, kSmallStrain (P is the Cauchy stress), stress(H) and energy_density(H) for any
+/// kind of number, made by its Constants (IsotropicElastic: of lambda and mu).
 template <class Law>
 class ElasticMaterial final : public Law::Constants {
  public:
@@ -34,7 +27,7 @@ class ElasticMaterial final : public Law::Constants {
         .finished();
   }
   Matrix3 cauchy_stress(const Matrix3& H, const double* state) const override {
-    return is_for_small_strain<Law> ? stress(H, state) : Material::cauchy_stress(H, state);
+    return Law::kSmallStrain ? stress(H, state) : Material::cauchy_stress(H, state);
   }
   double energy_density(const Matrix3& H, const double* /*state*/) const override {
     return law_.energy_density(tensor(H));

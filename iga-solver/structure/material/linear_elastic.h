@@ -12,6 +12,7 @@ class IsotropicElastic;
 struct LinearElasticLaw {
   using Constants = IsotropicElastic;
   static constexpr const char* kWord = "linear_elastic";
+  static constexpr bool kSmallStrain = true;
   double lambda, mu;  // Lame constants [Pa]
 
   template <class Number>

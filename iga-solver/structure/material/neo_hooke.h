@@ -17,6 +17,7 @@ class IsotropicElastic;
 struct NeoHookeLaw {
   using Constants = IsotropicElastic;
   static constexpr const char* kWord = "neo_hooke";
+  static constexpr bool kSmallStrain = false;
 
   /// Lame constants [Pa].
   NeoHookeLaw(double lambda, double mu) : lambda_(lambda), mu_(mu) {

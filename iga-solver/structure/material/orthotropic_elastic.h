@@ -14,6 +14,7 @@ class OrthotropicElastic;
 struct OrthotropicElasticLaw {
   using Constants = OrthotropicElastic;
   static constexpr const char* kWord = "orthotropic_elastic";
+  static constexpr bool kSmallStrain = false;
   static constexpr int kRow[6] = {0, 1, 2, 0, 1, 0}, kColumn[6] = {0, 1, 2, 1, 2, 2};
   double C[6][6];  // [Pa] in the axes of space: S_xx, S_yy, S_zz, S_xy, S_yz, S_xz of E_xx ... 2 E_xy ...
 

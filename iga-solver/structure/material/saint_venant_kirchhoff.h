@@ -14,6 +14,7 @@ class IsotropicElastic;
 struct SaintVenantKirchhoffLaw {
   using Constants = IsotropicElastic;
   static constexpr const char* kWord = "saint_venant_kirchhoff";
+  static constexpr bool kSmallStrain = false;
   double lambda, mu;  // Lame constants [Pa]
 
   template <class Number>
