@@ -171,10 +171,11 @@ TEST(FixModify, ANewTargetAndNewGainsForgetFormerErrors) {
   for (const char* line : {"servo/target_val 5", "servo/ctrlParam 0 1 0", "servo/vel_max 1"}) {
     coupling::RigidSurface wall =
         wall_with("servo com 0 0 0 ctrlPV force axis 0 0 1 target_val 5 vel_max 1 kp 0 ki 1 kd 0");
+    const coupling::NodalForces none(coupling::NodalVectors::Zero(3, wall.positions().cols()));
     const auto speed_after_steps = [&](int steps) {  // nothing is felt: the error is -5 in each
       for (int i = 0; i < steps; ++i) {
         wall.begin_step();
-        wall.end_step({});
+        wall.end_step(none);
       }
       wall.begin_step();
       return wall.frame().velocity[2];
