@@ -11,7 +11,7 @@
 
 namespace structure {
 
-Partition::Axis Partition::axis(const nurbs::KnotVector& knots, const std::vector<int>& cuts) {
+PatchBoxes::Axis PatchBoxes::axis(const nurbs::KnotVector& knots, const std::vector<int>& cuts) {
   Axis axis;
   axis.low.assign(knots.control_point_count(), -1);
   axis.high.resize(knots.control_point_count());
@@ -23,36 +23,87 @@ Partition::Axis Partition::axis(const nurbs::KnotVector& knots, const std::vecto
     axis.spans.push_back(spans);
     axis.first.push_back(knots.span_of_element(cuts[piece]) - knots.degree());
     axis.end.push_back(knots.span_of_element(cuts[piece + 1] - 1) + 1);
-    for (int node = axis.first.back(); node < axis.end.back(); ++node) {
-      if (axis.low[node] < 0) axis.low[node] = static_cast<int>(piece);
-      axis.high[node] = static_cast<int>(piece);
+    for (int a = axis.first.back(); a < axis.end.back(); ++a) {
+      if (axis.low[a] < 0) axis.low[a] = static_cast<int>(piece);
+      axis.high[a] = static_cast<int>(piece);
     }
   }
   return axis;
 }
 
-Partition::Partition(const nurbs::Space<3>& space, const BoxCuts& cuts, int parts) {
+PatchBoxes::PatchBoxes(const nurbs::Space<3>& space, const BoxCuts& cuts) {
   for (int d = 0; d < 3; ++d) {
     axes_[d] = axis(space.knots(d), cuts[d]);
-    nodes_[d] = space.control_point_count(d);
+    control_points_[d] = space.control_point_count(d);
   }
-  part_.resize(std::size_t(piece_count(0)) * piece_count(1) * piece_count(2));
-  first_element_.assign(1, 0);
-  for (int box = 0; box < box_count(); ++box) {
-    const std::array<int, 3> piece = pieces_of(box);
-    Id elements = 1;
-    for (int d = 0; d < 3; ++d) elements *= axes_[d].spans[piece[d]];
-    first_element_.push_back(first_element_.back() + elements);
-  }
-  divide({{{0, piece_count(0)}, {0, piece_count(1)}, {0, piece_count(2)}}}, 0, parts);
 }
 
-/// Halves a brick of boxes across its longest side, as near to the share of the parts as boxes allow.  A
-/// single box goes to the first part: the others have none.
-void Partition::divide(const Range& boxes, int first_part, int parts) {
+Id PatchBoxes::element_count(int box) const {
+  const std::array<int, 3> piece = pieces_of(box);
+  Id elements = 1;
+  for (int d = 0; d < 3; ++d) elements *= spans(d, piece[d]);
+  return elements;
+}
+
+std::array<int, 3> PatchBoxes::pieces_of(int box) const {
+  return {box % piece_count(0), box / piece_count(0) % piece_count(1), box / piece_count(0) / piece_count(1)};
+}
+
+std::vector<int> PatchBoxes::control_points_of(int box) const {
+  const auto [a, b, c] = pieces_of(box);
+  const auto& [x, y, z] = axes_;
+  std::vector<int> points;
+  for (int k = z.first[c]; k < z.end[c]; ++k)
+    for (int j = y.first[b]; j < y.end[b]; ++j)
+      for (int i = x.first[a]; i < x.end[a]; ++i)
+        points.push_back(i + control_points_[0] * (j + control_points_[1] * k));
+  return points;
+}
+
+int PatchBoxes::boxes_of(int control_point, int* boxes) const {
+  const int i = control_point % control_points_[0],
+            j = control_point / control_points_[0] % control_points_[1],
+            k = control_point / control_points_[0] / control_points_[1];
+  const auto& [x, y, z] = axes_;
+  int count = 0;
+  for (int c = z.low[k]; c <= z.high[k]; ++c)
+    for (int b = y.low[j]; b <= y.high[j]; ++b)
+      for (int a = x.low[i]; a <= x.high[i]; ++a) boxes[count++] = box(a, b, c);
+  return count;
+}
+
+Partition::Partition(const nurbs::Space<3>& space, const BoxCuts& cuts, int parts)
+    : Partition({PatchBoxes(space, cuts)}, NodeNumbering({space.control_point_count()}), parts) {}
+
+Partition::Partition(std::vector<PatchBoxes> patches, NodeNumbering nodes, int parts)
+    : patches_(std::move(patches)), nodes_(std::move(nodes)), first_box_{0}, first_element_{0} {
+  std::vector<Id> elements{0};  // of the patches before
+  for (const PatchBoxes& patch : patches_) {
+    for (int box = 0; box < patch.count(); ++box)
+      first_element_.push_back(first_element_.back() + patch.element_count(box));
+    first_box_.push_back(first_box_.back() + patch.count());
+    elements.push_back(first_element_.back());
+  }
+  part_.resize(first_box_.back());
+  const auto share = [&](Id before) {
+    return static_cast<double>(before) * parts / static_cast<double>(elements.back());
+  };
+  for (std::size_t p = 0; p < patches_.size(); ++p) {
+    const PatchBoxes& patch = patches_[p];
+    divide(static_cast<int>(p),
+           {{{0, patch.piece_count(0)}, {0, patch.piece_count(1)}, {0, patch.piece_count(2)}}},
+           {share(elements[p]), share(elements[p + 1])});
+  }
+  weld_boxes();
+}
+
+/// Cuts a brick of boxes across its longest side, as near to the shares of the parts as boxes allow.  A
+/// single box goes to the part that has the most of it.
+void Partition::divide(int patch, const Range& boxes, const Shares& shares) {
+  const PatchBoxes& all = patches_[patch];
   const auto spans = [&](int d, int begin, int end) {
     int sum = 0;
-    for (int i = begin; i < end; ++i) sum += axes_[d].spans[i];
+    for (int i = begin; i < end; ++i) sum += all.spans(d, i);
     return sum;
   };
   int d = -1;
@@ -60,47 +111,69 @@ void Partition::divide(const Range& boxes, int first_part, int parts) {
     if (boxes[e][1] - boxes[e][0] > 1 &&
         (d < 0 || spans(e, boxes[e][0], boxes[e][1]) > spans(d, boxes[d][0], boxes[d][1])))
       d = e;
-  if (parts == 1 || d < 0) {
+  const int first = static_cast<int>(std::floor(shares.begin)),
+            last = static_cast<int>(std::ceil(shares.end)) - 1;
+  if (first >= last || d < 0) {
+    int part = first;
+    const auto share = [&](int p) {
+      return std::min(p + 1.0, shares.end) - std::max<double>(p, shares.begin);
+    };
+    for (int p = first + 1; p <= last; ++p)
+      if (share(p) > share(part)) part = p;
     for (int k = boxes[2][0]; k < boxes[2][1]; ++k)
       for (int j = boxes[1][0]; j < boxes[1][1]; ++j)
-        for (int i = boxes[0][0]; i < boxes[0][1]; ++i) part_[box(i, j, k)] = first_part;
+        for (int i = boxes[0][0]; i < boxes[0][1]; ++i) part_[first_box_[patch] + all.box(i, j, k)] = part;
     return;
   }
   const auto [begin, end] = boxes[d];
-  const int first_parts = parts / 2;
-  const double wanted = static_cast<double>(spans(d, begin, end)) * first_parts / parts;
-  int cut = begin + 1;
-  while (cut + 1 < end &&
-         std::abs(spans(d, begin, cut + 1) - wanted) < std::abs(spans(d, begin, cut) - wanted))
+  const double middle = (first + last + 1) / 2;
+  const double wanted = spans(d, begin, end) * (middle - shares.begin) / (shares.end - shares.begin);
+  int cut = begin;
+  while (cut < end && std::abs(spans(d, begin, cut + 1) - wanted) < std::abs(spans(d, begin, cut) - wanted))
     ++cut;
   Range lower = boxes, upper = boxes;
   lower[d][1] = upper[d][0] = cut;
-  divide(lower, first_part, parts / 2);
-  divide(upper, first_part + parts / 2, parts - parts / 2);
+  if (cut > begin) divide(patch, lower, {shares.begin, middle});
+  if (cut < end) divide(patch, upper, {middle, shares.end});
+}
+
+void Partition::weld_boxes() {
+  for (std::size_t i = 0; i < nodes_.welded().size(); ++i) {
+    std::vector<int>& boxes = welded_boxes_.emplace_back();
+    for (const auto& [patch, control_point] : nodes_.places_of_welded(i)) {
+      std::array<int, 8> own;
+      const int count = patches_[patch].boxes_of(control_point, own.data());
+      for (int b = 0; b < count; ++b) boxes.push_back(first_box_[patch] + own[b]);
+    }
+    std::sort(boxes.begin(), boxes.end());
+    boxes.erase(std::unique(boxes.begin(), boxes.end()), boxes.end());
+  }
 }
 
 Partition::Boxes Partition::boxes_of(Id node) const {
-  const int i = static_cast<int>(node % nodes_[0]), j = static_cast<int>(node / nodes_[0] % nodes_[1]),
-            k = static_cast<int>(node / nodes_[0] / nodes_[1]);
-  const auto& [x, y, z] = axes_;
   Boxes boxes;
-  for (int c = z.low[k]; c <= z.high[k]; ++c)
-    for (int b = y.low[j]; b <= y.high[j]; ++b)
-      for (int a = x.low[i]; a <= x.high[i]; ++a) boxes.box[boxes.count++] = box(a, b, c);
+  const std::vector<Id>& welded = nodes_.welded();
+  if (const auto found = std::lower_bound(welded.begin(), welded.end(), node);
+      found != welded.end() && *found == node) {
+    boxes.many_ = &welded_boxes_[found - welded.begin()];
+    return boxes;
+  }
+  const NodeNumbering::Place place = nodes_.place(node);
+  boxes.count_ = patches_[place.patch].boxes_of(place.control_point, boxes.few_.data());
+  for (std::size_t b = 0; b < boxes.count_; ++b) boxes.few_[b] += first_box_[place.patch];
   return boxes;
 }
 
-std::array<int, 3> Partition::pieces_of(int box) const {
-  return {box % piece_count(0), box / piece_count(0) % piece_count(1), box / piece_count(0) / piece_count(1)};
+int Partition::patch_of(int box) const {
+  return static_cast<int>(std::upper_bound(first_box_.begin(), first_box_.end(), box) - first_box_.begin()) -
+         1;
 }
 
 std::vector<Id> Partition::nodes_of(int box) const {
-  const auto [a, b, c] = pieces_of(box);
-  const auto& [x, y, z] = axes_;
+  const int patch = patch_of(box);
   std::vector<Id> nodes;
-  for (int k = z.first[c]; k < z.end[c]; ++k)
-    for (int j = y.first[b]; j < y.end[b]; ++j)
-      for (int i = x.first[a]; i < x.end[a]; ++i) nodes.push_back(i + nodes_[0] * (j + Id(nodes_[1]) * k));
+  for (const int point : patches_[patch].control_points_of(box - first_box_[patch]))
+    nodes.push_back(nodes_.node(patch, point));
   return nodes;
 }
 
@@ -167,15 +240,14 @@ class PartBuilder {
     part_.owned = static_cast<int>(ghosts - nodes.begin());
     for (int column = 0; column < part_.owned; ++column)
       if (column == 0 || nodes[column] != nodes[column - 1] + 1 ||
-          partition_.boxes_of(nodes[column]).box[0] != partition_.boxes_of(nodes[column - 1]).box[0])
+          partition_.boxes_of(nodes[column])[0] != partition_.boxes_of(nodes[column - 1])[0])
         part_.runs.push_back(column);
   }
 
   /// Boxes of one part that are integrated in their order add to the node itself.
   bool told_apart(const Partition::Boxes& boxes) const {
     const auto kind = [&](int box) { return std::pair(partition_.part_of(box), (*has_ghosts_)[box]); };
-    return std::any_of(boxes.box.begin(), boxes.box.begin() + boxes.count,
-                       [&](int box) { return kind(box) != kind(boxes.box[0]); });
+    return std::any_of(boxes.begin(), boxes.end(), [&](int box) { return kind(box) != kind(boxes[0]); });
   }
 
   void take_shares(int column) {
@@ -183,10 +255,10 @@ class PartBuilder {
     const Partition::Boxes boxes = partition_.boxes_of(node);
     if (!told_apart(boxes)) return;
     const bool owned = column < part_.owned;
-    const int owner = partition_.part_of(boxes.box[0]), first = next_column();
+    const int owner = partition_.part_of(boxes[0]), first = next_column();
     std::vector<int> others;
-    for (int b = 0; b < boxes.count; ++b) {
-      const int box = boxes.box[b], other = partition_.part_of(box);
+    for (const int box : boxes) {
+      const int other = partition_.part_of(box);
       if (!owned && other != p_) continue;
       if (!owned) neighbour(owner).shares_out.push_back(next_column());
       if (owned && other != p_) {

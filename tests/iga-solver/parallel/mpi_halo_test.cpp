@@ -126,7 +126,7 @@ TEST(MpiHalo, MassesAreWholeAndNoColumnIsWithout) {
     for (const int column : columns) share[column] += 1.0;
   const Eigen::VectorXd mass = whole(cut.halo, share);
   for (int column = 0; column < cut.part.held(); ++column)
-    EXPECT_EQ(mass[column], cut.partition.boxes_of(cut.part.nodes[column]).count);
+    EXPECT_EQ(mass[column], cut.partition.boxes_of(cut.part.nodes[column]).count());
   EXPECT_EQ(mass.tail(cut.part.columns - cut.part.held()).sum(), cut.part.columns - cut.part.held());
 }
 

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "models.h"
+#include "structure/weld.h"
 
 namespace {
 
@@ -25,6 +26,23 @@ struct Case {
   nurbs::Space<3> space{{x, y, z}};
   structure::BoxCuts cuts{{{0, 3, 6, 10, 14, 17}, {0, 3, 6, 10}, {0, 2, 4}}};
 };
+
+/// Four blocks round an edge, the last of which is cut finer, and a wedge that is welded to itself; 15 boxes.
+Partition welded_partition(int parts, Id* nodes = nullptr) {
+  const nurbs::Volume block = models::block({1, 1, 1}, {4, 6, 4}, 2);
+  std::vector<nurbs::Volume> patches(5, block);
+  for (int p = 0; p < 4; ++p) patches[p].control_points.colwise() += models::Vector3(p % 2, p / 2, 0.0);
+  patches[4].control_points.row(1) =
+      patches[4].control_points.row(1).cwiseProduct(patches[4].control_points.row(0));
+  patches[4].control_points.row(0).array() -= 1.0;
+  std::vector<structure::PatchBoxes> boxes;
+  for (int p = 0; p < 5; ++p)
+    boxes.emplace_back(block.space, structure::BoxCuts{{{0, 2, 4}, {0, 6}, {0, 4}}});
+  boxes[3] = structure::PatchBoxes(block.space, {{{0, 2, 4}, {0, 2, 6}, {0, 2, 4}}});
+  const structure::NodeNumbering numbering = structure::weld(patches);
+  if (nodes) *nodes = numbering.node_count();
+  return {boxes, numbering, parts};
+}
 
 /// What a box adds to its nodes: sizes far apart, so that the order shows.
 NodalVectors box_forces(int box, Eigen::Index nodes) {
@@ -61,12 +79,24 @@ const Neighbour& of(const Part& part, int other) {
                        [&](const Neighbour& n) { return n.part == other; });
 }
 
-TEST(Partition, SharesAddUpAsInOnePieceToTheLastBit) {
-  const Case c;
-  const NodalVectors whole = in_one_piece(Partition(c.space, c.cuts, 1), c.space.control_point_count());
+/// First ids and sizes of runs.
+std::vector<std::pair<Id, Id>> runs(const std::vector<Part>& parts) {
+  std::vector<std::pair<Id, Id>> runs;
+  for (const Part& part : parts)
+    for (std::size_t k = 0; k < part.runs.size(); ++k) {
+      const Id end = k + 1 < part.runs.size() ? part.runs[k + 1] : part.owned;
+      runs.emplace_back(part.nodes[part.runs[k]], end - part.runs[k]);
+    }
+  std::sort(runs.begin(), runs.end());
+  return runs;
+}
+
+template <class Cut>
+void expect_sums_as_in_one_piece(Id node_count, Cut cut) {
+  const NodalVectors whole = in_one_piece(cut(1), static_cast<int>(node_count));
   for (int count = 1; count <= 12; ++count) {
     SCOPED_TRACE(count);
-    const std::vector<Part> parts = all_parts(Partition(c.space, c.cuts, count), count);
+    const std::vector<Part> parts = all_parts(cut(count), count);
     std::vector<NodalVectors> f;
     for (const Part& part : parts) {
       f.push_back(NodalVectors::Zero(3, part.columns));
@@ -89,8 +119,37 @@ TEST(Partition, SharesAddUpAsInOnePieceToTheLastBit) {
         ASSERT_EQ(f[p].col(column), whole.col(parts[p].nodes[column])) << parts[p].nodes[column];
       owned += parts[p].owned;
     }
-    EXPECT_EQ(owned, c.space.control_point_count()) << "every node is owned once";
+    EXPECT_EQ(owned, node_count) << "every node is owned once";
   }
+}
+
+TEST(Partition, SharesAddUpAsInOnePieceToTheLastBit) {
+  const Case c;
+  expect_sums_as_in_one_piece(c.space.control_point_count(),
+                              [&](int parts) { return Partition(c.space, c.cuts, parts); });
+}
+
+TEST(Partition, SharesOfWeldedPatchesDoToo) {
+  Id nodes;
+  welded_partition(1, &nodes);
+  expect_sums_as_in_one_piece(nodes, [](int parts) { return welded_partition(parts); });
+}
+
+// Each patch of 96 elements; three parts have 160 each.
+TEST(Partition, PatchesAreSharedOutByTheirElements) {
+  for (const int count : {2, 3, 5, 7}) {
+    std::vector<std::size_t> elements;
+    for (const Part& part : all_parts(welded_partition(count), count))
+      elements.push_back(part.elements.size());
+    EXPECT_EQ(std::accumulate(elements.begin(), elements.end(), std::size_t(0)), 480u);
+    EXPECT_LE(*std::max_element(elements.begin(), elements.end()), 480u / count + 48u) << count;
+    EXPECT_GE(*std::min_element(elements.begin(), elements.end()), 32u) << count;
+  }
+}
+
+TEST(Partition, RunsOfWeldedPatchesDoNotDependOnTheParts) {
+  const auto one = runs(all_parts(welded_partition(1), 1));
+  for (const int count : {2, 5, 9}) EXPECT_EQ(runs(all_parts(welded_partition(count), count)), one);
 }
 
 TEST(Partition, GhostsAreTheOwnersNodesInTheSameOrder) {
@@ -128,18 +187,6 @@ TEST(Partition, EveryElementIsInOnePart) {
   std::vector<Id> all(c.space.element_count());
   std::iota(all.begin(), all.end(), Id(0));
   EXPECT_EQ(elements, all);
-}
-
-/// First ids and sizes of runs.
-std::vector<std::pair<Id, Id>> runs(const std::vector<Part>& parts) {
-  std::vector<std::pair<Id, Id>> runs;
-  for (const Part& part : parts)
-    for (std::size_t k = 0; k < part.runs.size(); ++k) {
-      const Id end = k + 1 < part.runs.size() ? part.runs[k + 1] : part.owned;
-      runs.emplace_back(part.nodes[part.runs[k]], end - part.runs[k]);
-    }
-  std::sort(runs.begin(), runs.end());
-  return runs;
 }
 
 TEST(Partition, RunsOfNodesDoNotDependOnTheParts) {

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/weld.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+#include "nurbs/boundary.h"
+#include "nurbs/coincident.h"
+
+namespace structure {
+
+namespace {
+
+using nurbs::Vector3;
+
+std::vector<int> control_point_counts(const std::vector<nurbs::Volume>& patches) {
+  std::vector<int> counts;
+  for (const nurbs::Volume& patch : patches) counts.push_back(patch.space.control_point_count());
+  return counts;
+}
+
+/// Whether a control point belongs to the rim of its net.
+bool on_face(const nurbs::Space<3>& space, int control_point) {
+  for (int d = 0, rest = control_point; d < 3; rest /= space.control_point_count(d++))
+    if (const int i = rest % space.control_point_count(d); i == 0 || i == space.control_point_count(d) - 1)
+      return true;
+  return false;
+}
+
+/// A face of a patch, and its nodes.
+struct FaceNet {
+  int patch;
+  nurbs::Face face;
+  nurbs::BoundarySurface surface;
+  std::vector<Id> nodes;  // per control point
+
+  int count(int d) const { return surface.space.control_point_count(d); }
+  Id node(int i, int j) const { return nodes[i + count(0) * j]; }
+  std::array<Id, 4> corners() const {
+    const int u = count(0) - 1, v = count(1) - 1;
+    std::array<Id, 4> corners{node(0, 0), node(u, 0), node(0, v), node(u, v)};
+    std::sort(corners.begin(), corners.end());
+    return corners;
+  }
+  /// Shrunk to a curve: no surface.
+  bool collapsed() const {
+    bool along[2] = {true, true};
+    for (int j = 0; j < count(1); ++j)
+      for (int i = 0; i < count(0); ++i) {
+        along[0] = along[0] && node(i, j) == node(0, j);
+        along[1] = along[1] && node(i, j) == node(i, 0);
+      }
+    return along[0] || along[1];
+  }
+  std::string name() const {
+    return patch == 0 ? nurbs::face_name(face) : fmt::format("{} {}", patch, nurbs::face_name(face));
+  }
+  std::string mesh() const {
+    return fmt::format("{} x {} control points of degrees {}, {}", count(0), count(1),
+                       surface.space.degree(0), surface.space.degree(1));
+  }
+};
+
+std::vector<FaceNet> faces_of(const std::vector<nurbs::Volume>& patches, const NodeNumbering& numbering) {
+  std::vector<FaceNet> faces;
+  for (std::size_t p = 0; p < patches.size(); ++p)
+    for (int f = 0; f < 6; ++f) {
+      const auto face = static_cast<nurbs::Face>(f);
+      FaceNet net{static_cast<int>(p), face, nurbs::boundary_surface(patches[p].space, face), {}};
+      for (const int a : net.surface.volume_control_point)
+        net.nodes.push_back(numbering.node(static_cast<int>(p), a));
+      faces.push_back(std::move(net));
+    }
+  return faces;
+}
+
+/// How the directions of one face run on another one.
+struct Turn {
+  bool swapped, flipped[2];
+};
+
+/// Knots of a direction from 0 to 1, from either end.
+std::vector<double> relative_knots(const nurbs::KnotVector& knots, bool flipped) {
+  std::vector<double> relative;
+  for (const double knot : knots.knots()) {
+    const double r = (knot - knots.front()) / (knots.back() - knots.front());
+    relative.push_back(flipped ? 1.0 - r : r);
+  }
+  if (flipped) std::reverse(relative.begin(), relative.end());
+  return relative;
+}
+
+bool same_knots(const nurbs::KnotVector& a, const nurbs::KnotVector& b, bool flipped) {
+  if (a.degree() != b.degree() || a.knots().size() != b.knots().size()) return false;
+  const std::vector<double> of_a = relative_knots(a, false), of_b = relative_knots(b, flipped);
+  return std::equal(of_a.begin(), of_a.end(), of_b.begin(),
+                    [](double x, double y) { return std::abs(x - y) <= 1e-12; });
+}
+
+/// Whether `b`, turned, is `a`: the same functions at the same nodes.
+bool same_mesh(const FaceNet& a, const FaceNet& b, const Turn& turn) {
+  const nurbs::Space<2>&A = a.surface.space, &B = b.surface.space;
+  for (int d = 0; d < 2; ++d)
+    if (!same_knots(A.knots(d), B.knots(turn.swapped ? 1 - d : d), turn.flipped[d])) return false;
+  const double ratio_wanted = [&] {
+    const int i = turn.flipped[0] ? a.count(0) - 1 : 0, j = turn.flipped[1] ? a.count(1) - 1 : 0;
+    return B.weight(turn.swapped ? j + b.count(0) * i : i + b.count(0) * j) / A.weight(0);
+  }();
+  for (int j = 0; j < a.count(1); ++j)
+    for (int i = 0; i < a.count(0); ++i) {
+      int at[2] = {turn.flipped[0] ? a.count(0) - 1 - i : i, turn.flipped[1] ? a.count(1) - 1 - j : j};
+      if (turn.swapped) std::swap(at[0], at[1]);
+      const double ratio = B.weight(at[0] + b.count(0) * at[1]) / A.weight(i + a.count(0) * j);
+      if (a.node(i, j) != b.node(at[0], at[1]) || !(std::abs(ratio / ratio_wanted - 1.0) <= 1e-12))
+        return false;
+    }
+  return true;
+}
+
+bool same_mesh(const FaceNet& a, const FaceNet& b) {
+  for (int turn = 0; turn < 8; ++turn)
+    if (same_mesh(a, b, {(turn & 4) != 0, {(turn & 1) != 0, (turn & 2) != 0}})) return true;
+  return false;
+}
+
+Vector3 centre(const nurbs::Volume& patch, const FaceNet& net) {
+  nurbs::Parameter<2> middle;
+  for (int d = 0; d < 2; ++d)
+    middle[d] = 0.5 * (net.surface.space.knots(d).front() + net.surface.space.knots(d).back());
+  return nurbs::interpolate(net.surface.space,
+                            patch.control_points(Eigen::all, net.surface.volume_control_point), middle);
+}
+
+double extent(const std::vector<nurbs::Volume>& patches) {
+  Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const nurbs::Volume& patch : patches) {
+    low = low.cwiseMin(patch.control_points.rowwise().minCoeff());
+    high = high.cwiseMax(patch.control_points.rowwise().maxCoeff());
+  }
+  return (high - low).norm();
+}
+
+/// Pairs of faces with the same four corners, each once.
+template <class Visit>
+void for_each_touching_pair(const std::vector<FaceNet>& faces, Visit visit) {
+  std::map<std::array<Id, 4>, std::vector<const FaceNet*>> by_corners;
+  for (const FaceNet& face : faces) {
+    if (face.collapsed()) continue;
+    std::vector<const FaceNet*>& before = by_corners[face.corners()];
+    for (const FaceNet* other : before) visit(*other, face);
+    before.push_back(&face);
+  }
+}
+
+/// Faces are one surface, as a rule, if they share corners and centre.
+void expect_one_mesh(const std::vector<nurbs::Volume>& patches, const NodeNumbering& nodes,
+                     double tolerance) {
+  for_each_touching_pair(faces_of(patches, nodes), [&](const FaceNet& a, const FaceNet& b) {
+    if ((centre(patches[a.patch], a) - centre(patches[b.patch], b)).norm() > tolerance) return;
+    if (same_mesh(a, b)) return;
+    throw std::invalid_argument(
+        fmt::format("faces '{}' ({}) and '{}' ({}) are one surface, expected one mesh on both: the same "
+                    "degrees, knots and weights, so that they can be welded",
+                    a.name(), a.mesh(), b.name(), b.mesh()));
+  });
+}
+
+}  // namespace
+
+NodeNumbering without_welds(const std::vector<nurbs::Volume>& patches) {
+  return NodeNumbering(control_point_counts(patches));
+}
+
+NodeNumbering weld(const std::vector<nurbs::Volume>& patches, double relative_tolerance) {
+  // Only faces touch: nets inside them may be as fine as they like.
+  std::vector<int> rim;
+  std::vector<Vector3> points;
+  int before = 0;
+  for (const nurbs::Volume& patch : patches) {
+    for (int a = 0; a < patch.space.control_point_count(); ++a)
+      if (on_face(patch.space, a)) {
+        rim.push_back(before + a);
+        points.emplace_back(patch.control_points.col(a));
+      }
+    before += patch.space.control_point_count();
+  }
+  nurbs::NodalVectors rim_points(3, points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) rim_points.col(static_cast<Eigen::Index>(k)) = points[k];
+  const std::vector<int> first_of_rim = nurbs::first_coincident(rim_points, relative_tolerance);
+
+  std::vector<int> first(before);
+  for (int place = 0; place < before; ++place) first[place] = place;
+  for (std::size_t k = 0; k < rim.size(); ++k) first[rim[k]] = rim[first_of_rim[k]];
+  NodeNumbering nodes(control_point_counts(patches), first);
+  if (!nodes.welded().empty()) expect_one_mesh(patches, nodes, relative_tolerance * extent(patches));
+  return nodes;
+}
+
+int welded_face_count(const std::vector<nurbs::Volume>& patches, const NodeNumbering& nodes) {
+  int count = 0;
+  for_each_touching_pair(faces_of(patches, nodes),
+                         [&](const FaceNet& a, const FaceNet& b) { count += same_mesh(a, b); });
+  return count;
+}
+
+}  // namespace structure

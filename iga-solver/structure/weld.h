@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which control points of volume patches are one node.
+#pragma once
+
+#include <vector>
+
+#include "nurbs/patch.h"
+#include "structure/node_numbering.h"
+
+namespace structure {
+
+/// Welds control points on the faces of the patches that stand at the same place, within `relative_tolerance`
+/// times the extent of all.  Faces that are one surface must have one mesh: throws std::invalid_argument that
+/// names them if their degrees, knots, control points or weights differ.
+NodeNumbering weld(const std::vector<nurbs::Volume>& patches, double relative_tolerance = 1e-9);
+
+/// Every patch on its own.
+NodeNumbering without_welds(const std::vector<nurbs::Volume>& patches);
+
+/// How many pairs of faces are welded.
+int welded_face_count(const std::vector<nurbs::Volume>& patches, const NodeNumbering& nodes);
+
+}  // namespace structure
