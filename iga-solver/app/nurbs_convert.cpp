@@ -76,6 +76,6 @@ int main(int argc, char** argv) {
   command.add_option("output", options.out, "file to write: .yaml, .yml, .h5, .hdf5 or .xml");
   command.add_option("--surface", options.surface, "keep the patches of this named surface only");
   command.add_option("--units", options.units,
-                     "units of a file that has none (G+Smo): si (default), cgs or mm-g-ms");
+                     "units of a file that has none (G+Smo): si (default), cgs, mm-g-ms or mm-t-s");
   return app::run_command(command, argc, argv, options.in, [&] { run(options); });
 }

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
+#include <initializer_list>
 #include <stdexcept>
 
 #include "geometry_io/shape_changes.h"
@@ -13,7 +14,7 @@
 namespace geometry_io {
 namespace {
 
-constexpr const char* kUnitsNames[] = {"si", "cgs", "mm-g-ms"};
+constexpr std::initializer_list<const char*> kUnitsNames = {"si", "cgs", "mm-g-ms", "mm-t-s"};
 
 std::vector<SurfacePiece> read_surface(const YamlMap& surfaces, const std::string& name,
                                        const std::vector<Shape>& patches) {
@@ -37,18 +38,17 @@ GeometryFile open_other_file(const YamlMap& geometry, Units units, const OpenGeo
 
 }  // namespace
 
-const char* units_name(Units units) { return kUnitsNames[static_cast<int>(units)]; }
+const char* units_name(Units units) { return kUnitsNames.begin()[static_cast<int>(units)]; }
 
 Units units_from_name(const std::string& name) {
-  for (const Units units : {Units::si, Units::cgs, Units::mm_g_ms})
+  for (const Units units : {Units::si, Units::cgs, Units::mm_g_ms, Units::mm_t_s})
     if (name == units_name(units)) return units;
   throw std::invalid_argument(
       fmt::format("units is '{}', expected one of: {}", name, fmt::join(kUnitsNames, ", ")));
 }
 
 GeometryFile read_geometry(const YamlMap& document, const OpenGeometry& open) {
-  const Units units =
-      units_from_name(document.word_of("units", {kUnitsNames[0], kUnitsNames[1], kUnitsNames[2]}));
+  const Units units = units_from_name(document.word_of("units", kUnitsNames));
   const YamlMap map = document.map("geometry");
   expect_one_shape(map);
   GeometryFile geometry =

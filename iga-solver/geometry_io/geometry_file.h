@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The `units`, `geometry` and `surfaces` part of a model file; a rigid wall's file has nothing else.
 //
-//   units: si                                   # si | cgs | mm-g-ms
+//   units: si                                   # si | cgs | mm-g-ms | mm-t-s (tonne: N, MPa)
 //   geometry:                                   # one of:
 //     box: {origin: [x,y,z], size: [x,y,z], elements: [31,31,8], degree: 2}
 //     rolled_plate: {origin: [x,y,z], width: y, strips: [{length: x, thickness: t, elements: 9}, ..],
@@ -47,7 +47,7 @@
 
 namespace geometry_io {
 
-enum class Units { si, cgs, mm_g_ms };
+enum class Units { si, cgs, mm_g_ms, mm_t_s };
 const char* units_name(Units units);
 /// Throws std::invalid_argument that lists the names.
 Units units_from_name(const std::string& name);

@@ -17,6 +17,8 @@ inline UnitNames unit_names(geometry_io::Units units) {
       return {"s", "cm", "cm/s", "dyn", "dyn/cm^2", "erg", "erg/cm^3", "g cm/s", "g cm^2/s"};
     case geometry_io::Units::mm_g_ms:
       return {"ms", "mm", "mm/ms", "N", "MPa", "mJ", "mJ/mm^3", "g mm/ms", "g mm^2/ms"};
+    case geometry_io::Units::mm_t_s:
+      return {"s", "mm", "mm/s", "N", "MPa", "mJ", "mJ/mm^3", "t mm/s", "t mm^2/s"};
     case geometry_io::Units::si:
       break;
   }

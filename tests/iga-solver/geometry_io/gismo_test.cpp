@@ -189,7 +189,7 @@ TEST(Gismo, SaysWhatWasGivenAndWhatWasExpected) {
       {kTwo, kTwo, "", 1, "broken XML"},
       {kTwo, kTwo, "<VTKFile/>", 1, "<VTKFile> at the top, expected <xml>"},
       {kTwo, kTwo, "<xml/>", 1, "no <Geometry> in this file"},
-      {kCube, "units=\"cgs\"", "units=\"inch\"", 1, "units is 'inch', expected one of: si, cgs, mm-g-ms"},
+      {kCube, "units=\"cgs\"", "units=\"inch\"", 1, "units is 'inch', expected one of: si, cgs, mm-g-ms, mm-t-s"},
       {kCube, "geoDim=\"3\"", "geoDim=\"2\"", 8, "geoDim is 2, expected 3"},
       {kCube, "<Basis type=\"BSplineBasis\"><KnotVector degree=\"1\">0 0 1 1</KnotVector></Basis>", "", 3,
        "2 bases of one direction, expected 3"},

@@ -89,7 +89,7 @@ TEST(Hdf5, SaysWhatWasGivenAndWhatWasExpected) {
       {"later version", [](File& f) { f.version = {2}; }, "/: attribute 'version' is 2, expected 1"},
       {"no units", [](File& f) { f.units = ""; }, "/: attribute 'units' is missing"},
       {"other units", [](File& f) { f.units = "inch"; },
-       "/: units is 'inch', expected one of: si, cgs, mm-g-ms"},
+       "/: units is 'inch', expected one of: si, cgs, mm-g-ms, mm-t-s"},
       {"no patch", [](File& f) { f.group = ""; }, "/patches: is empty, expected the groups 0, 1, ..."},
       {"patch 1 alone", [](File& f) { f.group = "/patches/1"; }, "/patches/0: is missing"},
       {"no degrees", [](File& f) { f.degrees.clear(); }, "/patches/0: attribute 'degrees' is missing"},

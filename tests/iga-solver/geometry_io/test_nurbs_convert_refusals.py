@@ -195,7 +195,7 @@ class Refusals(ConvertCase):
             ("good.h5", "out.stl"): "out.stl: unknown extension, expected .yaml, .yml, .h5, .hdf5 or .xml",
             ("good.h5", "none/out.h5"): "none/out.h5: cannot write here: No such file or directory",
             ("good.h5", "--surface", "floor"): r"good.h5: unknown surface 'floor', expected one of: \(the file names none\)",
-            ("trimmed.xml", "--units", "inch"): "units is 'inch', expected one of: si, cgs, mm-g-ms",
+            ("trimmed.xml", "--units", "inch"): "units is 'inch', expected one of: si, cgs, mm-g-ms, mm-t-s",
             (): "input is required",
         }
         for words, expected in table.items():

@@ -141,7 +141,7 @@ TEST_F(HistoryFile, HasNoRowTwiceWhereTheStepGrows) {
   for (std::size_t row = 1; row < time.size(); ++row) EXPECT_GT(time[row], time[row - 1]);
 }
 
-// An erg is 1 g cm^2/s^2; 1 g mm^2/ms^2 = 1e-3 kg (1e-3 m)^2 / (1e-3 s)^2 = 1 mJ.
+// An erg is 1 g cm^2/s^2; 1 g mm^2/ms^2 = 1e-3 kg (1e-3 m)^2 / (1e-3 s)^2 = 1 mJ = 1 t mm^2/s^2.
 TEST_F(HistoryFile, CarriesUnits) {
   struct Names {
     geometry_io::Units units;
@@ -151,7 +151,8 @@ TEST_F(HistoryFile, CarriesUnits) {
   for (const Names& expected :
        {Names{geometry_io::Units::si, "si", "s", "m", "J", "kg m/s", "kg m^2/s"},
         Names{geometry_io::Units::cgs, "cgs", "s", "cm", "erg", "g cm/s", "g cm^2/s"},
-        Names{geometry_io::Units::mm_g_ms, "mm-g-ms", "ms", "mm", "mJ", "g mm/ms", "g mm^2/ms"}}) {
+        Names{geometry_io::Units::mm_g_ms, "mm-g-ms", "ms", "mm", "mJ", "g mm/ms", "g mm^2/ms"},
+        Names{geometry_io::Units::mm_t_s, "mm-t-s", "s", "mm", "mJ", "t mm/s", "t mm^2/s"}}) {
     io::History history({1.0, base()}, expected.units, model.probes);
     history.record(io::measure(falling_block(model), model.probes));
     const auto unit = [&](const char* series) { return read_attribute(history.path(), series, "unit"); };

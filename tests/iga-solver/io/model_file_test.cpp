@@ -147,7 +147,7 @@ TEST(ModelFile, RefusesBadInputInOneLineThatNamesFileLineGivenAndExpected) {
        "jelly",
        4,
        {"jelly", "linear_elastic", "saint_venant_kirchhoff", "neo_hooke", "orthotropic_elastic"}},
-      {"units: si", "units: imperial", 1, {"imperial", "si", "cgs", "mm-g-ms"}},
+      {"units: si", "units: imperial", 1, {"imperial", "si", "cgs", "mm-g-ms", "mm-t-s"}},
       {"fix: [z]", "fix: [w]", 7, {"'w'", "x, y, z"}},
       {"faces: [zeta-]", "faces: [bottom]", 7, {"bottom", "zeta-"}},
       {"faces: [zeta-]", "face: [zeta-]", 7, {"face", "did you mean", "faces"}},
