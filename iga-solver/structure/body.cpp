@@ -5,6 +5,29 @@
 
 namespace structure {
 
+void Body::internal_force_change(const NodalVectors& u, const NodalVectors& w, NodalVectors& f) const {
+  constexpr double kSmall = 1e-6;  // of the body's extent
+  const double size = w.lpNorm<Eigen::Infinity>();
+  if (size == 0.0) return f.setZero(), void();
+  const NodalVectors& X = reference();
+  const double step = kSmall * (X.rowwise().maxCoeff() - X.rowwise().minCoeff()).maxCoeff() / size;
+  NodalVectors before(3, w.cols());
+  internal_force(u - step * w, before);
+  internal_force(u + step * w, f);
+  f = (f - before) / (2.0 * step);
+}
+
+std::vector<int> Body::element_nodes(int element) const {
+  NodalVectors numbers = NodalVectors::Zero(3, node_count());
+  for (int A = 0; A < node_count(); ++A) numbers(0, A) = A + 1.0;
+  std::vector<double> values(3 * std::size_t(padded_functions()));
+  gather(element, numbers, values.data());
+  std::vector<int> nodes;
+  for (int a = 0; a < padded_functions(); ++a)
+    if (values[a] > 0.0) nodes.push_back(static_cast<int>(values[a]) - 1);
+  return nodes;
+}
+
 std::string text(const Vector3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]); }
 
 }  // namespace structure

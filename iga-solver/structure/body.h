@@ -58,6 +58,9 @@ class Body {
   virtual void evolve(
       const NodalVectors& u, double dt, NodalVectors& f,
       const std::function<void()>& shares_ready = [] {}) = 0;
+  /// f = K(u) w [force]: the change of the internal forces along a change w of u, what points remember held.
+  /// Unless a body knows better, by central differences.
+  virtual void internal_force_change(const NodalVectors& u, const NodalVectors& w, NodalVectors& f) const;
   /// The end of a step: what points remember is now what evolve() found.
   virtual void commit() = 0;
   /// What points remember, element after element, equally much of each; empty for a law without memory.
@@ -75,6 +78,8 @@ class Body {
   virtual int element_count() const = 0;
   virtual int padded_functions() const = 0;
   virtual void gather(int element, const NodalVectors& nodal, double* values) const = 0;
+  /// Nodes whose functions are not zero on it.
+  virtual std::vector<int> element_nodes(int element) const;
   virtual void element_force(int element, const double* u, double* f) const = 0;
   /// Row-sum mass of one element's own volume [mass], [padded_functions()].
   virtual const double* element_mass(int element) const = 0;

@@ -2,6 +2,7 @@
 // A law without memory behind the material seam.
 #pragma once
 
+#include "structure/material/dual.h"
 #include "structure/material/isotropic_elastic.h"
 #include "structure/material/orthotropic_constants.h"
 #include "structure/material/tensor.h"
@@ -22,10 +23,12 @@ class ElasticMaterial final : public Law::Constants {
 
   const char* law() const override { return Law::kWord; }
   Matrix3 stress(const Matrix3& H, const double* /*state*/) const override {
-    const Tensor<double> P = law_.stress(tensor(H));
-    return (Matrix3() << P(0, 0), P(0, 1), P(0, 2), P(1, 0), P(1, 1), P(1, 2), P(2, 0), P(2, 1), P(2, 2))
-        .finished();
+    return matrix(law_.stress(tensor(H)));
   }
+  Matrix3 stress_change(const Matrix3& H, const Matrix3& G, const double* /*state*/) const override {
+    return matrix(structure::stress_change(law_, tensor(H), tensor(G)));
+  }
+  bool is_linear() const override { return Law::kSmallStrain; }
   Matrix3 cauchy_stress(const Matrix3& H, const double* state) const override {
     return Law::kSmallStrain ? stress(H, state) : Material::cauchy_stress(H, state);
   }
@@ -36,6 +39,10 @@ class ElasticMaterial final : public Law::Constants {
  private:
   static Tensor<double> tensor(const Matrix3& H) {
     return {{{H(0, 0), H(0, 1), H(0, 2)}, {H(1, 0), H(1, 1), H(1, 2)}, {H(2, 0), H(2, 1), H(2, 2)}}};
+  }
+  static Matrix3 matrix(const Tensor<double>& P) {
+    return (Matrix3() << P(0, 0), P(0, 1), P(0, 2), P(1, 0), P(1, 1), P(1, 2), P(2, 0), P(2, 1), P(2, 2))
+        .finished();
   }
 
   Law law_;

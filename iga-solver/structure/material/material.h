@@ -20,6 +20,9 @@ class Material {
   /// First Piola-Kirchhoff stress P [Pa] at the displacement gradient H = du/dX [-], memory held at `state`
   /// (state_size() numbers).
   virtual Matrix3 stress(const Matrix3& H, const double* state) const = 0;
+  /// dP/dH : G [Pa], the change of that stress along a change G of H [-].  Unless a law knows better, by
+  /// central differences: ten digits.
+  virtual Matrix3 stress_change(const Matrix3& H, const Matrix3& G, const double* state) const;
   /// Stored energy per reference volume [J/m^3]; stress is its derivative with respect to H.
   virtual double energy_density(const Matrix3& H, const double* state) const = 0;
 
@@ -35,6 +38,9 @@ class Material {
   virtual int state_size() const { return 0; }
   /// Memory after a time step dt [time] from `old` that ends at H: sets all of `next`.
   virtual void evolve(const Matrix3& /*H*/, double /*dt*/, const double* /*old*/, double* /*next*/) const {}
+
+  /// Whether P is linear in H: its change is the same at all H.
+  virtual bool is_linear() const { return false; }
 
   virtual const char* law() const = 0;        ///< its word in model files
   virtual double density() const = 0;         ///< reference mass density [kg/m^3]

@@ -67,6 +67,18 @@ ForceKernel force_kernel(int padded) {
   }
 }
 
+void element_force_change(const Material& material, const ElementGeometry& element, const double* state,
+                          const double* u, const double* w, double* f) {
+  const int n = element.padded, remembered = material.state_size();
+  std::fill_n(f, 3 * n, 0.0);
+  for (int q = 0; q < element.points; ++q) {
+    const double* dR_dX = element.dR_dX + 3 * n * q;
+    const Matrix3 H = displacement_gradient(u, dR_dX, n), G = displacement_gradient(w, dR_dX, n);
+    add_force(element.wJ[q] * material.stress_change(H, G, state + remembered * element.slot[q]), dR_dX, n,
+              f);
+  }
+}
+
 double element_energy(const Material& material, const ElementGeometry& element, const double* state,
                       const double* u) {
   const int n = element.padded, remembered = material.state_size();

@@ -38,6 +38,10 @@ using ForceKernel = void (*)(const Material& material, const ElementGeometry& el
 /// otherwise.
 ForceKernel force_kernel(int padded);
 
+/// Their change along the change w of u, [3][padded], too.
+void element_force_change(const Material& material, const ElementGeometry& element, const double* state,
+                          const double* u, const double* w, double* f);
+
 /// Stored energy [energy] of one element whose points remember `state`.
 double element_energy(const Material& material, const ElementGeometry& element, const double* state,
                       const double* u);

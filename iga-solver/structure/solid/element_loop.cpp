@@ -71,21 +71,41 @@ ElementMemory ElementLoop::memory_of(std::size_t element, const PointMemory& mem
           memory.dt};
 }
 
-void ElementLoop::add_forces(int first, int end, const PointMemory& memory, const nurbs::NodalVectors& u,
-                             nurbs::NodalVectors& f) const {
-  double u_element[kMaxElementValues], f_element[kMaxElementValues];
+template <class ElementForce>
+void ElementLoop::add_shares(int first, int end, nurbs::NodalVectors& f, ElementForce element_force) const {
+  double f_element[kMaxElementValues];
   for (int b = first; b < end; ++b) {
     share_.setZero();
     for (std::size_t e = boxes_[b].first; e < boxes_[b].end; ++e) {
       const Element& element = elements_[e];
-      const int padded = element.tables.padded;
-      gather(element.read, padded, u, u_element);
-      force_kernel_(material_, element.tables.geometry(), memory_of(e, memory), u_element, f_element);
+      element_force(e, f_element);
       for (std::size_t a = 0; a < element.write.size(); ++a)
-        for (int i = 0; i < 3; ++i) share_(i, element.write[a]) += f_element[i * padded + a];
+        for (int i = 0; i < 3; ++i) share_(i, element.write[a]) += f_element[i * element.tables.padded + a];
     }
     for (std::size_t a = 0; a < boxes_[b].write.size(); ++a) f.col(boxes_[b].write[a]) += share_.col(a);
   }
+}
+
+void ElementLoop::add_forces(int first, int end, const PointMemory& memory, const nurbs::NodalVectors& u,
+                             nurbs::NodalVectors& f) const {
+  double u_element[kMaxElementValues];
+  add_shares(first, end, f, [&](std::size_t e, double* f_element) {
+    const Element& element = elements_[e];
+    gather(element.read, element.tables.padded, u, u_element);
+    force_kernel_(material_, element.tables.geometry(), memory_of(e, memory), u_element, f_element);
+  });
+}
+
+void ElementLoop::add_force_changes(const PointMemory& memory, const nurbs::NodalVectors& u,
+                                    const nurbs::NodalVectors& w, nurbs::NodalVectors& f) const {
+  double u_element[kMaxElementValues], w_element[kMaxElementValues];
+  add_shares(0, box_count(), f, [&](std::size_t e, double* f_element) {
+    const Element& element = elements_[e];
+    gather(element.read, element.tables.padded, u, u_element);
+    gather(element.read, element.tables.padded, w, w_element);
+    element_force_change(material_, element.tables.geometry(), memory_of(e, memory).state, u_element,
+                         w_element, f_element);
+  });
 }
 
 void ElementLoop::add_energies(const PointMemory& memory, const nurbs::NodalVectors& u, ExactSum& sum) const {

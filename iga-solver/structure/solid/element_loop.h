@@ -20,6 +20,8 @@ class ElementLoop final : public Integrals {
   int box_count() const override { return static_cast<int>(boxes_.size()); }
   void add_forces(int first, int end, const PointMemory& memory, const nurbs::NodalVectors& u,
                   nurbs::NodalVectors& f) const override;
+  void add_force_changes(const PointMemory& memory, const nurbs::NodalVectors& u,
+                         const nurbs::NodalVectors& w, nurbs::NodalVectors& f) const override;
   void add_energies(const PointMemory& memory, const nurbs::NodalVectors& u, ExactSum& sum) const override;
   double table_bytes() const override;
 
@@ -32,6 +34,9 @@ class ElementLoop final : public Integrals {
     std::size_t first, end;  // elements
     std::vector<int> write;  // columns
   };
+  /// Of what element_force(element, f_element) gives.
+  template <class ElementForce>
+  void add_shares(int first, int end, nurbs::NodalVectors& f, ElementForce element_force) const;
   ElementMemory memory_of(std::size_t element, const PointMemory& memory) const;
 
   const Material& material_;

@@ -24,6 +24,10 @@ class Integrals {
   /// [length], both 3 x columns.  No allocation.
   virtual void add_forces(int first, int end, const PointMemory& memory, const nurbs::NodalVectors& u,
                           nurbs::NodalVectors& f) const = 0;
+  /// Adds the change of the internal forces along a change w [length] of the displacements u: K(u) w, memory
+  /// held.  No allocation but in the first call.
+  virtual void add_force_changes(const PointMemory& memory, const nurbs::NodalVectors& u,
+                                 const nurbs::NodalVectors& w, nurbs::NodalVectors& f) const = 0;
   /// Adds the stored energy of each box.
   virtual void add_energies(const PointMemory& memory, const nurbs::NodalVectors& u, ExactSum& sum) const = 0;
   /// Memory of the tables that it keeps [bytes].

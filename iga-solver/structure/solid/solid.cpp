@@ -236,6 +236,11 @@ void Solid::gather(int element, const NodalVectors& nodal, double* values) const
   }
 }
 
+std::vector<int> Solid::element_nodes(int element) const {
+  const PlacedBox& box = boxes_[box_of(element)];
+  return element_columns(patch_->space, box.spans, box.read(), spans_of(element));
+}
+
 void Solid::element_force(int element, const double* u, double* f) const {
   const double* const memory = memory_.data() + element * remembered_;
   force_kernel(padded_)(*material_, one(element).tables.geometry(), {memory}, u, f);
@@ -250,6 +255,13 @@ double Solid::smallest_volume_ratio(int element, const double* u) const {
 void Solid::internal_force(const NodalVectors& u, NodalVectors& f) const {
   NURBS_ASSERT(u.cols() == node_count() && f.cols() == node_count(), u.cols(), f.cols(), node_count());
   integrals_->internal_force({memory_.data()}, u, f);
+}
+
+void Solid::internal_force_change(const NodalVectors& u, const NodalVectors& w, NodalVectors& f) const {
+  if (material_->is_linear()) return internal_force(w, f);
+  NURBS_ASSERT(u.cols() == node_count() && w.cols() == node_count(), u.cols(), w.cols(), node_count());
+  f.setZero();
+  integrals_->add_force_changes({memory_.data()}, u, w, f);
 }
 
 void Solid::evolve(const NodalVectors& u, double dt, NodalVectors& f,

@@ -70,6 +70,7 @@ class Solid final : public Body {
   const Eigen::VectorXd& row_sum_mass() const override { return row_sum_mass_; }
 
   void internal_force(const NodalVectors& u, NodalVectors& f) const override;
+  void internal_force_change(const NodalVectors& u, const NodalVectors& w, NodalVectors& f) const override;
   void evolve(
       const NodalVectors& u, double dt, NodalVectors& f,
       const std::function<void()>& shares_ready = [] {}) override;
@@ -81,6 +82,7 @@ class Solid final : public Body {
   int element_count() const override { return first_element_.back(); }
   int padded_functions() const override { return padded_; }
   void gather(int element, const NodalVectors& nodal, double* values) const override;
+  std::vector<int> element_nodes(int element) const override;
   void element_force(int element, const double* u, double* f) const override;
   const double* element_mass(int element) const override;
   double smallest_volume_ratio(int element, const double* u) const override;

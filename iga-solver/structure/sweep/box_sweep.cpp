@@ -122,8 +122,8 @@ void BoxSweep::place_memories(const SpanBox& box, std::size_t first_element, con
     }
 }
 
-void BoxSweep::reserve(SweepSpace& space) const {
-  const int most = rational_ ? 7 : 6;  // fields, of recomputed geometry
+void BoxSweep::reserve(SweepSpace& space, int further_fields) const {
+  const int most = (rational_ ? 7 : 6) + further_fields;  // of recomputed geometry
   grow(space.nodes, most * field_);
   grow(space.forces, 3 * field_);
   grow(space.planes_in, z_.most_points() * 2 * most * plane_);
@@ -217,30 +217,41 @@ double BoxSweep::tabulate(const NodalVectors& X, SweepSpace& space) {
   return pass.sums.least_det;
 }
 
-double BoxSweep::sweep_law(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
-                           int fields_out, PointLoop loop, SweepSpace& space) const {
-  const bool recomputed = mode_ == GeometryMode::recomputed;
-  read(u, read_, space.nodes.data());
-  if (recomputed) read_geometry(X, space.nodes.data() + 3 * field_);
-  Pass pass{3 + (recomputed ? geometry_fields() : 0),
-            fields_out,
-            rational_,
-            loop,
-            const_cast<double*>(table_.empty() ? nullptr : table_.data()),
-            &law};
+double BoxSweep::sweep_law(const LawAtPoints& law, const NodalVectors& X,
+                           std::initializer_list<const NodalVectors*> displacements, int fields_out,
+                           PointLoop loop, SweepSpace& space) const {
+  int fields = 0;
+  for (const NodalVectors* u : displacements) {
+    read(*u, read_, space.nodes.data() + fields * field_);
+    fields += 3;
+  }
+  if (mode_ == GeometryMode::recomputed) {
+    read_geometry(X, space.nodes.data() + fields * field_);
+    fields += geometry_fields();
+  }
+  Pass pass{
+      fields, fields_out, rational_, loop, const_cast<double*>(table_.empty() ? nullptr : table_.data()),
+      &law};
   sweep(pass, space);
   return pass.sums.sum;
 }
 
 void BoxSweep::add_forces(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
                           NodalVectors& f, SweepSpace& space) const {
-  sweep_law(law, X, u, 3, loops_->stress[law.loop], space);
+  sweep_law(law, X, {&u}, 3, loops_->stress[law.loop], space);
+  write_.add(*field_kernel_, space.forces.data(), field_, row_, weights_, f);
+}
+
+void BoxSweep::add_force_changes(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
+                                 const NodalVectors& w, NodalVectors& f, SweepSpace& space) const {
+  reserve(space, 3);
+  sweep_law(law, X, {&u, &w}, 3, loops_->stress_change[law.loop], space);
   write_.add(*field_kernel_, space.forces.data(), field_, row_, weights_, f);
 }
 
 double BoxSweep::energy(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
                         SweepSpace& space) const {
-  return sweep_law(law, X, u, 0, loops_->energy[law.loop], space);
+  return sweep_law(law, X, {&u}, 0, loops_->energy[law.loop], space);
 }
 
 PointSums BoxSweep::add_row_sums(const NodalVectors& X, double density, Eigen::VectorXd& sums,

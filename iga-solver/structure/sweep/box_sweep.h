@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -40,8 +41,8 @@ class BoxSweep {
   BoxSweep(const nurbs::Volume& patch, const PlacedBox& box, std::size_t first_element,
            const SweepPlan& plan);
 
-  /// Makes the space large enough for this box.
-  void reserve(SweepSpace& space) const;
+  /// Makes the space large enough for this box, and so many fields more than forces need.
+  void reserve(SweepSpace& space, int further_fields = 0) const;
   /// Works out stored geometry; gives the smallest |J|.
   double tabulate(const NodalVectors& X, SweepSpace& space);
 
@@ -55,6 +56,9 @@ class BoxSweep {
   /// Adds to f.
   void add_forces(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u, NodalVectors& f,
                   SweepSpace& space) const;
+  /// Adds the change of the forces along a change w of u.
+  void add_force_changes(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
+                         const NodalVectors& w, NodalVectors& f, SweepSpace& space) const;
   double energy(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u,
                 SweepSpace& space) const;
   /// Adds density times integrals of R_A to one number per column; the sum of it is the volume.
@@ -73,9 +77,11 @@ class BoxSweep {
     PointSums sums = {0.0, std::numeric_limits<double>::infinity()};
   };
   void sweep(Pass& pass, SweepSpace& space) const;
-  /// Asks the law at all points; gives the sum that its loop leaves.
-  double sweep_law(const LawAtPoints& law, const NodalVectors& X, const NodalVectors& u, int fields_out,
-                   PointLoop loop, SweepSpace& space) const;
+  /// Asks the law at all points, where it sees the gradients of `displacements`; gives the sum that its loop
+  /// leaves.
+  double sweep_law(const LawAtPoints& law, const NodalVectors& X,
+                   std::initializer_list<const NodalVectors*> displacements, int fields_out, PointLoop loop,
+                   SweepSpace& space) const;
   void sweep_plane(int z, int z_point, Pass& pass, SweepSpace& space) const;
   void do_points(const std::array<int, 4>& place, Pass& pass, double* values) const;
   void place_memories(const SpanBox& box, std::size_t first_element, const SweepPlan& plan);

@@ -33,12 +33,17 @@ double energy_density(const void* law, const double* H, const double* state) {
   return static_cast<const Material*>(law)->energy_density(Eigen::Map<const RowMajor>(H), state);
 }
 
+void stress_change(const void* law, const double* H, const double* G, const double* state, double* dP) {
+  Eigen::Map<RowMajor>{dP} = static_cast<const Material*>(law)->stress_change(
+      Eigen::Map<const RowMajor>(H), Eigen::Map<const RowMajor>(G), state);
+}
+
 }  // namespace
 
 LawCall law_call(const Material& material) { return find(material, ElasticLaws{}); }
 
 OutsideLaw outside_law(const Material& material) {
-  return {&material, stress, energy_density, nullptr, nullptr, 0.0, nullptr};
+  return {&material, stress, energy_density, stress_change, nullptr, nullptr, 0.0, nullptr};
 }
 
 }  // namespace structure

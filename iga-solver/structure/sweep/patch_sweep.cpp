@@ -50,6 +50,12 @@ void PatchSweep::add_forces(int first, int end, const PointMemory& memory, const
   for (int b = first; b < end; ++b) boxes_[b].add_forces(law, X_, u, f, space_);
 }
 
+void PatchSweep::add_force_changes(const PointMemory& memory, const NodalVectors& u, const NodalVectors& w,
+                                   NodalVectors& f) const {
+  const BoxSweep::LawAtPoints law = law_with(memory);
+  for (const BoxSweep& box : boxes_) box.add_force_changes(law, X_, u, w, f, space_);
+}
+
 void PatchSweep::add_energies(const PointMemory& memory, const NodalVectors& u, ExactSum& sum) const {
   const BoxSweep::LawAtPoints law = law_with(memory);
   for (const BoxSweep& box : boxes_) sum.add(box.energy(law, X_, u, space_));

@@ -28,6 +28,8 @@ class PatchSweep final : public Integrals {
   int box_count() const override { return static_cast<int>(boxes_.size()); }
   void add_forces(int first, int end, const PointMemory& memory, const NodalVectors& u,
                   NodalVectors& f) const override;
+  void add_force_changes(const PointMemory& memory, const NodalVectors& u, const NodalVectors& w,
+                         NodalVectors& f) const override;
   void add_energies(const PointMemory& memory, const NodalVectors& u, ExactSum& sum) const override;
   double table_bytes() const override;
 

@@ -3,6 +3,7 @@
 #include "structure/sweep/point_kernel.h"
 
 #include "nurbs/lanes.h"
+#include "structure/material/dual.h"
 #include "structure/material/law_list.h"
 
 namespace structure {
@@ -194,6 +195,26 @@ struct OutsideWord {
   }
 };
 
+/// dP of a law that kernels hold, and of one that they do not.
+template <class Law>
+[[gnu::always_inline]] inline LaneTensor change_at(const Law& law, const LaneTensor& H, const LaneTensor& G) {
+  return stress_change(law, H, G);
+}
+LaneTensor change_at(const OutsideWord& law, const LaneTensor& H, const LaneTensor& G) {
+  LaneTensor dP{};
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (law.weights[lane] == 0.0) continue;
+    double h[9], g[9], dp[9];
+    for (int k = 0; k < 9; ++k) {
+      h[k] = H.m[k / 3][k % 3][lane];
+      g[k] = G.m[k / 3][k % 3][lane];
+    }
+    law.outside.stress_change(law.outside.law, h, g, law.outside.state + law.offset[lane], dp);
+    for (int k = 0; k < 9; ++k) dP.m[k / 3][k % 3][lane] = dp[k];
+  }
+  return dP;
+}
+
 /// The law at the points of a word.
 template <class Law>
 [[gnu::always_inline]] inline const Law& law_at(const PointRow& row, int /*word*/, const Law*) {
@@ -231,6 +252,21 @@ void energy_loop(const PointRow& row, PointSums& sums) {
     energy += geometry.w_det * law_at(row, word, static_cast<const Law*>(nullptr)).energy_density(H);
   }
   for (int lane = 0; lane < kLanes; ++lane) sums.sum += energy[lane];
+}
+
+template <class Law, GeometryMode Mode, bool Rational>
+void stress_change_loop(const PointRow& row, PointSums& /*sums*/) {
+  constexpr int kThree = 3 * quantities<Mode, Rational>() * kLanes;
+  constexpr std::size_t kStride = std::size_t(fields<Mode, Rational>()) * kThree / 3 + kThree;
+  double* values = row.values;
+  for (int word = 0; word < row.words; ++word, values += kStride) {
+    PointGeometry geometry;
+    find_geometry<Mode, Rational>(row, word, values + kThree, geometry);
+    const LaneTensor H = gradient<Rational>(values, geometry);
+    const LaneTensor G = gradient<Rational>(values + kThree, geometry);
+    put_stress<Rational>(change_at(law_at(row, word, static_cast<const Law*>(nullptr)), H, G), geometry,
+                         values);
+  }
 }
 
 template <class Law, int Shift>
@@ -289,14 +325,17 @@ void mass(const PointRow& row, PointSums& sums) {
 template <GeometryMode Mode, bool Rational, class... Laws>
 constexpr PointLoops loops(LawList<Laws...>) {
   return {{stress_loop<Laws, Mode, Rational>..., stress_loop<OutsideWord, Mode, Rational>},
-          {energy_loop<Laws, Mode, Rational>..., energy_loop<OutsideWord, Mode, Rational>}};
+          {energy_loop<Laws, Mode, Rational>..., energy_loop<OutsideWord, Mode, Rational>},
+          {stress_change_loop<Laws, Mode, Rational>..., stress_change_loop<OutsideWord, Mode, Rational>}};
 }
 
 template <int Shift, class... Laws>
 constexpr PointLoops aligned_loops(LawList<Laws...>) {
   return {{aligned_stress_loop<Laws, Shift>..., aligned_stress_loop<OutsideWord, Shift>},
           {energy_loop<Laws, GeometryMode::affine, false>...,
-           energy_loop<OutsideWord, GeometryMode::affine, false>}};
+           energy_loop<OutsideWord, GeometryMode::affine, false>},
+          {stress_change_loop<Laws, GeometryMode::affine, false>...,
+           stress_change_loop<OutsideWord, GeometryMode::affine, false>}};
 }
 
 template <GeometryMode Mode>

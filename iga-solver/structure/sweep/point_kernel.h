@@ -29,6 +29,8 @@ struct OutsideLaw {
   /// P of H, both [9]; `state` is evolved to `next` first unless that is null.
   void (*stress)(const void* law, const double* H, const double* state, double* next, double dt, double* P);
   double (*energy_density)(const void* law, const double* H, const double* state);
+  /// dP of a change G of H.
+  void (*stress_change)(const void* law, const double* H, const double* G, const double* state, double* dP);
   const double* state;  ///< of the row
   double* next;
   double dt;
@@ -58,6 +60,8 @@ using PointLoop = void (*)(const PointRow& row, PointSums& sums);
 struct PointLoops {
   PointLoop stress[8];  ///< values become T
   PointLoop energy[8];  ///< adds to the sum
+  PointLoop
+      stress_change[8];  ///< behind the displacements' fields stand those of a change: values become T of it
 };
 const PointLoops& point_loops(GeometryMode mode, bool rational, nurbs::SimdLevel level);
 
