@@ -133,7 +133,7 @@ std::optional<SurfaceMaterial> IgaStructure::material() const {
 
 Work IgaStructure::work() const {
   const structure::Work work = solver_.work();
-  return {work.forces, work.loads, work.internal};
+  return {work.forces, work.loads, work.internal, work.supports};
 }
 
 std::vector<Probe> IgaStructure::probes() const {

@@ -38,12 +38,13 @@ struct Reaction {
 };
 
 /// Work since initialise_forces by the rule of the time step [energy]: a half kick by a force F
-/// that takes v to v' does dt/2 F . (v + v')/2, so kinetic energy + internal - loads - contacts is constant
-/// to round-off.
+/// that takes v to v' does dt/2 F . (v + v')/2, so kinetic energy + internal - loads - contacts - supports
+/// is constant to round-off.
 struct Work {
   double contacts = 0.0;  ///< of the contact forces on the body
   double loads = 0.0;     ///< of its own loads
   double internal = 0.0;  ///< done against internal forces
+  double supports = 0.0;  ///< of supports that move
 };
 
 class StructureSolver {

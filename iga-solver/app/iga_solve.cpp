@@ -100,10 +100,14 @@ void print_progress(long step, long steps, double time) {
 }
 
 void print_energies(const ExplicitSolver& solver) {
-  const double kinetic = solver.kinetic_energy(), strain = solver.strain_energy(), work = solver.load_work();
+  const double kinetic = solver.kinetic_energy(), strain = solver.strain_energy(), work = solver.load_work(),
+               supports = solver.work().supports;
   print_on_first(
-      "  energies at time {:.6g}: kinetic {:.8g}, strain {:.8g}, work of the loads {:.8g}, balance {:.8g}\n",
-      solver.time(), kinetic, strain, work, kinetic + strain - work);
+      "  energies at time {:.6g}: kinetic {:.8g}, strain {:.8g}, work of the loads {:.8g}{}, balance "
+      "{:.8g}\n",
+      solver.time(), kinetic, strain, work,
+      supports == 0.0 ? "" : fmt::format(", of the supports {:.8g}", supports),
+      kinetic + strain - work - supports);
 }
 
 // One step; of a solid that blows up, names the file and what is left of the run.

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <iterator>
 #include <new>
 
 #include "geometry_io/file_kind.h"
@@ -48,42 +46,10 @@ std::shared_ptr<const structure::Material> read_material(const YamlMap& map) {
   map.fail("law", fmt::format("law is '{}', expected one of: {}", name, fmt::join(known, ", ")));
 }
 
-nurbs::Face read_face(const YamlMap& map, const std::string& key, const std::string& name) {
-  try {
-    return nurbs::face_from_name(name);
-  } catch (const std::invalid_argument& error) {
-    map.fail(key, error.what());
-  }
-}
-
-FixedFaces read_fixed_faces(const YamlMap& map) {
-  map.allow_only({"name", "fix", "faces"});
-  FixedFaces fixed{{false, false, false}, {}};
-  for (const std::string& word : map.words("fix")) {
-    if (word != "x" && word != "y" && word != "z")
-      map.fail("fix", fmt::format("fix has '{}', expected a list of x, y, z", word));
-    fixed.directions[word[0] - 'x'] = true;
-  }
-  for (const std::string& name : map.words("faces")) fixed.faces.push_back(read_face(map, "faces", name));
-  if (map.has("name")) fixed.name = map.word("name");
-  return fixed;
-}
-
-std::vector<FixedFaces> read_boundary(const std::vector<YamlMap>& entries) {
-  std::vector<FixedFaces> boundary;
-  for (const YamlMap& entry : entries) {
-    boundary.push_back(read_fixed_faces(entry));
-    for (std::size_t i = 0; i + 1 < boundary.size(); ++i)
-      if (!boundary[i].name.empty() && boundary[i].name == boundary.back().name)
-        entry.fail("name", fmt::format("name '{}' is given twice, expected once", boundary[i].name));
-  }
-  return boundary;
-}
-
 structure::Probe read_probe(const YamlMap& probes, const std::string& name, const nurbs::Space<3>& space) {
   const YamlMap map = probes.map(name);
   map.allow_only({"face", "at"});
-  const nurbs::Face face = read_face(map, "face", map.word("face"));
+  const nurbs::Face face = read_face(map, "face");
   const std::vector<double> at = map.numbers("at");
   if (at.size() != 2) map.fail("at", fmt::format("at has {} numbers, expected 2 from 0 to 1", at.size()));
   try {
@@ -99,8 +65,7 @@ void read_loads(const YamlMap& map, ModelFile& model) {
   if (!map.has("tractions")) return;
   for (const YamlMap& traction : map.list_of_maps("tractions")) {
     traction.allow_only({"face", "value"});
-    model.tractions.push_back(
-        {read_face(traction, "face", traction.word("face")), traction.vector3("value")});
+    model.tractions.push_back({read_face(traction, "face"), traction.vector3("value")});
   }
 }
 
@@ -158,7 +123,8 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
                        "initial", "time", "integration"});
   ModelFile model = read_required(document, read_and_note);
   if (document.has("integration")) model.integration = read_integration(document.map("integration"));
-  if (document.has("boundary")) model.boundary = read_boundary(document.list_of_maps("boundary"));
+  if (document.has("boundary"))
+    model.boundary = read_boundary(document.list_of_maps("boundary"), model.geometry);
   if (document.has("probes")) {
     const YamlMap probes = document.map("probes");
     for (const std::string& name : probes.keys())
@@ -173,22 +139,6 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   }
   if (document.has("time")) model.time = read_time(document.map("time"));
   return model;
-}
-
-std::vector<structure::NamedSupport> ModelFile::named_supports() const {
-  std::vector<structure::NamedSupport> named;
-  structure::Supports all;
-  std::vector<Eigen::Index> before;
-  for (const FixedFaces& entry : boundary) {
-    for (const nurbs::Face face : entry.faces)
-      all.fix(structure::nodes_on(volume().space, {face}), entry.directions);
-    structure::NamedSupport support{entry.name, {}};
-    std::set_difference(all.fixed_dofs().begin(), all.fixed_dofs().end(), before.begin(), before.end(),
-                        std::back_inserter(support.dofs));
-    before = all.fixed_dofs();
-    if (!entry.name.empty()) named.push_back(std::move(support));
-  }
-  return named;
 }
 
 ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& read) {
@@ -211,14 +161,6 @@ std::unique_ptr<structure::Solid> build_solid(const ModelFile& model, const stru
   }
 }
 
-structure::Supports supports_of(const ModelFile& model) {
-  structure::Supports supports;
-  for (const FixedFaces& fixed : model.boundary)
-    for (nurbs::Face face : fixed.faces)
-      supports.fix(structure::nodes_on(model.volume().space, {face}), fixed.directions);
-  return supports;
-}
-
 struct OwnPart {
   structure::Part part;
   std::unique_ptr<structure::Solid> solid;
@@ -239,7 +181,7 @@ OwnPart build_part(const ModelFile& model, const Cut& cut) {
   try {
     own.part = structure::Partition(space, structure::box_cuts(space), cut.parts).part(cut.part);
     own.solid = build_solid(model, &own.part);
-    own.supports = supports_of(model).on(own.part.nodes);
+    own.supports = supports_of(model.boundary, model.geometry).on(own.part.nodes);
     expect_room_for_solver(own.part);
   } catch (const std::bad_alloc&) {
     problem = nurbs::out_of_memory(model.file);
@@ -257,7 +199,7 @@ structure::ExplicitSolver build_solver_at_rest(const ModelFile& model, const Cut
   }
   const nurbs::Space<3>& space = model.volume().space;
   std::vector<Eigen::Index> runs = structure::Partition(space, structure::box_cuts(space), 1).part(0).runs;
-  return {build_solid(model, nullptr), supports_of(model),
+  return {build_solid(model, nullptr), supports_of(model.boundary, model.geometry),
           std::make_unique<const structure::Halo>(std::move(runs))};
 }
 

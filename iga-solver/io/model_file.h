@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "geometry_io/geometry_io.h"
+#include "io/boundary_keys.h"
 #include "io/output_keys.h"
-#include "structure/conditions/named_support.h"
 #include "structure/conditions/probe.h"
 #include "structure/partition.h"
 #include "structure/solid/solid.h"
@@ -22,13 +22,6 @@
 namespace io {
 
 using nurbs::Vector3;
-
-/// One entry of `boundary`.
-struct FixedFaces {
-  structure::Directions directions;
-  std::vector<nurbs::Face> faces;
-  std::string name = {};  ///< empty: reactions are not recorded
-};
 
 /// One entry of `loads: tractions`: dead traction [force/length^2] on a face.
 struct FaceTraction {
@@ -47,7 +40,7 @@ struct ModelFile {
   geometry_io::GeometryFile geometry;  ///< holds one patch, a Volume
   std::shared_ptr<const structure::Material> material;
   structure::Integration integration = {};
-  std::vector<FixedFaces> boundary = {};
+  std::vector<BoundaryEntry> boundary = {};
   std::vector<structure::Probe> probes = {};  ///< in the order of the file
   std::optional<HistoryOutput> output = {};
   std::optional<Vector3> gravity = {};  ///< [length/time^2]
@@ -55,8 +48,10 @@ struct ModelFile {
   Vector3 initial_velocity = Vector3::Zero();  ///< [length/time], uniform
   std::optional<TimeSpan> time = {};
 
-  /// Those of `boundary` that have names; a degree of freedom that several entries fix is the first one's.
-  std::vector<structure::NamedSupport> named_supports() const;
+  /// Those of `boundary` that have names.
+  std::vector<structure::NamedSupport> named_supports() const {
+    return io::named_supports(boundary, geometry);
+  }
 
   const nurbs::Volume& volume() const { return std::get<nurbs::Volume>(geometry.patches.front()); }
 };

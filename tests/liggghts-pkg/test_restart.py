@@ -123,6 +123,20 @@ class Restart(unittest.TestCase):
             with self.subTest(ranks=ranks):
                 self.check_continues(self.read(reader(), restart, ranks, block=block), whole)
 
+    def test_a_support_goes_on_with_its_motion(self):
+        """Written within a ramp, by whatever number of ranks."""
+        moved = "boundary: [{move: {z: 2e-6, x: 1e-6}, faces: [zeta-], time: {ramp: [0, 4e-6]}}]"
+        block = ball_on_block_of_boxes().replace("boundary: [{fix: [x, y, z], faces: [zeta-]}]", moved)
+        self.assertIn(moved, block)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "contact"
+            deck = writer().replace("write_restart contact", f"write_restart {path}")
+            whole = decks.good(deck, files={"block.yaml": block}, ranks=2)
+            restart = path.read_bytes()
+        for ranks in (1, 2):
+            with self.subTest(ranks=ranks):
+                self.check_continues(self.read(reader(), restart, ranks, block=block), whole)
+
     def test_another_rigid_wall_is_refused(self):
         for old, new in (("[4, 4]", "[8, 4]"), ("edges: [[0.004", "edges: [[0.005"), ("degree: 2", "degree: 3")):
             with self.subTest(new):

@@ -91,6 +91,21 @@ class Supports(unittest.TestCase):
         self.assertGreater(abs(columns[26][:, 2]).max(), 0.1 * abs(columns[1]).max(), "and held")
         np.testing.assert_array_equal(columns[26][:, :2], 0)
 
+    def test_a_support_that_moves(self):
+        """The last column is its work: what the solid has and gives to the ball."""
+        moved = "boundary: [{name: ram, move: {z: 4e-5, x: 1e-6}, faces: [zeta-], time: {ramp: [1e-6, 9e-6]}}]\n"
+        model = bob.block(SIZE, density=DENSITY, fixed=()) + moved
+        deck = bob.prelude(velocity=(0.1, 0, 0), timestep=STEP, friction=0.3) + bob.wall() + bob.output(range(1, 30))
+        table = decks.good(deck + "run 1200\n", files={"block.yaml": model}).table
+        kinetic, contacts, internal, supports = (table[f"plate{column}"] for column in (15, 22, 24, 29))
+        balance = kinetic + internal - contacts - supports
+        np.testing.assert_allclose(balance, balance[0], rtol=0, atol=1e-11 * kinetic.max())
+        self.assertGreater(np.abs(contacts).max(), 1e-3 * kinetic.max(), "it hits the ball")
+        force = vector(table, "plate1", "plate2", "plate3") + vector(table, "plate26", "plate27", "plate28")
+        change = 0.5 * STEP * (force[1:] + force[:-1])
+        momentum = vector(table, "plate9", "plate10", "plate11")
+        np.testing.assert_allclose(np.diff(momentum, axis=0), change, rtol=0, atol=1e-11 * abs(momentum).max())
+
     def test_truncation_is_what_internal_work_exceeds_the_strain_by(self):
         deck = bob.prelude(timestep=STEP) + bob.wall() + bob.output(range(1, 26)) + "run 600\n"
         table = decks.good(deck, files={"block.yaml": bob.block()}).table

@@ -39,6 +39,7 @@ ExplicitSolver::ExplicitSolver(std::unique_ptr<Body> body, Supports supports,
       node_ids_(ids_of(*halo_, body_->node_count())),
       mass_(std::make_unique<LumpedMass>(whole(*halo_, body_->row_sum_mass()))),
       inverse_mass_(inverse_mass_of_dofs(*mass_, supports_)),
+      motion_(supports_, mass_->nodal_mass()),
       f_ext_(NodalVectors::Zero(3, body_->node_count())),
       f_int_(f_ext_),
       u_(f_ext_),
@@ -62,6 +63,8 @@ void ExplicitSolver::set_velocities(const NodalVectors& v) {
   check_size(v, "velocities");
   v_ = v;
   supports_.apply(v_);
+  for (const Motion& motion : supports_.motions())
+    for (const Eigen::Index dof : motion.dofs) v_.data()[dof] = v.data()[dof];
   budget_.reset();
 }
 
@@ -75,6 +78,7 @@ void ExplicitSolver::set_time_step(double dt) {
 
 void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   check_size(F, "forces");
+  motion_.place(time_, body_->reference(), u_, x_);
   body_->internal_force(led_displacements(), f_int_);
   halo_->sum_to_owners(f_int_);
   accelerate(F, 0.0);
@@ -93,6 +97,7 @@ void ExplicitSolver::begin_step() {
   }
   for (const ForceSums& run : sums_) ledger_.half_kick(run.work_from_now(0.5 * dt_));
   largest_u_ = kick_and_drift(dt_, a_, body_->reference(), v_, u_, x_);
+  motion_.place(time_ + dt_, body_->reference(), u_, x_);
 }
 
 void ExplicitSolver::add_motion(const NodalVectors& displacements, const NodalVectors& velocities) {
@@ -103,7 +108,9 @@ void ExplicitSolver::add_motion(const NodalVectors& displacements, const NodalVe
     const auto v = v_.middleCols(first, count);
     const auto momentum = gain * mass_->nodal_mass().segment(first, count).asDiagonal();
     const double energy = momentum.cwiseProduct(v + 0.5 * gain).sum();
-    ledger_.half_kick({0.0, 0.0, energy});
+    PerForce work = PerForce::Zero();
+    work[kForces] = energy;
+    ledger_.half_kick(work);
     added_energy_.add(energy);
   });
   u_ += displacements;
@@ -133,11 +140,11 @@ void ExplicitSolver::end_step(const NodalVectors& F) {
   check_size(F, "forces");
   body_->evolve(led_displacements(), dt_, f_int_, [this] { halo_->begin_sum(f_int_); });
   halo_->finish_sum(f_int_);
+  time_ += dt_;
   accelerate(F, 0.5 * dt_);
   if (added_displacements_) add_strain_energy();
   for (const ForceSums& run : sums_) ledger_.half_kick(run.work_until_now(0.5 * dt_));
   body_->commit();
-  time_ += dt_;
   check_divergence(F);
 }
 
@@ -148,21 +155,28 @@ void ExplicitSolver::change_forces(const NodalVectors& F) {
 }
 
 void ExplicitSolver::accelerate(const NodalVectors& F, double h) {
+  const bool moves = !motion_.is_empty() && dt_ > 0.0;
+  if (moves) motion_.find_velocities(time_, dt_, h > 0.0, u_, v_);
+  const NodalForces forces{f_int_, f_ext_, F};
   sums_.clear();
   halo_->for_each_run(v_.cols(), [&](Eigen::Index first, Eigen::Index count) {
-    sums_.push_back(accelerate_and_kick(h, {f_int_, f_ext_, F}, inverse_mass_, first, count, a_, v_));
+    sums_.push_back(accelerate_and_kick(h, forces, inverse_mass_, first, count, a_, v_));
+    if (moves) motion_.add_accelerations(first, count, forces, a_, sums_.back());
   });
   if (keeps_reactions_) find_reactions(F);
   halo_->owners_to_ghosts(a_);
   const Eigen::Index ghosts = v_.cols() - halo_->owned(v_.cols());
   v_.rightCols(ghosts) += h * a_.rightCols(ghosts);
+  if (moves) motion_.set_velocities(v_);
 }
 
 void ExplicitSolver::find_reactions(const NodalVectors& F) {
   const std::vector<Eigen::Index>& fixed = supports_.fixed_dofs();
   reactions_.resize(fixed.size());
-  for (std::size_t i = 0; i < fixed.size(); ++i)
-    reactions_[i] = f_int_.data()[fixed[i]] - f_ext_.data()[fixed[i]] - F.data()[fixed[i]];
+  for (std::size_t i = 0; i < fixed.size(); ++i) {
+    const double inertia = mass_->nodal_mass()[fixed[i] / 3] * a_.data()[fixed[i]];
+    reactions_[i] = inertia + f_int_.data()[fixed[i]] - f_ext_.data()[fixed[i]] - F.data()[fixed[i]];
+  }
 }
 
 Vector3 ExplicitSolver::reaction(const NamedSupport& support) const {
@@ -186,7 +200,7 @@ void ExplicitSolver::start_energy_budget() {
   constexpr double kNegligibleStrain = 1e-9;
   const Work work = ledger_.work(*halo_);
   const double strain = strain_energy(), kinetic = kinetic_energy(), kick = 0.125 * dt_ * dt_ * nodal_sum(a_);
-  kinetic_start_ = kinetic + work.internal - work.loads - work.forces;
+  kinetic_start_ = kinetic + work.internal - work.loads - work.forces - work.supports;
   if (!strain_start_) strain_start_ = strain - work.internal;
   budget_.emplace(kinetic + strain + kick, body_->material().youngs_modulus() *
                                                halo_->total(body_->volume_sum()) * kNegligibleStrain *
@@ -201,14 +215,15 @@ void ExplicitSolver::check_divergence(const NodalVectors& F) {
   enum { kPower = kForceKinds, kAdded, kPartsBeyond, kPartsStrained, kSums };
   std::array<ExactSum, kSums> sums;
   std::copy(ledger_.sums().begin(), ledger_.sums().end(), sums.begin());
-  for (const ForceSums& run : sums_) sums[kPower].add(run.f_v[kLoads] + run.f_v[kForces]);
+  for (const ForceSums& run : sums_)
+    sums[kPower].add(run.f_v[kLoads] + run.f_v[kForces] + run.f_v[kSupports]);
   sums[kAdded] = std::exchange(added_energy_, ExactSum());
   sums[kPartsBeyond].add(largest_u_ <= kLargestDisplacement ? 0.0 : 1.0);
   sums[kPartsStrained].add(watch_ && !is_too_strained_ && watch_->look(x_) ? 1.0 : 0.0);
   halo_->sum(sums.data(), sums.size());
 
-  const double kinetic =
-      kinetic_start_ + sums[kLoads].value() + sums[kForces].value() - sums[kInternal].value();
+  const double kinetic = kinetic_start_ + sums[kLoads].value() + sums[kForces].value() +
+                         sums[kSupports].value() - sums[kInternal].value();
   const double power_before = std::exchange(power_, sums[kPower].value());
   if (!starts) budget_->add(0.5 * dt_ * (power_before + power_) + sums[kAdded].value());
   if (!budget_->allows(kinetic) || sums[kPartsBeyond].value() > 0.0)

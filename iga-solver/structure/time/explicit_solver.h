@@ -19,12 +19,14 @@
 #include "structure/time/divergence.h"
 #include "structure/time/mass.h"
 #include "structure/time/stretch_watch.h"
+#include "structure/time/support_motion.h"
 #include "structure/time/verlet_update.h"
 #include "structure/time/work_ledger.h"
 
 namespace structure {
 
-/// All nodal arrays are 3 x node_count.  Fixed dofs have u = v = a = 0 and take any force.
+/// All nodal arrays are 3 x node_count.  Fixed dofs have u = v = a = 0 and take any force; moved ones go
+/// where they are told (support_motion.h).
 class ExplicitSolver {
  public:
   /// At rest, undeformed, row-sum lumped mass.  Of a body that is cut, each part has a solver, and what is
@@ -35,7 +37,7 @@ class ExplicitSolver {
   /// Constant external nodal forces f_ext [force], whole at the nodes that the part owns; throws
   /// std::invalid_argument if the size does not fit.
   void set_load(const NodalVectors& f_ext);
-  /// Current velocities [length/time], set to 0 at fixed dofs; throws as above.
+  /// Current velocities [length/time], set to 0 at fixed dofs that do not move; throws as above.
   void set_velocities(const NodalVectors& v);
   /// dt [time]; throws std::invalid_argument unless it is positive and finite.
   void set_time_step(double dt);
@@ -92,7 +94,7 @@ class ExplicitSolver {
   double largest_displacement() const;  ///< of all nodes [length]
   double kinetic_energy() const;        ///< sum m_A |v_A|^2 / 2
   double strain_energy() const;
-  /// Since initialise_forces: kinetic energy + internal - loads - forces is constant to round-off.
+  /// Since initialise_forces: kinetic energy + internal - loads - forces - supports is constant to round-off.
   Work work() const;
   double load_work()
       const;  ///< f_ext . u: kinetic + strain energy - load work is conserved without further forces
@@ -107,7 +109,7 @@ class ExplicitSolver {
   /// From the next forces on reactions are known.
   void keep_reactions() { keeps_reactions_ = true; }
   /// Force of a support on the body [force], at the time of the last forces: what its degrees of freedom need
-  /// to stay where they are, f_int - f_ext - F.  Collective.
+  /// to stay where they are, f_int - f_ext - F, or to move, m a more.  Collective.
   Vector3 reaction(const NamedSupport& support) const;
 
   /// Displacement of a point whose nodes are those of the whole body.  Collective.
@@ -159,6 +161,7 @@ class ExplicitSolver {
   std::vector<Id> node_ids_;
   std::unique_ptr<MassOperator> mass_;
   NodalVectors inverse_mass_;  // of each dof, 0 where it is fixed
+  SupportMotion motion_;
   double dt_ = 0.0, time_ = 0.0;
   double lead_ = 0.0;
   NodalVectors f_ext_, f_int_, u_, x_, v_, a_;
@@ -172,7 +175,7 @@ class ExplicitSolver {
   std::vector<double> reactions_;       // of the supports' fixed dofs
   std::optional<double> strain_start_;  // strain energy when the ledger began
   double kinetic_start_ = 0.0;          // what the ledger's work goes on from
-  double power_ = 0.0;                  // of f_ext and F [energy/time]
+  double power_ = 0.0;                  // of f_ext, F and supports [energy/time]
   std::optional<EnergyBudget> budget_;  // since state or loads were set
   mutable std::optional<double> stable_time_step_;
   std::optional<StretchWatch> watch_;  // if the stable step is known

@@ -49,8 +49,9 @@ double kick_and_drift(double dt, const NodalVectors& a, const NodalVectors& refe
 
 ForceSums accelerate_and_kick(double h, const NodalForces& f, const NodalVectors& inverse_mass,
                               Eigen::Index first, Eigen::Index count, NodalVectors& a, NodalVectors& v) {
-  Lanes f_v[kForceKinds], f_a[kForceKinds];
-  for (int k = 0; k < kForceKinds; ++k) f_v[k] = f_a[k] = Lanes::Zero();
+  constexpr int kSummed = kSupports;  // supports do no work here
+  Lanes f_v[kSummed], f_a[kSummed];
+  for (int k = 0; k < kSummed; ++k) f_v[k] = f_a[k] = Lanes::Zero();
   for_each_part(3 * first, 3 * (first + count), [&](auto width, Eigen::Index i) {
     constexpr int n = width;
     using Part = Eigen::Array<double, n, 1>;
@@ -67,7 +68,7 @@ ForceSums accelerate_and_kick(double h, const NodalForces& f, const NodalVectors
     f_a[kForces].head<n>() += forces * acceleration;
   });
   ForceSums sums;
-  for (int k = 0; k < kForceKinds; ++k) {
+  for (int k = 0; k < kSummed; ++k) {
     sums.f_v[k] = f_v[k].sum();
     sums.f_a[k] = f_a[k].sum();
   }

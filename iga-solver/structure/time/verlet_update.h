@@ -11,8 +11,8 @@ namespace structure {
 
 using nurbs::NodalVectors;
 
-/// One number for each kind of nodal forces, in this order.
-enum { kInternal, kLoads, kForces, kForceKinds };
+/// One number for each kind of nodal forces, in this order; those of supports where they move.
+enum { kInternal, kLoads, kForces, kSupports, kForceKinds };
 using PerForce = Eigen::Array<double, kForceKinds, 1>;
 
 /// Of each kind of forces f: f . v and f . a [energy/time, energy/time^2] at the end of a half kick.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The work of nodal forces by the rule of velocity Verlet: a half kick by a force F, which takes v to v',
-// does dt/2 F . (v + v')/2.  Summed so, kinetic energy + internal - loads - forces is constant to round-off,
-// whatever the forces and the step: what is left over is energy that a force brought in unseen.
+// does dt/2 F . (v + v')/2.  Summed so, kinetic energy + internal - loads - forces - supports is constant to
+// round-off, whatever the forces and the step: what is left over is energy that a force brought in unseen.
 #pragma once
 
 #include <array>
@@ -16,8 +16,9 @@ struct Work {
   /// Done against internal forces: the change of strain energy and what the material has dissipated, up to
   /// the error of the step.
   double internal = 0.0;
-  double loads = 0.0;   ///< of the external loads
-  double forces = 0.0;  ///< of somebody's forces (contact)
+  double loads = 0.0;     ///< of the external loads
+  double forces = 0.0;    ///< of somebody's forces (contact)
+  double supports = 0.0;  ///< of supports that move
 };
 
 class WorkLedger {
@@ -30,7 +31,7 @@ class WorkLedger {
   Work work(const Halo& halo) const {
     std::array<ExactSum, kForceKinds> all = sums_;
     halo.sum(all.data(), all.size());
-    return {all[kInternal].value(), all[kLoads].value(), all[kForces].value()};
+    return {all[kInternal].value(), all[kLoads].value(), all[kForces].value(), all[kSupports].value()};
   }
   /// Of this part.
   const std::array<ExactSum, kForceKinds>& sums() const { return sums_; }

@@ -44,7 +44,7 @@ TEST(ModelFile, ReadsEveryKey) {
   EXPECT_EQ(model.material->poissons_ratio(), 0.286);
   EXPECT_EQ(model.material->density(), 7850);
   ASSERT_EQ(model.boundary.size(), 2u);
-  EXPECT_THAT(model.boundary[0].faces, testing::ElementsAre(Face::xi_minus, Face::xi_plus));
+  EXPECT_THAT(model.boundary[0].where.faces, testing::ElementsAre(Face::xi_minus, Face::xi_plus));
   EXPECT_THAT(model.boundary[0].directions, testing::ElementsAre(true, true, true));
   EXPECT_THAT(model.boundary[1].directions, testing::ElementsAre(false, false, true));
   EXPECT_EQ(model.geometry.surfaces.at("top").front().face, Face::zeta_plus);

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/selection.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+namespace io {
+
+using geometry_io::GeometryFile;
+using geometry_io::YamlMap;
+using structure::NodeSet;
+
+namespace {
+
+nurbs::Face face_of(const YamlMap& map, const std::string& key, const std::string& name) {
+  try {
+    return nurbs::face_from_name(name);
+  } catch (const std::invalid_argument& error) {
+    map.fail(key, error.what());
+  }
+}
+
+std::vector<nurbs::Face> read_faces(const YamlMap& map, const std::string& key) {
+  std::vector<nurbs::Face> faces;
+  for (const std::string& name : map.words(key)) faces.push_back(face_of(map, key, name));
+  return faces;
+}
+
+/// Those of a patch; ids are its own as long as a body is of one.
+NodeSet nodes_of_patch(const Selection& selection, const nurbs::Volume& patch) {
+  if (selection.box)
+    return structure::nodes_within(patch.control_points, (*selection.box)[0], (*selection.box)[1]);
+  if (selection.on_all_of_them || selection.faces.empty())
+    return structure::nodes_on(patch.space, selection.faces);
+  NodeSet all;
+  for (const nurbs::Face face : selection.faces) {
+    const NodeSet one = structure::nodes_on(patch.space, {face}), before = std::exchange(all, {});
+    std::set_union(before.begin(), before.end(), one.begin(), one.end(), std::back_inserter(all));
+  }
+  return all;
+}
+
+std::array<Vector3, 2> read_box(const YamlMap& map) {
+  const std::vector<std::vector<double>> rows = map.table("box");
+  if (rows.size() != 2 || rows[0].size() != 3 || rows[1].size() != 3)
+    map.fail("box", "box is of another shape, expected [[x, y, z], [x, y, z]]");
+  const Vector3 low = Vector3::Map(rows[0].data()), high = Vector3::Map(rows[1].data());
+  if (!(low.array() <= high.array()).all())
+    map.fail("box", fmt::format("box is from {} to {}, expected the lowest corner first",
+                                fmt::format("({}, {}, {})", low[0], low[1], low[2]),
+                                fmt::format("({}, {}, {})", high[0], high[1], high[2])));
+  return {low, high};
+}
+
+void expect_faces(const YamlMap& map, const std::string& key, const std::vector<nurbs::Face>& faces,
+                  std::size_t count) {
+  if (faces.size() != count)
+    map.fail(key, fmt::format("{} has {} faces, expected {} that meet there", key, faces.size(), count));
+}
+
+}  // namespace
+
+std::vector<std::string> with_selection_keys(std::vector<std::string> keys) {
+  keys.insert(keys.end(), {"faces", "edge", "corner", "box", "patch"});
+  return keys;
+}
+
+nurbs::Face read_face(const YamlMap& map, const std::string& key) { return face_of(map, key, map.word(key)); }
+
+int read_patch(const YamlMap& map, const GeometryFile& geometry) {
+  return map.has("patch") ? map.integer("patch", 0, static_cast<int>(geometry.patches.size()) - 1) : 0;
+}
+
+Selection read_selection(const YamlMap& map, const GeometryFile& geometry) {
+  Selection selection{read_patch(map, geometry)};
+  std::vector<std::string> given;
+  for (const char* const key : {"faces", "edge", "corner", "box"})
+    if (map.has(key)) given.emplace_back(key);
+  if (given.size() > 1 || (given.empty() && !map.has("patch")))
+    map.fail(
+        given.empty() ? "" : given.back(),
+        fmt::format("{} where it acts, expected one of: faces, edge, corner, box (with patch, if wanted), "
+                    "or patch alone",
+                    given.empty() ? "nothing says" : "more than one key says"));
+  const std::string key = given.empty() ? "patch" : given.front();
+  if (key == "box") selection.box = read_box(map);
+  if (key == "faces" || key == "edge" || key == "corner") selection.faces = read_faces(map, key);
+  if (key == "edge") expect_faces(map, key, selection.faces, 2);
+  if (key == "corner") expect_faces(map, key, selection.faces, 3);
+  selection.on_all_of_them = key == "edge" || key == "corner";
+  if (key != "faces" && nodes_of(selection, geometry).empty())
+    map.fail(key, fmt::format("{} has no control points, expected some", key));
+  return selection;
+}
+
+NodeSet nodes_of(const Selection& selection, const GeometryFile& geometry) {
+  return nodes_of_patch(selection, std::get<nurbs::Volume>(geometry.patches[selection.patch]));
+}
+
+}  // namespace io
