@@ -311,6 +311,32 @@ ElementStore::ElementStore(const Space<2>& space, const PatchPoints& control_poi
       built_(space.element_count(), 0),
       lines_(new Line[static_cast<size_t>(space.element_count()) * lines_per_row_]) {}
 
+void ElementStore::locate(NewtonBatch& batch) const {
+  for (int i = 0; i < 2; ++i) batch.axes[i] = &axes_[i].numbers();
+  kernel_.locate(batch);
+  for (int k = 0; k < batch.count; ++k) {
+    if (batch.element[k] < 0) locate(batch, k);
+    const int index = batch.element[k];
+    if (built_[index] != version_) build(index % count(0), index / count(0), index);
+    const Element element{row(index)};
+    prefetch(element);
+    batch.row[k] = element.row;
+  }
+}
+
+// Where elements are not equal.
+void ElementStore::locate(NewtonBatch& batch, int k) const {
+  batch.element[k] = 0;
+  for (int i = 0; i < 2; ++i) {
+    const ElementAxis::Place place = axes_[i].locate(batch.xi[i][k]);
+    const AxisElement& element = axes_[i][place.e];
+    batch.element[k] += (i == 0 ? 1 : count(0)) * place.e;
+    batch.s[i][k] = place.s;
+    batch.begin[i][k] = element.begin, batch.end[i][k] = element.end;
+    batch.half_width[i][k] = element.half_width;
+  }
+}
+
 void ElementStore::homogeneous_points(const int (&e)[2], Vector4* out) const {
   static const Eigen::Matrix<double, kMaxDegree + 1, kMaxDegree + 1, Eigen::RowMajor> identity =
       Eigen::MatrixXd::Identity(kMaxDegree + 1, kMaxDegree + 1);

@@ -33,6 +33,8 @@ class ElementStore {
     Vector4 origin() const { return {row[0], row[1], row[2], 0.0}; }
     double size() const { return row[3]; }  ///< length of the half extents, roughly
   };
+  /// Elements of all points of a batch, and where in them these start, from its xi.  They are being fetched.
+  void locate(NewtonBatch& batch) const;
   Element element(const int (&e)[2]) const { return element(e[0], e[1]); }
   Element element(int e0, int e1) const {
     const int index = e0 + count(0) * e1;
@@ -57,6 +59,7 @@ class ElementStore {
 
   double* row(int index) const { return lines_[static_cast<size_t>(index) * lines_per_row_].numbers; }
   void build(int e0, int e1, int index) const;
+  void locate(NewtonBatch& batch, int k) const;
 
   const Space<2>& space_;
   ElementAxis axes_[2];

@@ -6,10 +6,9 @@ namespace search {
 ElementAxis::ElementAxis(const Space<2>& space, int direction)
     : knots_(space.knots(direction)),
       count_(knots_.element_count()),
-      front_(knots_.front()),
-      elements_per_length_(count_ / (knots_.back() - knots_.front())),
-      last_(count_ - 1),
-      elements_(count_) {
+      elements_(count_),
+      numbers_{knots_.front(), knots_.back(), count_ / (knots_.back() - knots_.front()), count_ - 1.0,
+               &elements_[0].begin} {
   const std::vector<double>&breaks = knots_.breaks(), &creases = knots_.creases();
   int crease = 0;
   for (int e = 0; e < count_; ++e) {

@@ -5,16 +5,18 @@
 // of space loses no digits.  Polynomial patches have no W.  Source: Piegl & Tiller (1997), section 6.6.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "search/names.h"
+#include "search/power_kernel.h"
 
 namespace search {
 
 /// (A_x, A_y, A_z, W), or (A_x, A_y, A_z, 0) where the patch is polynomial.
 using Vector4 = Eigen::Array4d;
 
-/// One element of one direction.
+/// One element of one direction: eight numbers, of which kernels read four.
 struct AxisElement {
   double begin, end;  ///< its knots
   double half_width;  ///< d xi / d s
@@ -27,20 +29,24 @@ struct AxisElement {
   double parameter(double s) const {
     return s <= -1.0 ? begin : s >= 1.0 ? end : begin + half_width * (1.0 + s);
   }
-  /// Whether a parameter of the element is that of the patch's end (it may be, by rounding, where |s| < 1).
-  bool at_patch_end(double xi) const { return (at_end[0] && xi == begin) || (at_end[1] && xi == end); }
   /// The coordinate s nearest to xi.
   double local(double xi) const {
     return xi <= begin ? -1.0 : xi >= end ? 1.0 : (xi - begin) * per_half_width - 1.0;
   }
 };
+static_assert(sizeof(AxisElement) == 8 * sizeof(double), "the rows of AxisNumbers");
 
 /// The elements of one direction.
 class ElementAxis {
  public:
   ElementAxis(const Space<2>& space, int direction);
+  ElementAxis(const ElementAxis&) = delete;
+  ElementAxis& operator=(const ElementAxis&) = delete;
   int count() const { return count_; }
   const AxisElement& operator[](int e) const { return elements_[e]; }
+  const AxisNumbers& numbers() const { return numbers_; }
+  /// Whether a parameter is that of an end of the patch (it may be, by rounding, where |s| < 1).
+  bool at_patch_end(double xi) const { return xi <= numbers_.front || numbers_.back <= xi; }
   struct Place {
     int e;
     double s;
@@ -48,8 +54,8 @@ class ElementAxis {
   /// The element of a parameter (KnotVector::element_at), and where in it.
   Place locate(double xi) const {
     // As if all elements were equal; a search where they are not.
-    const double place = (xi - front_) * elements_per_length_;
-    const int e = place < last_ ? (place > 0.0 ? static_cast<int>(place) : 0) : count_ - 1;
+    const double place = (xi - numbers_.front) * numbers_.elements_per_length;
+    const int e = static_cast<int>(std::min(std::max(0.0, place), numbers_.last));
     const AxisElement& element = elements_[e];
     if (element.begin <= xi && xi < element.end)
       return {e, (xi - element.begin) * element.per_half_width - 1.0};
@@ -61,8 +67,8 @@ class ElementAxis {
 
   const KnotVector& knots_;
   int count_;
-  double front_, elements_per_length_, last_;
   std::vector<AxisElement> elements_;
+  AxisNumbers numbers_;
 };
 
 }  // namespace search

@@ -227,17 +227,68 @@ void newton(int p, int q, const double* element, const double* point, double s0,
   end.done = foot.done;
 }
 
+/// In one direction, from number `first` on: the elements of parameters.  Returns where they are the right
+/// ones.
+[[gnu::always_inline]] inline LaneMask locate(const AxisNumbers& axis, const Lanes& xi, int i, int first,
+                                              NewtonBatch& batch, LaneIndices& e) {
+  const Lanes place = larger((xi - axis.front) * axis.elements_per_length, Lanes{}),
+              last = axis.last + Lanes{};
+  e = __builtin_convertvector(place < last ? place : last, LaneIndices);
+  Vector4 rows[kLanes];
+  Lanes numbers[4];
+  for (int lane = 0; lane < kLanes; ++lane) rows[lane] = load(axis.elements + 8 * e[lane]);
+  transpose(rows, numbers);
+  const Lanes &begin = numbers[0], &end = numbers[1], &per_half_width = numbers[3];
+  store(begin, batch.begin[i] + first);
+  store(end, batch.end[i] + first);
+  store(numbers[2], batch.half_width[i] + first);
+  store((xi - begin) * per_half_width - 1.0, batch.s[i] + first);
+  return begin <= xi && xi < end;
+}
+
+void locate(NewtonBatch& batch) {
+  for (int k = batch.count; k % kLanes != 0; ++k)  // lanes not used repeat the first point
+    for (auto& xi : batch.xi) xi[k] = xi[0];
+  const auto n = static_cast<int>(batch.axes[0]->last) + 1;
+  for (int first = 0; first < batch.count; first += kLanes) {
+    LaneIndices e[2];
+    LaneMask right{};
+    for (int i = 0; i < 2; ++i) {
+      const LaneMask here = locate(*batch.axes[i], load_lanes(batch.xi[i] + first), i, first, batch, e[i]);
+      right = i == 0 ? here : right && here;
+    }
+    store(e[0] + n * e[1], batch.element + first);
+    if (any(!right))
+      for (int lane = 0; lane < kLanes; ++lane)
+        if (!right[lane]) batch.element[first + lane] = -1;
+  }
+}
+
+/// Parameters of feet, and on how many ends of the patch they lie.
+[[gnu::always_inline]] inline void take_parameters(const Lanes (&s)[2], int first, NewtonBatch& batch) {
+  LaneMask borders{};
+  for (int i = 0; i < 2; ++i) {
+    const Lanes end = load_lanes(batch.end[i] + first),
+                inside = load_lanes(batch.begin[i] + first) +
+                         load_lanes(batch.half_width[i] + first) * (1.0 + s[i]),
+                xi = end < inside ? end : inside;
+    borders += count(xi <= batch.axes[i]->front || batch.axes[i]->back <= xi);
+    store(xi, batch.xi[i] + first);
+  }
+  store(borders, batch.borders + first);
+}
+
 template <int P, int Q, bool Rational>
 void newton_batch(int p, int q, NewtonBatch& batch) {
   for (int k = batch.count; k % kLanes != 0; ++k) {  // lanes not used repeat the first point
-    batch.element[k] = batch.element[0];
+    batch.row[k] = batch.row[0];
     for (auto& d : batch.d) d[k] = d[0];
     for (auto& s : batch.s) s[k] = s[0];
   }
   for (int first = 0; first < batch.count; first += kLanes) {
     const LaneVector d{load_lanes(batch.d[0] + first), load_lanes(batch.d[1] + first),
                        load_lanes(batch.d[2] + first)};
-    const LaneElements<P, Q, Rational> surface(p, q, batch.element + first, d);
+    const LaneElements<P, Q, Rational> surface(p, q, batch.row + first, d);
     Lanes s[2] = {load_lanes(batch.s[0] + first), load_lanes(batch.s[1] + first)};
     const auto foot = newton(surface, s);
     store(foot.done, batch.done + first);
@@ -248,6 +299,7 @@ void newton_batch(int p, int q, NewtonBatch& batch) {
     store(d.y + foot.r.y, batch.foot[1] + first);
     store(d.z + foot.r.z, batch.foot[2] + first);
     store(root(foot.distance2), batch.distance + first);
+    take_parameters(foot.s, first, batch);
   }
 }
 
@@ -259,7 +311,8 @@ ElementKernel kernel(int p, int q) {
           build<P, Q, Rational>,
           evaluate<P, Q, Rational>,
           newton<P, Q, Rational>,
-          newton_batch<P, Q, Rational>};
+          newton_batch<P, Q, Rational>,
+          locate};
 }
 
 template <bool Rational>

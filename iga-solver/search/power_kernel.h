@@ -49,17 +49,33 @@ struct NewtonEnd {
   bool done;                   ///< the foot is found
 };
 
+/// The elements of one direction.
+struct AxisNumbers {
+  double front, back;                ///< parameters of the patch's ends
+  double elements_per_length, last;  ///< as if all elements were equal; the number of the last
+  const double* elements;  ///< of each begin, end, half width and its inverse, and four more numbers
+};
+
 /// Many iterations, number by number.
 struct NewtonBatch {
   static constexpr int kCapacity = 64;  // a multiple of the length of every word
 
   int count;
-  const double* element[kCapacity];
-  alignas(64) double d[3][kCapacity], s[2][kCapacity];  ///< s: where to start; then as in NewtonEnd
-  double next[2][kCapacity], foot[3][kCapacity], distance[kCapacity];
-  long long iterations[kCapacity], done[kCapacity];
+  const AxisNumbers* axes[2];
+  alignas(64) double d[3][kCapacity];
+  double xi[2][kCapacity];  ///< parameters where to start; then the foot's, if there is one
 
-  NewtonEnd end(int k) const {
+  // What locate() makes of xi; element: e_0 + n_0 e_1, or -1 where elements are not equal.
+  int element[kCapacity];
+  double s[2][kCapacity], begin[2][kCapacity], end[2][kCapacity], half_width[2][kCapacity];
+
+  const double* row[kCapacity];  ///< of the element
+
+  // As in NewtonEnd (s, too); borders: on how many ends of the patch the foot lies.
+  double next[2][kCapacity], foot[3][kCapacity], distance[kCapacity];
+  long long iterations[kCapacity], done[kCapacity], borders[kCapacity];
+
+  NewtonEnd newton_end(int k) const {
     return {{foot[0][k], foot[1][k], foot[2][k]}, distance[k], {s[0][k], s[1][k]}, {next[0][k], next[1][k]},
             static_cast<int>(iterations[k]),      done[k] != 0};
   }
@@ -83,6 +99,8 @@ struct ElementKernel {
   void (*newton)(int p, int q, const double* element, const double* d, double s0, double s1, NewtonEnd& end);
   /// The same for many points, several in a SIMD word, each in any element.
   void (*newton_batch)(int p, int q, NewtonBatch& batch);
+  /// Elements and local coordinates where they start, as ElementAxis::locate finds them.
+  void (*locate)(NewtonBatch& batch);
 };
 
 /// Throws std::invalid_argument if this machine does not have the instruction set.

@@ -20,6 +20,7 @@ struct Word {
   typedef double Numbers __attribute__((vector_size(8 * N)));
 };
 typedef decltype(Lanes{} < Lanes{}) LaneMask;
+typedef int LaneIndices __attribute__((vector_size(4 * kLanes)));
 /// Coordinates of kLanes points.
 struct LaneVector {
   Lanes x, y, z;

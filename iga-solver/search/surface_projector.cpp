@@ -78,9 +78,8 @@ Foot SurfaceProjector::foot_of(const Vector3& d, const DescentResult& found) con
   Foot result;
   int borders = 0;
   for (int i = 0; i < 2; ++i) {
-    const AxisElement& element = elements_.axis(i, found.at.e[i]);
-    result.xi[i] = element.parameter(found.at.s[i]);
-    if (element.at_patch_end(result.xi[i]) || found.crease[i]) ++borders;
+    result.xi[i] = elements_.axis(i, found.at.e[i]).parameter(found.at.s[i]);
+    if (elements_.axis(i).at_patch_end(result.xi[i]) || found.crease[i]) ++borders;
   }
   result.point = d + found.r;
   result.distance = found.r.norm();
@@ -159,33 +158,16 @@ Foot SurfaceProjector::minimum_or_global(const Vector3& d, const DescentResult& 
 void SurfaceProjector::warm_batch(const Vector3* d, Foot* const* feet, int count) const {
   const ElementKernel& kernel = elements_.kernel();
   NewtonBatch batch;
-  int e[NewtonBatch::kCapacity][2];
   for (int first = 0; first < count; first += batch.count) {
     batch.count = std::min(NewtonBatch::kCapacity, count - first);
     for (int k = 0; k < batch.count; ++k) {
       const Foot& foot = *feet[first + k];
-      for (int i = 0; i < 2; ++i) {
-        const ElementAxis::Place place = elements_.axis(i).locate(foot.xi[i]);
-        e[k][i] = place.e, batch.s[i][k] = place.s;
-      }
-      const ElementStore::Element element = elements_.element(e[k]);
-      elements_.prefetch(element);
-      batch.element[k] = element.row;
       for (int c = 0; c < 3; ++c) batch.d[c][k] = d[first + k][c] - foot.image[c];
+      for (int i = 0; i < 2; ++i) batch.xi[i][k] = foot.xi[i];
     }
+    elements_.locate(batch);
     kernel.newton_batch(kernel.p, kernel.q, batch);
-    for (int k = 0; k < batch.count; ++k) {
-      Foot& foot = *feet[first + k];
-      if (batch.done[k] == 0) {
-        foot = placed(warm_beyond(d[first + k] - foot.image, start(foot.xi), batch.end(k)), foot.patch,
-                      foot.image);
-        continue;
-      }
-      for (int c = 0; c < 3; ++c) foot.point[c] = batch.foot[c][k] + foot.image[c];
-      foot.distance = batch.distance[k];
-      foot.iterations = static_cast<int>(batch.iterations[k]);
-      take_parameters(e[k], {batch.s[0][k], batch.s[1][k]}, foot);
-    }
+    for (int k = 0; k < batch.count; ++k) take_foot(batch, k, d[first + k], *feet[first + k]);
   }
 }
 

@@ -124,9 +124,21 @@ class SurfaceProjector {
     for (int i = 0; i < 2; ++i) {
       const AxisElement& element = elements_.axis(i, e[i]);
       out.xi[i] = std::min(element.begin + element.half_width * (1.0 + s[i]), element.end);
-      if (e[i] == 0 || e[i] == elements_.count(i) - 1) borders += element.at_patch_end(out.xi[i]);
+      borders += elements_.axis(i).at_patch_end(out.xi[i]);
     }
     out.status = kByBorders[borders];
+  }
+  // The k-th of a batch.
+  void take_foot(const NewtonBatch& batch, int k, const Vector3& d, Foot& foot) const {
+    if (batch.done[k] == 0) {
+      foot = placed(warm_beyond(d - foot.image, start(foot.xi), batch.newton_end(k)), foot.patch, foot.image);
+      return;
+    }
+    for (int i = 0; i < 2; ++i) foot.xi[i] = batch.xi[i][k];
+    for (int c = 0; c < 3; ++c) foot.point[c] = batch.foot[c][k] + foot.image[c];
+    foot.distance = batch.distance[k];
+    foot.status = kByBorders[batch.borders[k]];
+    foot.iterations = static_cast<int>(batch.iterations[k]);
   }
   Foot foot_of(const Vector3& d, const DescentResult& found) const;
   bool go_on(const Vector3& d, Start& start, NewtonEnd& end) const;

@@ -5,7 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "feet.h"
 #include "trial_surfaces.h"
@@ -86,6 +88,42 @@ TEST(SimdLevel, BatchesFindTheFeetOfSinglePoints) {
   }
   EXPECT_GT(inside, points / 3);
   EXPECT_LT(inside, points);
+}
+
+// The same of guesses on the ends of the patch, beyond them, a bit from its knots, and of none at all.
+TEST(SimdLevel, BatchesStartWhereSinglePointsDo) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const KnotVector equal = KnotVector::uniform(2, 7, 0.1, 0.8),
+                   graded = KnotVector::from_breaks(3, {0.1, 0.11, 0.13, 0.17, 0.3, 0.8});
+  std::seed_seq seeds{43};
+  shapes::Random random(seeds);
+  for (const auto& [u, v] : {std::pair{equal, graded}, std::pair{graded, equal}, std::pair{equal, equal}}) {
+    const Surface hills = shapes::random_hills(random, {u, v}, 0.1, false);
+    std::vector<double> xi[2];
+    for (int i = 0; i < 2; ++i) {
+      xi[i] = {-kInfinity, -3.0, 5.0, kInfinity, std::nan("")};
+      for (const double knot : hills.space.knots(i).breaks())
+        for (const double to : {-kInfinity, knot, kInfinity}) xi[i].push_back(std::nextafter(knot, to));
+    }
+    std::vector<Parameter<2>> guesses;
+    for (const double xi_0 : xi[0])
+      for (const double xi_1 : xi[1]) guesses.push_back({xi_0, xi_1});
+    const std::vector<Vector3> d(guesses.size(), Vector3(0.45, 0.45, 0.3));
+    for (const SimdLevel level : levels()) {
+      const SurfaceProjector projector(hills.space, hills.control_points, level);
+      const std::vector<Foot> batch = closest_from(projector, d, guesses);
+      for (size_t i = 0; i < guesses.size(); ++i) {
+        const Foot one = projector.warm(d[i], guesses[i]);
+        SCOPED_TRACE(testing::Message()
+                     << name(level) << ", guess " << guesses[i][0] << " " << guesses[i][1]);
+        EXPECT_EQ(batch[i].status, one.status);
+        EXPECT_EQ(batch[i].iterations, one.iterations);
+        if (one.status == FootStatus::not_converged) continue;
+        EXPECT_EQ(batch[i].xi, one.xi);
+        EXPECT_EQ(batch[i].point, one.point);
+      }
+    }
+  }
 }
 
 TEST(SimdLevel, LevelsAgree) {
