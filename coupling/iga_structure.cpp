@@ -126,6 +126,11 @@ void IgaStructure::set_time_step(double dt) {
   solver_.set_time_step(dt);
 }
 
+void IgaStructure::set_gravity(const Vector3& g) {
+  solver_.set_load(load_without_gravity_ + g * solver_.mass().nodal_mass().transpose());
+  gravity_ = g;
+}
+
 std::optional<SurfaceMaterial> IgaStructure::material() const {
   const structure::Material& material = solver_.body().material();
   return SurfaceMaterial{material.youngs_modulus(), material.poissons_ratio()};
@@ -133,7 +138,7 @@ std::optional<SurfaceMaterial> IgaStructure::material() const {
 
 Work IgaStructure::work() const {
   const structure::Work work = solver_.work();
-  return {work.forces, work.loads, work.internal, work.supports};
+  return {work.forces, work.loads, work.internal, work.supports, work.damped};
 }
 
 std::vector<Probe> IgaStructure::probes() const {

@@ -58,6 +58,10 @@ class IgaStructure final : public StructureSolver {
   Vector3 linear_momentum() const override { return solver_.linear_momentum(); }
   Vector3 angular_momentum(const Vector3& about) const override { return solver_.angular_momentum(about); }
   std::optional<SurfaceMaterial> material() const override;
+  /// From now on set_gravity adds to the loads that there are.
+  void take_gravity_of_deck() { load_without_gravity_ = solver_.load(); }
+  bool takes_gravity_of_deck() const override { return load_without_gravity_.size() > 0; }
+  void set_gravity(const Vector3& g) override;
   std::optional<Vector3> gravity() const override { return gravity_; }
   std::vector<Probe> probes() const override;
   double truncation() const override { return solver_.truncation(solver_.strain_energy()); }
@@ -79,6 +83,7 @@ class IgaStructure final : public StructureSolver {
   std::vector<structure::Probe> probes_;
   std::vector<structure::NamedSupport> named_supports_;
   std::optional<Vector3> gravity_;
+  NodalVectors load_without_gravity_;  // if that is the deck's
   std::optional<parallel::SharedHistory> history_;
   std::optional<parallel::SharedFields> fields_;
 };

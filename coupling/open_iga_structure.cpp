@@ -12,6 +12,12 @@ namespace coupling {
 
 namespace {
 
+/// If it is known, so that a deck's need not be missed.
+std::optional<Vector3> gravity_of(const io::ModelFile& model) {
+  if (!model.loads.gravity || model.loads.gravity->of_the_deck) return std::nullopt;
+  return model.loads.gravity->value;
+}
+
 OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface) {
   const io::ModelFile model = io::read_model_file(path, reader_on_all_ranks(comm));
   geometry_io::named_surface(model.geometry, surface, path);  // complains about a name that is not there
@@ -20,7 +26,8 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
     skin.push_back({piece.patch, *piece.face});
   const io::Cut cut = parallel::cut_among(comm);
   auto solver = std::make_unique<IgaStructure>(io::build_solver(model, cut), std::move(skin), model.probes,
-                                               model.gravity, cut.parts > 1);
+                                               gravity_of(model), cut.parts > 1);
+  if (model.loads.gravity && model.loads.gravity->of_the_deck) solver->take_gravity_of_deck();
   solver->watch(model.named_supports());
   if (model.output)
     solver->write_history(parallel::SharedHistory(comm, *model.output, model.geometry.units, model.probes,

@@ -38,13 +38,14 @@ struct Reaction {
 };
 
 /// Work since initialise_forces by the rule of the time step [energy]: a half kick by a force F
-/// that takes v to v' does dt/2 F . (v + v')/2, so kinetic energy + internal - loads - contacts - supports
-/// is constant to round-off.
+/// that takes v to v' does dt/2 F . (v + v')/2, so kinetic energy + internal + damped - loads - contacts -
+/// supports is constant to round-off.
 struct Work {
   double contacts = 0.0;  ///< of the contact forces on the body
   double loads = 0.0;     ///< of its own loads
   double internal = 0.0;  ///< done against internal forces
   double supports = 0.0;  ///< of supports that move
+  double damped = 0.0;    ///< taken by damping
 };
 
 class StructureSolver {
@@ -113,6 +114,9 @@ class StructureSolver {
   virtual Vector3 angular_momentum(const Vector3& about) const = 0;  ///< sum (x_A - about) x m_A v_A
   virtual std::optional<SurfaceMaterial> material() const = 0;
   /// Gravity among its own loads [length/time^2]; nothing if they have none.
+  /// Whether its gravity shall be the deck's, which is then set before each run.
+  virtual bool takes_gravity_of_deck() const { return false; }
+  virtual void set_gravity(const Vector3& /*g*/) {}
   virtual std::optional<Vector3> gravity() const { return std::nullopt; }
   virtual std::vector<Probe> probes() const = 0;
   /// At the time of the last forces; always the same supports.

@@ -147,6 +147,7 @@ void FixWallNurbs::setup(int vflag) {
   structure_.begin_run();  // not in init: LIGGGHTS knows only now which computes its variables need
   loop_.wall().import();
   FixWallGran::setup(vflag);  // pre_neighbor, pre_force, post_force
+  or_fail([&] { liggghts_pkg::give_gravity(*modify, structure_, options_.file); });
   if (structure_.moves()) in_step([&] { structure_.initialise_forces(*nodal_forces_); });
   if (output_ && output_->at_beginning()) end_of_step();
   const std::string missing = liggghts_pkg::missing_gravity(*modify, structure_, options_.file);

@@ -11,7 +11,7 @@ using contact::WallContact;
 namespace {
 
 // In this order: the first of ContactTotals, the structure, its probes (three each), power, work, truncation,
-// reactions of supports (three each), work of supports.
+// reactions of supports (three each), work of supports, energy damped.
 constexpr int kTotalColumns = offsetof(ContactTotals, power) / sizeof(double);
 constexpr int kStructureColumns = 9;
 constexpr int kWorkColumns = 3;
@@ -20,7 +20,7 @@ static_assert(offsetof(WallContact, torque) == WallColumns::kLocalColumns * size
 
 }  // namespace
 
-int WallColumns::count() const { return power_column() + 1 + kWorkColumns + 1 + 3 * supports_ + 1; }
+int WallColumns::count() const { return power_column() + 1 + kWorkColumns + 1 + 3 * supports_ + 2; }
 
 int WallColumns::power_column() const { return kTotalColumns + kStructureColumns + 3 * probes_; }
 
@@ -28,7 +28,8 @@ double WallColumns::operator[](int column) {
   const int power = power_column(), after_work = column - (power + 1 + kWorkColumns);
   if (column == power) return totals().power;
   if (after_work == 0) return structure_.truncation();
-  if (after_work > 3 * supports_) return structure_.work().supports;
+  if (after_work == 3 * supports_ + 1) return structure_.work().supports;
+  if (after_work == 3 * supports_ + 2) return structure_.work().damped;
   if (after_work > 0) return structure_.reactions()[(after_work - 1) / 3].force[(after_work - 1) % 3];
   if (column > power) {
     const coupling::Work work = structure_.work();

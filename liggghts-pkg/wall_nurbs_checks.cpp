@@ -91,21 +91,46 @@ void check_wall_material(LAMMPS_NS::Modify& modify, int wall_type,
   check_property(modify, "poissonsRatio", wall_type, material->poissons_ratio, file);
 }
 
-std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::StructureSolver& structure,
-                            const std::string& file) {
-  if (!structure.deforms() || structure.gravity()) return "";
-  double sum[3] = {0.0, 0.0, 0.0};
+namespace {
+
+struct Gravities {
+  coupling::Vector3 sum = coupling::Vector3::Zero();
   std::vector<std::string> ids;
   bool varies = false;
+};
+
+Gravities gravities_of(const LAMMPS_NS::Modify& modify) {
+  Gravities all;
   for (int i = 0; i < modify.nfix; ++i) {
     if (std::strcmp(modify.fix[i]->style, "gravity") != 0) continue;
     auto* const gravity = static_cast<LAMMPS_NS::FixGravity*>(modify.fix[i]);
     double g[3];
     gravity->get_gravity(g);
-    for (int d = 0; d < 3; ++d) sum[d] += g[d];
-    ids.emplace_back(gravity->id);
-    varies |= DeckGravity::varies(*gravity);
+    all.sum += coupling::Vector3::Map(g);
+    all.ids.emplace_back(gravity->id);
+    all.varies |= DeckGravity::varies(*gravity);
   }
+  return all;
+}
+
+}  // namespace
+
+void give_gravity(const LAMMPS_NS::Modify& modify, coupling::StructureSolver& structure,
+                  const std::string& file) {
+  if (!structure.takes_gravity_of_deck()) return;
+  const Gravities deck = gravities_of(modify);
+  if (deck.varies)
+    throw std::invalid_argument(
+        fmt::format("fix gravity (id {}) varies, and '{}' has 'gravity: deck', expected a constant one, or a "
+                    "vector there",
+                    fmt::join(deck.ids, ", "), file));
+  structure.set_gravity(deck.sum);
+}
+
+std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::StructureSolver& structure,
+                            const std::string& file) {
+  if (!structure.deforms() || structure.gravity()) return "";
+  const auto [sum, ids, varies] = gravities_of(modify);
   const std::string whose = fmt::format("fix gravity (id {}) acts on particles alone", fmt::join(ids, ", "));
   if (varies)
     return fmt::format(

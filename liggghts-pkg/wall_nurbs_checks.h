@@ -31,6 +31,11 @@ void check_run_style(const LAMMPS_NS::Update& update);
 void check_wall_material(LAMMPS_NS::Modify& modify, int wall_type,
                          const std::optional<coupling::SurfaceMaterial>& material, const std::string& file);
 
+/// Gives the solid the sum of the deck's gravities, if its file says so.  In setup, before its first forces.
+/// Throws std::invalid_argument if one of them varies.
+void give_gravity(const LAMMPS_NS::Modify& modify, coupling::StructureSolver& structure,
+                  const std::string& file);
+
 /// What to tell the user if `fix gravity` pulls at the particles, and nothing at the solid that they hit: the
 /// line that its file lacks.  Empty if all is well.  In setup: the deck's gravity is known only then.
 std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::StructureSolver& structure,

@@ -41,6 +41,7 @@ LIBRARIES = {
     r"mpi\.h": "MPI::MPI_C",
     r"hdf5\.h": "hdf5::hdf5",
     r"pugixml\.hpp": "pugixml::pugixml",
+    r"muParser\.h": "muparser::muparser",
     r"yaml-cpp/": "yaml-cpp",
     r"fmt/": "fmt::fmt",
     r"Eigen/": "Eigen3::Eigen",

@@ -100,14 +100,17 @@ void print_progress(long step, long steps, double time) {
 }
 
 void print_energies(const ExplicitSolver& solver) {
+  const structure::Work ledger = solver.work();
   const double kinetic = solver.kinetic_energy(), strain = solver.strain_energy(), work = solver.load_work(),
-               supports = solver.work().supports;
+               supports = ledger.supports, damped = ledger.damped;
+  const auto column = [](const char* name, double energy) {
+    return energy == 0.0 ? "" : fmt::format(", {} {:.8g}", name, energy);
+  };
   print_on_first(
-      "  energies at time {:.6g}: kinetic {:.8g}, strain {:.8g}, work of the loads {:.8g}{}, balance "
+      "  energies at time {:.6g}: kinetic {:.8g}, strain {:.8g}, work of the loads {:.8g}{}{}, balance "
       "{:.8g}\n",
-      solver.time(), kinetic, strain, work,
-      supports == 0.0 ? "" : fmt::format(", of the supports {:.8g}", supports),
-      kinetic + strain - work - supports);
+      solver.time(), kinetic, strain, work, column("of the supports", supports), column("damped", damped),
+      kinetic + strain + damped - work - supports);
 }
 
 // One step; of a solid that blows up, names the file and what is left of the run.
@@ -130,6 +133,9 @@ io::ModelFile read(const Options& options) {
 
 void run(const Options& options) {
   const io::ModelFile model = read(options);
+  if (model.loads.gravity && model.loads.gravity->of_the_deck)
+    throw std::runtime_error(
+        fmt::format("{}: loads.gravity is deck, expected a vector: there is no deck here", model.file));
   const double end = end_time(options, model);
   ExplicitSolver solver = io::build_solver(model, parallel::cut_among(MPI_COMM_WORLD));
   if (!options.quiet) print_model(model, solver);

@@ -105,6 +105,7 @@ void YamlMap::allow_only(const std::vector<std::string>& allowed) const {
 }
 
 bool YamlMap::has(const std::string& key) const { return find(key) != nullptr; }
+bool YamlMap::is_map(const std::string& key) const { return value(key).kind == Kind::map; }
 bool YamlMap::is_list(const std::string& key) const { return value(key).kind == Kind::list; }
 
 std::vector<std::string> YamlMap::keys() const {

@@ -36,6 +36,7 @@ class YamlMap {
   bool has(const std::string& key) const;
   /// Whether the key's value is a list.
   bool is_list(const std::string& key) const;
+  bool is_map(const std::string& key) const;
   /// InputError if a key is given twice.
   std::vector<std::string> keys() const;
   int line() const;  ///< 1-based

@@ -7,6 +7,8 @@
 #include <iterator>
 
 #include "io/time_keys.h"
+#include "structure/conditions/columns.h"
+#include "structure/conditions/loads.h"
 
 namespace io {
 
@@ -54,6 +56,23 @@ void read_motion(const YamlMap& entry, BoundaryEntry& support) {
   support.time = read_time_function(entry);
 }
 
+/// k in all directions, or along one: k d d^T.
+void read_spring(const YamlMap& entry, BoundaryEntry& support) {
+  const YamlMap map = entry.map("spring");
+  map.allow_only({"stiffness", "direction", "per"});
+  const double k = map.number("stiffness", geometry_io::positive());
+  support.spring = k * structure::Stiffness3::Identity();
+  if (map.has("direction")) {
+    const Vector3 d = map.vector3("direction");
+    if (!(d.norm() > 0.0)) map.fail("direction", "direction is [0, 0, 0], expected one");
+    support.spring = k / d.squaredNorm() * d * d.transpose();
+  }
+  const bool on_faces = entry.has("faces");
+  support.per_area = map.has("per") ? map.word_of("per", {"area", "node"}) == "area" : on_faces;
+  if (support.per_area && !on_faces)
+    map.fail("per", "per is area, expected 'faces' to have one, or per: node");
+}
+
 BoundaryEntry read_entry(const YamlMap& map, const GeometryFile& geometry) {
   BoundaryEntry entry{map.has("name") ? map.word("name") : "", {}, {false, false, false}};
   if (map.has("symmetry")) {
@@ -62,16 +81,14 @@ BoundaryEntry read_entry(const YamlMap& map, const GeometryFile& geometry) {
     entry.directions = read_symmetry(map, entry.where, geometry);
     return entry;
   }
-  map.allow_only(with_selection_keys({"name", "fix", "symmetry", "move", "time"}));
-  if (map.has("fix") == map.has("move"))
-    map.fail(map.has("fix") ? "move" : "",
-             fmt::format("{} of 'fix', 'move', 'symmetry', expected one", map.has("fix") ? "two" : "none"));
-  if (map.has("fix") && map.has("time"))
-    map.fail("time", "time is given for what is fixed, expected it with 'move'");
-  if (map.has("fix"))
-    entry.directions = read_directions(map);
-  else
-    read_motion(map, entry);
+  map.allow_only(with_selection_keys({"name", "fix", "symmetry", "move", "spring", "time"}));
+  const int kinds = int(map.has("fix")) + int(map.has("move")) + int(map.has("spring"));
+  if (kinds != 1) map.fail("", fmt::format("{} of 'fix', 'move', 'spring', 'symmetry', expected one", kinds));
+  if (map.has("time") && !map.has("move"))
+    map.fail("time", "time is given for what does not move, expected it with 'move'");
+  if (map.has("fix")) entry.directions = read_directions(map);
+  if (map.has("move")) read_motion(map, entry);
+  if (map.has("spring")) read_spring(map, entry);
   entry.where = read_selection(map, geometry);
   return entry;
 }
@@ -80,7 +97,7 @@ void hold(const BoundaryEntry& entry, const GeometryFile& geometry, structure::S
   const structure::NodeSet nodes = nodes_of(entry.where, geometry);
   if (entry.moves)
     supports.move(nodes, entry.directions, entry.displacement, entry.time);
-  else
+  else if (!entry.spring)
     supports.fix(nodes, entry.directions);
 }
 
@@ -103,14 +120,38 @@ structure::Supports supports_of(const std::vector<BoundaryEntry>& boundary, cons
   return supports;
 }
 
+structure::Springs springs_of(const std::vector<BoundaryEntry>& boundary, const GeometryFile& geometry,
+                              const structure::Body& body, const std::vector<structure::Id>& nodes) {
+  structure::Springs springs;
+  const structure::Columns columns(nodes);
+  for (const BoundaryEntry& entry : boundary) {
+    if (!entry.spring) continue;
+    std::vector<structure::Springs::Spring> group;
+    const auto add = [&](structure::Id node, double share) {
+      if (const std::ptrdiff_t column = columns.of(node); column >= 0)
+        group.push_back({column, share * *entry.spring});
+    };
+    if (entry.per_area)
+      for (const nurbs::Face face : entry.where.faces)
+        for (const auto& [node, area] : structure::skin_areas(body, {entry.where.patch, face}))
+          add(node, area);
+    else
+      for (const int node : nodes_of(entry.where, geometry)) add(node, 1.0);
+    springs.add(std::move(group));
+  }
+  return springs;
+}
+
 std::vector<structure::NamedSupport> named_supports(const std::vector<BoundaryEntry>& boundary,
                                                     const GeometryFile& geometry) {
   std::vector<structure::NamedSupport> named;
   structure::Supports all;
   std::vector<Eigen::Index> before;
+  std::size_t springs = 0;
   for (const BoundaryEntry& entry : boundary) {
     hold(entry, geometry, all);
     structure::NamedSupport support{entry.name, {}};
+    if (entry.spring) support.spring_group = springs++;
     std::set_difference(all.fixed_dofs().begin(), all.fixed_dofs().end(), before.begin(), before.end(),
                         std::back_inserter(support.dofs));
     before = all.fixed_dofs();

@@ -2,14 +2,18 @@
 // The key `boundary` of a model file: what holds a solid, or moves it.
 //   - {name: clamp, fix: [x, y, z], faces: [xi-]}
 //   - {symmetry: eta-}                                          an axis-parallel plane face, along its normal
+//   - {name: ground, spring: {stiffness: 1e9, direction: [0, 0, 1], per: area}, faces: [zeta-]}
 //   - {name: shaker, move: {z: 1e-3}, faces: [zeta-], time: {sine: {frequency: 50}}}
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/selection.h"
+#include "structure/body.h"
 #include "structure/conditions/named_support.h"
+#include "structure/conditions/springs.h"
 #include "structure/conditions/supports.h"
 
 namespace io {
@@ -22,11 +26,18 @@ struct BoundaryEntry {
   bool moves = false;
   Vector3 displacement = Vector3::Zero();  ///< of what moves, times the factor [length]
   structure::TimeFunction time = {};
+  std::optional<structure::Stiffness3> spring = {};  ///< per area [force/length^3] or node [force/length]
+  bool per_area = false;
 };
 
 /// Throws geometry_io::InputError.
 std::vector<BoundaryEntry> read_boundary(const std::vector<geometry_io::YamlMap>& entries,
                                          const geometry_io::GeometryFile& geometry);
+
+/// Those entries that are springs, each a group, on the columns of a part.
+structure::Springs springs_of(const std::vector<BoundaryEntry>& boundary,
+                              const geometry_io::GeometryFile& geometry, const structure::Body& body,
+                              const std::vector<structure::Id>& nodes);
 
 /// A degree of freedom that several entries hold is the first one's.
 structure::Supports supports_of(const std::vector<BoundaryEntry>& boundary,

@@ -54,7 +54,7 @@ struct History::Writer {
   std::vector<structure::Probe> probes;
   std::vector<structure::NamedSupport> supports;
   int time, kinetic_energy, strain_energy, load_work, linear_momentum, angular_momentum, largest_displacement;
-  int work_of_contacts, work_of_loads, work_of_supports, internal_work, truncation;
+  int work_of_contacts, work_of_loads, work_of_supports, damped, internal_work, truncation;
   std::vector<int> probe_displacement, support_reaction;
 
   Writer(SeriesFile file_in, std::vector<structure::Probe> probes_in,
@@ -84,6 +84,7 @@ struct History::Writer {
     work_of_contacts = series("ledger/contacts", 1, unit.energy);
     work_of_loads = series("ledger/loads", 1, unit.energy);
     work_of_supports = series("ledger/supports", 1, unit.energy);
+    damped = series("ledger/damped", 1, unit.energy);
     internal_work = series("ledger/internal", 1, unit.energy);
     truncation = series("ledger/truncation", 1, unit.energy);
     for (const structure::NamedSupport& support : supports)
@@ -195,6 +196,7 @@ void History::record(const HistoryRow& row) {
   w.append(w.work_of_contacts, row.work.forces);
   w.append(w.work_of_loads, row.work.loads);
   w.append(w.work_of_supports, row.work.supports);
+  w.append(w.damped, row.work.damped);
   w.append(w.internal_work, row.work.internal);
   w.append(w.truncation, row.truncation);
   for (std::size_t i = 0; i < w.support_reaction.size(); ++i)

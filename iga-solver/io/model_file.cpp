@@ -7,7 +7,6 @@
 
 #include "geometry_io/file_kind.h"
 #include "nurbs/memory.h"
-#include "structure/conditions/loads.h"
 #include "structure/material/laws.h"
 
 namespace io {
@@ -56,16 +55,6 @@ structure::Probe read_probe(const YamlMap& probes, const std::string& name, cons
     return structure::probe_at(name, space, structure::face_point(space, face, {at[0], at[1]}));
   } catch (const std::invalid_argument&) {
     map.fail("at", fmt::format("at is [{}, {}], expected 2 numbers from 0 to 1", at[0], at[1]));
-  }
-}
-
-void read_loads(const YamlMap& map, ModelFile& model) {
-  map.allow_only({"gravity", "tractions"});
-  if (map.has("gravity")) model.gravity = map.vector3("gravity");
-  if (!map.has("tractions")) return;
-  for (const YamlMap& traction : map.list_of_maps("tractions")) {
-    traction.allow_only({"face", "value"});
-    model.tractions.push_back({read_face(traction, "face"), traction.vector3("value")});
   }
 }
 
@@ -120,7 +109,7 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   };
   const YamlMap document = YamlMap::parse(text, file);
   document.allow_only({"units", "geometry", "material", "boundary", "surfaces", "probes", "output", "loads",
-                       "initial", "time", "integration"});
+                       "initial", "time", "integration", "damping"});
   ModelFile model = read_required(document, read_and_note);
   if (document.has("integration")) model.integration = read_integration(document.map("integration"));
   if (document.has("boundary"))
@@ -131,11 +120,12 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
       model.probes.push_back(read_probe(probes, name, model.volume().space));
   }
   if (document.has("output")) model.output = read_output(document.map("output"), model.geometry, inputs);
-  if (document.has("loads")) read_loads(document.map("loads"), model);
-  if (document.has("initial")) {
-    const YamlMap initial = document.map("initial");
-    initial.allow_only({"velocity"});
-    model.initial_velocity = initial.vector3("velocity");
+  if (document.has("loads")) model.loads = read_loads(document.map("loads"), model.geometry);
+  if (document.has("initial")) model.initial_velocity = read_initial_velocity(document.map("initial"));
+  if (document.has("damping")) {
+    const YamlMap damping = document.map("damping");
+    damping.allow_only({"mass"});
+    model.mass_damping = damping.number("mass", geometry_io::non_negative());
   }
   if (document.has("time")) model.time = read_time(document.map("time"));
   return model;
@@ -207,15 +197,10 @@ structure::ExplicitSolver build_solver_at_rest(const ModelFile& model, const Cut
 
 structure::ExplicitSolver build_solver(const ModelFile& model, const Cut& cut) {
   structure::ExplicitSolver solver = build_solver_at_rest(model, cut);
-  const std::vector<structure::Id>& nodes = solver.node_ids();
-  structure::NodalVectors f_ext =
-      model.gravity.value_or(Vector3::Zero()) * solver.mass().nodal_mass().transpose();
-  for (const FaceTraction& traction : model.tractions)
-    structure::add_traction_load(solver.body(), {0, traction.face}, traction.value, nodes, f_ext);
-  structure::NodalVectors v = structure::NodalVectors::Zero(3, nodes.size());
-  v.leftCols(solver.halo().held(v.cols())).colwise() = model.initial_velocity;
-  solver.set_load(f_ext);
-  solver.set_velocities(v);
+  solver.set_springs(springs_of(model.boundary, model.geometry, solver.body(), solver.node_ids()));
+  solver.set_mass_damping(model.mass_damping);
+  apply_loads(model.loads, model.geometry, solver);
+  if (model.initial_velocity) solver.set_velocities(velocities_of(*model.initial_velocity, solver));
   if (!model.named_supports().empty()) solver.keep_reactions();
   return solver;
 }

@@ -13,6 +13,7 @@
 
 #include "geometry_io/geometry_io.h"
 #include "io/boundary_keys.h"
+#include "io/load_keys.h"
 #include "io/output_keys.h"
 #include "structure/conditions/probe.h"
 #include "structure/partition.h"
@@ -22,12 +23,6 @@
 namespace io {
 
 using nurbs::Vector3;
-
-/// One entry of `loads: tractions`: dead traction [force/length^2] on a face.
-struct FaceTraction {
-  nurbs::Face face;
-  Vector3 value;
-};
 
 struct TimeSpan {
   double end;                  ///< [time]
@@ -43,9 +38,9 @@ struct ModelFile {
   std::vector<BoundaryEntry> boundary = {};
   std::vector<structure::Probe> probes = {};  ///< in the order of the file
   std::optional<HistoryOutput> output = {};
-  std::optional<Vector3> gravity = {};  ///< [length/time^2]
-  std::vector<FaceTraction> tractions = {};
-  Vector3 initial_velocity = Vector3::Zero();  ///< [length/time], uniform
+  Loads loads = {};
+  std::optional<FieldKey> initial_velocity = {};
+  double mass_damping = 0.0;  ///< rate [1/time]
   std::optional<TimeSpan> time = {};
 
   /// Those of `boundary` that have names.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <stdexcept>
 #include <utility>
 
@@ -95,6 +96,13 @@ Selection read_selection(const YamlMap& map, const GeometryFile& geometry) {
   if (key != "faces" && nodes_of(selection, geometry).empty())
     map.fail(key, fmt::format("{} has no control points, expected some", key));
   return selection;
+}
+
+std::vector<structure::Id> node_ids(const GeometryFile& geometry, int patch) {
+  std::vector<structure::Id> ids(
+      std::get<nurbs::Volume>(geometry.patches[patch]).space.control_point_count());
+  std::iota(ids.begin(), ids.end(), structure::Id(0));
+  return ids;
 }
 
 NodeSet nodes_of(const Selection& selection, const GeometryFile& geometry) {

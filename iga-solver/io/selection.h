@@ -11,6 +11,7 @@
 
 #include "geometry_io/geometry_file.h"
 #include "structure/conditions/node_set.h"
+#include "structure/id.h"
 
 namespace io {
 
@@ -32,6 +33,8 @@ nurbs::Face read_face(const geometry_io::YamlMap& map, const std::string& key);
 /// `patch`, 0 where there is none.
 int read_patch(const geometry_io::YamlMap& map, const geometry_io::GeometryFile& geometry);
 
+/// Nodes of the whole body, per control point of a patch.
+std::vector<structure::Id> node_ids(const geometry_io::GeometryFile& geometry, int patch);
 /// Nodes of the whole body, rising.
 structure::NodeSet nodes_of(const Selection& selection, const geometry_io::GeometryFile& geometry);
 

@@ -5,6 +5,8 @@
 
 #include <stdexcept>
 
+#include "io/expression.h"
+
 namespace io {
 
 using geometry_io::YamlMap;
@@ -43,6 +45,7 @@ structure::TimeFunction read_table(const YamlMap& map) {
 
 structure::TimeFunction read_time_function(const YamlMap& entry) {
   if (!entry.has("time")) return {};
+  if (!entry.is_map("time")) return read_time_expression(entry, "time");
   const YamlMap map = entry.map("time");
   map.allow_only({"ramp", "sine", "table"});
   const std::vector<std::string> keys = map.keys();

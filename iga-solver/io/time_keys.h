@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How a condition of a model file changes in time: `time: {ramp: [from, to]}`, `{sine: {frequency: f, phase:
-// radians}}` or `{table: [[t, value], ...]}`.
+// radians}}` or `{table: [[t, value], ...]}`, or an expression
+// of t, `time: 1 - cos(2*pi*50*t)`.
 #pragma once
 
 #include "geometry_io/yaml_map.h"

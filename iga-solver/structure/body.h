@@ -25,6 +25,14 @@ struct SkinPiece {
   nurbs::Face face;
 };
 
+/// Elements of a piece of the skin that one box of a part has (partition.h).
+struct SkinBox {
+  std::vector<int> elements;        ///< of the piece's space
+  std::vector<int> control_points;  ///< of the piece's space that they have, rising
+  /// Columns of nodal arrays that these are read from, and where the box adds its forces.
+  std::vector<int> read, write;
+};
+
 /// The patches that a body is made of: volumes, or surfaces with a thickness.
 using PatchSpaces = std::variant<std::vector<nurbs::Space<3>>, std::vector<nurbs::Space<2>>>;
 
@@ -41,6 +49,8 @@ class Body {
   virtual const NodalVectors& whole_reference() const { return reference(); }
   virtual PatchSpaces patches() const = 0;
   virtual nurbs::BoundarySurface skin(const SkinPiece& piece) const = 0;
+  /// The same box by box, as far as the part has it: forces that follow the skin are added as internal ones.
+  virtual std::vector<SkinBox> skin_boxes(const SkinPiece& piece) const = 0;
   virtual ExactSum volume_sum() const = 0;  ///< [length^3]; of a part, to be summed over all
   virtual const Material& material() const = 0;
   /// Choices that a saved state depends on, beside patches and material, in words; empty for the usual ones.

@@ -21,6 +21,7 @@ class OneMode final : public structure::Body {
   nurbs::BoundarySurface skin(const structure::SkinPiece&) const override {
     return {plane_.space, {0, 1, 2, 3}, 1};
   }
+  std::vector<structure::SkinBox> skin_boxes(const structure::SkinPiece&) const override { return {}; }
   structure::ExactSum volume_sum() const override { return sum_of(1.0); }
   const structure::Material& material() const override { return material_; }
   const Eigen::VectorXd& row_sum_mass() const override { return mass_; }

@@ -63,6 +63,23 @@ class Gravity(unittest.TestCase):
             with self.subTest(name):
                 self.assertEqual(run(**settings)[0], [])
 
+    def test_a_solid_may_take_the_decks(self):
+        """The sum of what there is, on any number of ranks, and anew in each run; one that varies is refused."""
+        model = BLOCK + "loads: {gravity: deck, tractions: [{face: zeta+, value: [1000, 0, 0]}]}\n"
+        start = bob.prelude(balls=((0, 0, 4e-3),)) + GRAVITY
+        end = bob.wall() + bob.output((9, 10, 11))
+        for ranks in (1, 2):
+            deck = start + "fix h all gravity 5 vector 0 1 0\n" + end + "run 60\nunfix h\nrun 40\n"
+            result = decks.good(deck, files={"block.yaml": model}, ranks=ranks)
+            self.assertNotIn("loads: {gravity", result.text)
+            mass = 1000.0 * 4e-3 * 4e-3 * 2e-3
+            found = [result.tables[-1][f"plate{column}"][-1] for column in (9, 10, 11)]
+            np.testing.assert_allclose(found, [1000 * 16e-6 * 1e-6, mass * 5 * 6e-7, -mass * 9.81 * 1e-6], rtol=1e-9)
+        varying = start.replace(GRAVITY, "variable a equal 9.81*step\nfix g all gravity v_a vector 0 0 -1\n")
+        refused = decks.run(varying + end + "run 1\n", files={"block.yaml": model})
+        self.assertNotEqual(refused.code, 0)
+        self.assertIn("'block.yaml' has 'gravity: deck', expected a constant one", refused.text)
+
     def test_tractions_alone_are_no_gravity(self):
         loads = "loads: {tractions: [{face: zeta+, value: [0, 0, -1]}]}\n"
         self.assertEqual(self.line(run(model=BLOCK + loads)[0]), "loads: {gravity: [0, 0, -9.81]}")

@@ -123,11 +123,16 @@ class Restart(unittest.TestCase):
             with self.subTest(ranks=ranks):
                 self.check_continues(self.read(reader(), restart, ranks, block=block), whole)
 
-    def test_a_support_goes_on_with_its_motion(self):
-        """Written within a ramp, by whatever number of ranks."""
+    def test_supports_and_loads_go_on_in_time(self):
+        """And loads with their ramps; written within these, by whatever number of ranks."""
         moved = "boundary: [{move: {z: 2e-6, x: 1e-6}, faces: [zeta-], time: {ramp: [0, 4e-6]}}]"
         block = ball_on_block_of_boxes().replace("boundary: [{fix: [x, y, z], faces: [zeta-]}]", moved)
         self.assertIn(moved, block)
+        block += """loads:
+  tractions: [{face: xi+, value: ["1e4*y*t/1e-6", 0, 1e4], time: {ramp: [1e-6, 3e-6]}}]
+  pressures: [{face: xi-, value: 1e5, time: {sine: {frequency: 1e5}}}]
+damping: {mass: 1e4}
+"""
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "contact"
             deck = writer().replace("write_restart contact", f"write_restart {path}")

@@ -95,16 +95,30 @@ class Supports(unittest.TestCase):
         """The last column is its work: what the solid has and gives to the ball."""
         moved = "boundary: [{name: ram, move: {z: 4e-5, x: 1e-6}, faces: [zeta-], time: {ramp: [1e-6, 9e-6]}}]\n"
         model = bob.block(SIZE, density=DENSITY, fixed=()) + moved
-        deck = bob.prelude(velocity=(0.1, 0, 0), timestep=STEP, friction=0.3) + bob.wall() + bob.output(range(1, 30))
+        deck = bob.prelude(velocity=(0.1, 0, 0), timestep=STEP, friction=0.3) + bob.wall() + bob.output(range(1, 31))
         table = decks.good(deck + "run 1200\n", files={"block.yaml": model}).table
         kinetic, contacts, internal, supports = (table[f"plate{column}"] for column in (15, 22, 24, 29))
         balance = kinetic + internal - contacts - supports
         np.testing.assert_allclose(balance, balance[0], rtol=0, atol=1e-11 * kinetic.max())
+        np.testing.assert_array_equal(table["plate30"], 0)
         self.assertGreater(np.abs(contacts).max(), 1e-3 * kinetic.max(), "it hits the ball")
         force = vector(table, "plate1", "plate2", "plate3") + vector(table, "plate26", "plate27", "plate28")
         change = 0.5 * STEP * (force[1:] + force[:-1])
         momentum = vector(table, "plate9", "plate10", "plate11")
         np.testing.assert_allclose(np.diff(momentum, axis=0), change, rtol=0, atol=1e-11 * abs(momentum).max())
+
+    def test_loads_in_time(self):
+        """What a pull that rises linearly gives to a free block, however the time is divided."""
+        loads = "loads: {tractions: [{face: xi+, value: [0, 1e4, 3e4], time: {ramp: [1e-7, 5e-6]}}]}\n"
+        model = bob.block(SIZE, density=DENSITY, fixed=()) + loads
+        for words in ("", " substeps structure 3", " substeps particles 4"):
+            deck = bob.prelude(balls=((0, 0, 4e-3),), timestep=STEP) + bob.wall(rest="structure block.yaml surface top" + words)
+            table = decks.good(deck + bob.output(range(1, 13)) + "run 240\n", files={"block.yaml": model}).table
+            end = STEP * 240
+            impulse = SIZE[1] * SIZE[2] * np.array([0, 1e4, 3e4]) * (end - 1e-7) ** 2 / (2 * 4.9e-6)
+            with self.subTest(words):
+                found = vector(table, "plate9", "plate10", "plate11")[-1]
+                np.testing.assert_allclose(found, impulse, rtol=2e-3, atol=1e-12 * impulse.max())  # the ramp begins within a step
 
     def test_truncation_is_what_internal_work_exceeds_the_strain_by(self):
         deck = bob.prelude(timestep=STEP) + bob.wall() + bob.output(range(1, 26)) + "run 600\n"

@@ -15,6 +15,7 @@
 #include "structure/solid/box_grid.h"
 #include "structure/solid/element_tables.h"
 #include "structure/solid/integrals.h"
+#include "structure/solid/skin_boxes.h"
 
 namespace structure {
 
@@ -64,6 +65,9 @@ class Solid final : public Body {
   PatchSpaces patches() const override { return std::vector{patch_->space}; }
   /// Throws std::invalid_argument unless it is a face of patch 0.
   nurbs::BoundarySurface skin(const SkinPiece& piece) const override;
+  std::vector<SkinBox> skin_boxes(const SkinPiece& piece) const override {
+    return structure::skin_boxes(patch_->space, piece.face, boxes_);
+  }
   ExactSum volume_sum() const override { return volume_; }
   const Material& material() const override { return *material_; }
   std::string discretisation() const override;

@@ -56,7 +56,13 @@ void ExplicitSolver::check_size(const NodalVectors& values, const char* what) co
 void ExplicitSolver::set_load(const NodalVectors& f_ext) {
   check_size(f_ext, "load");
   budget_.reset();
-  f_ext_ = f_ext;
+  (loads_.empty() ? f_ext_ : f_dead_) = f_ext;
+}
+
+void ExplicitSolver::add_load(std::unique_ptr<const ChangingLoad> load) {
+  if (loads_.empty()) f_dead_ = f_ext_;
+  loads_.push_back(std::move(load));
+  budget_.reset();
 }
 
 void ExplicitSolver::set_velocities(const NodalVectors& v) {
@@ -81,6 +87,7 @@ void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   motion_.place(time_, body_->reference(), u_, x_);
   body_->internal_force(led_displacements(), f_int_);
   halo_->sum_to_owners(f_int_);
+  add_forces_of_others();
   accelerate(F, 0.0);
   largest_u_ = u_.lpNorm<Eigen::Infinity>();
   ledger_ = WorkLedger();
@@ -141,6 +148,7 @@ void ExplicitSolver::end_step(const NodalVectors& F) {
   body_->evolve(led_displacements(), dt_, f_int_, [this] { halo_->begin_sum(f_int_); });
   halo_->finish_sum(f_int_);
   time_ += dt_;
+  add_forces_of_others();
   accelerate(F, 0.5 * dt_);
   if (added_displacements_) add_strain_energy();
   for (const ForceSums& run : sums_) ledger_.half_kick(run.work_until_now(0.5 * dt_));
@@ -154,19 +162,29 @@ void ExplicitSolver::change_forces(const NodalVectors& F) {
   budget_.reset();
 }
 
+void ExplicitSolver::add_forces_of_others() {
+  springs_.add_forces(lead_ == 0.0 ? u_ : led_u_, f_int_);
+  if (loads_.empty()) return;
+  f_ext_ = f_dead_;
+  for (const std::unique_ptr<const ChangingLoad>& load : loads_) load->add(time_, x_, *halo_, f_ext_);
+}
+
 void ExplicitSolver::accelerate(const NodalVectors& F, double h) {
   const bool moves = !motion_.is_empty() && dt_ > 0.0;
   if (moves) motion_.find_velocities(time_, dt_, h > 0.0, u_, v_);
   const NodalForces forces{f_int_, f_ext_, F};
   sums_.clear();
   halo_->for_each_run(v_.cols(), [&](Eigen::Index first, Eigen::Index count) {
-    sums_.push_back(accelerate_and_kick(h, forces, inverse_mass_, first, count, a_, v_));
+    sums_.push_back(accelerate_and_kick(h, forces, inverse_mass_, first, count, a_, v_, damping_));
     if (moves) motion_.add_accelerations(first, count, forces, a_, sums_.back());
   });
   if (keeps_reactions_) find_reactions(F);
   halo_->owners_to_ghosts(a_);
   const Eigen::Index ghosts = v_.cols() - halo_->owned(v_.cols());
-  v_.rightCols(ghosts) += h * a_.rightCols(ghosts);
+  if (damping_ > 0.0)
+    halo_->owners_to_ghosts(v_);
+  else
+    v_.rightCols(ghosts) += h * a_.rightCols(ghosts);
   if (moves) motion_.set_velocities(v_);
 }
 
@@ -188,6 +206,8 @@ Vector3 ExplicitSolver::reaction(const NamedSupport& support) const {
         std::binary_search(support.dofs.begin(), support.dofs.end(), 3 * node_ids_[dof / 3] + Id(dof % 3)))
       sums[dof % 3].add(reactions_[i]);
   }
+  if (support.spring_group)
+    springs_.add_reaction(*support.spring_group, u_, halo_->owned(u_.cols()), sums.data());
   halo_->sum(sums.data(), sums.size());
   return {sums[0].value(), sums[1].value(), sums[2].value()};
 }
@@ -200,7 +220,7 @@ void ExplicitSolver::start_energy_budget() {
   constexpr double kNegligibleStrain = 1e-9;
   const Work work = ledger_.work(*halo_);
   const double strain = strain_energy(), kinetic = kinetic_energy(), kick = 0.125 * dt_ * dt_ * nodal_sum(a_);
-  kinetic_start_ = kinetic + work.internal - work.loads - work.forces - work.supports;
+  kinetic_start_ = kinetic + work.internal + work.damped - work.loads - work.forces - work.supports;
   if (!strain_start_) strain_start_ = strain - work.internal;
   budget_.emplace(kinetic + strain + kick, body_->material().youngs_modulus() *
                                                halo_->total(body_->volume_sum()) * kNegligibleStrain *
@@ -223,7 +243,7 @@ void ExplicitSolver::check_divergence(const NodalVectors& F) {
   halo_->sum(sums.data(), sums.size());
 
   const double kinetic = kinetic_start_ + sums[kLoads].value() + sums[kForces].value() +
-                         sums[kSupports].value() - sums[kInternal].value();
+                         sums[kSupports].value() + sums[kDamping].value() - sums[kInternal].value();
   const double power_before = std::exchange(power_, sums[kPower].value());
   if (!starts) budget_->add(0.5 * dt_ * (power_before + power_) + sums[kAdded].value());
   if (!budget_->allows(kinetic) || sums[kPartsBeyond].value() > 0.0)
@@ -245,7 +265,7 @@ void ExplicitSolver::look_at_strain() {
 }
 
 double ExplicitSolver::find_stable_step(const NodalVectors& u) const {
-  return structure::stable_time_step(*body_, *mass_, supports_, u, *halo_);
+  return structure::stable_time_step(*body_, *mass_, supports_, u, *halo_, springs_);
 }
 
 double ExplicitSolver::stable_time_step() const {
@@ -277,11 +297,15 @@ double ExplicitSolver::largest_displacement() const {
 
 double ExplicitSolver::kinetic_energy() const { return 0.5 * nodal_sum(v_); }
 
-double ExplicitSolver::strain_energy() const { return halo_->total(body_->strain_energy_sum(u_)); }
+double ExplicitSolver::strain_energy() const {
+  ExactSum sum = body_->strain_energy_sum(u_);
+  springs_.add_energy(u_, halo_->owned(u_.cols()), sum);
+  return halo_->total(sum);
+}
 
 Work ExplicitSolver::work() const { return ledger_.work(*halo_); }
 
-double ExplicitSolver::load_work() const { return halo_->dot(f_ext_, u_); }
+double ExplicitSolver::load_work() const { return loads_.empty() ? halo_->dot(f_ext_, u_) : work().loads; }
 
 Vector3 ExplicitSolver::sum_of_own(const std::function<Vector3(Eigen::Index node)>& value) const {
   std::array<ExactSum, 3> sums;
@@ -313,73 +337,6 @@ Vector3 ExplicitSolver::displacement(const Probe& probe) const {
   }
   halo_->sum(sums.data(), sums.size());
   return {sums[0].value(), sums[1].value(), sums[2].value()};
-}
-
-std::vector<Id> ExplicitSolver::fixed_dofs() const {
-  const Eigen::Index owned = halo_->owned(u_.cols());
-  std::vector<double> is_fixed(3 * owned, 0.0);
-  for (const Eigen::Index dof : supports_.fixed_dofs())
-    if (dof < 3 * owned) is_fixed[dof] = 1.0;
-  const std::vector<double> all = halo_->in_order({node_ids_.begin(), node_ids_.begin() + owned}, is_fixed);
-  std::vector<Id> fixed;
-  for (std::size_t dof = 0; dof < all.size(); ++dof)
-    if (all[dof] != 0.0) fixed.push_back(static_cast<Id>(dof));
-  return fixed;
-}
-
-std::vector<Id> ExplicitSolver::element_ids() const {
-  std::vector<Id> ids(body_->element_count());
-  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = halo_->element_id(i);
-  return ids;
-}
-
-std::size_t ExplicitSolver::all_nodes() const {
-  return std::llround(halo_->sum(static_cast<double>(halo_->owned(u_.cols()))));
-}
-
-std::size_t ExplicitSolver::state_size() const {
-  return 1 + 9 * all_nodes() + std::llround(halo_->sum(static_cast<double>(body_->memory().size())));
-}
-
-std::vector<double> ExplicitSolver::in_order(const NodalVectors& values) const {
-  const std::vector<Id> nodes(node_ids_.begin(), node_ids_.begin() + halo_->owned(u_.cols()));
-  return halo_->in_order(nodes, {values.data(), values.data() + 3 * nodes.size()});
-}
-
-void ExplicitSolver::from_order(const double* rows, NodalVectors& values) const {
-  for (Eigen::Index i = 0; i < halo_->held(u_.cols()); ++i)
-    values.col(i) = Vector3::Map(rows + 3 * node_ids_[i]);
-}
-
-std::vector<double> ExplicitSolver::save() const {
-  std::vector<double> state{time_};
-  const auto append = [&](const std::vector<double>& rows) {
-    state.insert(state.end(), rows.begin(), rows.end());
-  };
-  for (const NodalVectors* values : {&u_, &v_, &a_}) append(in_order(*values));
-  append(memory_in_order());
-  return state;
-}
-
-void ExplicitSolver::load(const std::vector<double>& state) {
-  const std::size_t expected = state_size(), all_values = 3 * all_nodes();
-  if (state.size() != expected)
-    throw std::invalid_argument(
-        fmt::format("ExplicitSolver: state of {} numbers, expected {}", state.size(), expected));
-  const double* next = state.data();
-  time_ = *next++;
-  for (NodalVectors* values : {&u_, &v_, &a_}) {
-    from_order(next, *values);
-    next += all_values;
-  }
-  const std::vector<Id> elements = element_ids();
-  std::vector<double> memory(body_->memory().size());
-  const std::size_t width = elements.empty() ? 0 : memory.size() / elements.size();  // equally much of each
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    std::copy_n(next + width * elements[i], width, memory.data() + width * i);
-  body_->set_memory(std::move(memory));
-  x_ = body_->reference() + u_;
-  budget_.reset();
 }
 
 }  // namespace structure

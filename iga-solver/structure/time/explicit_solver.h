@@ -12,8 +12,10 @@
 #include <vector>
 
 #include "structure/body.h"
+#include "structure/conditions/changing_load.h"
 #include "structure/conditions/named_support.h"
 #include "structure/conditions/probe.h"
+#include "structure/conditions/springs.h"
 #include "structure/conditions/supports.h"
 #include "structure/halo.h"
 #include "structure/time/divergence.h"
@@ -37,6 +39,14 @@ class ExplicitSolver {
   /// Constant external nodal forces f_ext [force], whole at the nodes that the part owns; throws
   /// std::invalid_argument if the size does not fit.
   void set_load(const NodalVectors& f_ext);
+  const NodalVectors& load() const { return loads_.empty() ? f_ext_ : f_dead_; }
+  /// One more that changes with time or with the motion, from the next forces on.
+  void add_load(std::unique_ptr<const ChangingLoad> load);
+  /// Springs to the ground: stiffness and strain energy count as the body's.  Before the stable step is asked
+  /// for.
+  void set_springs(Springs springs) { springs_ = std::move(springs); }
+  /// Forces - rate m v [1/time] from the next forces on.
+  void set_mass_damping(double rate) { damping_ = rate; }
   /// Current velocities [length/time], set to 0 at fixed dofs that do not move; throws as above.
   void set_velocities(const NodalVectors& v);
   /// dt [time]; throws std::invalid_argument unless it is positive and finite.
@@ -94,10 +104,11 @@ class ExplicitSolver {
   double largest_displacement() const;  ///< of all nodes [length]
   double kinetic_energy() const;        ///< sum m_A |v_A|^2 / 2
   double strain_energy() const;
-  /// Since initialise_forces: kinetic energy + internal - loads - forces - supports is constant to round-off.
+  /// Since initialise_forces: kinetic energy + internal + damped - loads - forces - supports is constant
+  /// to round-off.
   Work work() const;
-  double load_work()
-      const;  ///< f_ext . u: kinetic + strain energy - load work is conserved without further forces
+  double load_work() const;  ///< f_ext . u: kinetic + strain energy - load work is conserved without further
+                             ///< forces; of loads that change what the ledger has
   Vector3 linear_momentum() const;                       ///< sum m_A v_A
   Vector3 angular_momentum(const Vector3& about) const;  ///< sum (x_A - about) x m_A v_A
 
@@ -141,6 +152,8 @@ class ExplicitSolver {
   void add_strain_energy();
   /// The displacements whose internal forces count.
   const NodalVectors& led_displacements();
+  /// From f_int_ of the body, whole at own nodes: forces of springs, loads now.
+  void add_forces_of_others();
   /// From f_int_, whole at own nodes: accelerations under F too, and a kick of `h` by them.
   void accelerate(const NodalVectors& F, double h);
   void find_reactions(const NodalVectors& F);
@@ -164,7 +177,11 @@ class ExplicitSolver {
   SupportMotion motion_;
   double dt_ = 0.0, time_ = 0.0;
   double lead_ = 0.0;
+  double damping_ = 0.0;  // rate
   NodalVectors f_ext_, f_int_, u_, x_, v_, a_;
+  NodalVectors f_dead_;  // what does not change of f_ext, if something does
+  std::vector<std::unique_ptr<const ChangingLoad>> loads_;
+  Springs springs_;
   NodalVectors led_u_;           // u + lead v, where there is a lead
   double largest_u_ = 0.0;       // of all components that the part holds
   std::vector<ForceSums> sums_;  // of the last kick, for each run of nodes that the part owns

@@ -85,9 +85,11 @@ void expect_masses_of(const Body& body, const MassOperator& mass, const Halo& ha
 /// K z [force] about the displacements u.
 class Stiffness {
  public:
-  Stiffness(const Body& body, const Supports& supports, const NodalVectors& u, const Halo& halo)
+  Stiffness(const Body& body, const Supports& supports, const Springs& springs, const NodalVectors& u,
+            const Halo& halo)
       : body_(body),
         supports_(supports),
+        springs_(springs),
         u_(u),
         halo_(halo),
         trial_size_(kSmallStrain * mean_element_size(body, halo)),
@@ -110,10 +112,12 @@ class Stiffness {
   void internal_force(const NodalVectors& u, NodalVectors& f) const {
     body_.internal_force(u, f);
     halo_.sum_to_owners(f);
+    springs_.add_forces(u, f);
   }
 
   const Body& body_;
   const Supports& supports_;
+  const Springs& springs_;
   const NodalVectors& u_;
   const Halo& halo_;
   double trial_size_;
@@ -124,7 +128,7 @@ class Stiffness {
 /// Bound of the largest eigenvalue of M^-1 K [1/time^2]; 0 if no dof is free.  The recurrence of lanczos.h
 /// for forces q with the inner product q . M^-1 q.
 double largest_eigenvalue(const Body& body, const MassOperator& mass, const Supports& supports,
-                          const NodalVectors& u, const Halo& halo) {
+                          const Springs& springs, const NodalVectors& u, const Halo& halo) {
   const double element_size = mean_element_size(body, halo);
   NodalVectors q = start_forces(mass.nodal_mass(), halo), z(q), w(q),
                z_previous(NodalVectors::Zero(3, q.cols())), q_previous(z_previous);
@@ -139,7 +143,7 @@ double largest_eigenvalue(const Body& body, const MassOperator& mass, const Supp
   if (norm == 0.0) return 0.0;
   expect_finite(norm, body, u, element_size);
   const double hidden = hidden_share(norm, kChance);
-  Stiffness K(body, supports, u, halo);
+  Stiffness K(body, supports, springs, u, halo);
   Tridiagonal T;
   for (int k = 0; k < K.products(); ++k) {
     q /= norm;
@@ -169,9 +173,9 @@ double largest_eigenvalue(const Body& body, const MassOperator& mass, const Supp
 }  // namespace
 
 double stable_time_step(const Body& body, const MassOperator& mass, const Supports& supports,
-                        const NodalVectors& u, const Halo& halo) {
+                        const NodalVectors& u, const Halo& halo, const Springs& springs) {
   expect_masses_of(body, mass, halo);
-  const double eigenvalue = largest_eigenvalue(body, mass, supports, u, halo);
+  const double eigenvalue = largest_eigenvalue(body, mass, supports, springs, u, halo);
   return 2.0 / std::sqrt(eigenvalue);  // infinity if nothing can move
 }
 

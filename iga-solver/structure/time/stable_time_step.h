@@ -4,20 +4,22 @@
 #pragma once
 
 #include "structure/body.h"
+#include "structure/conditions/springs.h"
 #include "structure/conditions/supports.h"
 #include "structure/halo.h"
 #include "structure/time/mass.h"
 
 namespace structure {
 
-/// 2 / omega_max [time] about the displacements u, K being the derivative of the internal force, fixed dofs
+/// 2 / omega_max [time] about the displacements u, K being the derivative of the internal force and of
+/// springs, fixed dofs
 /// left out; infinity if every dof is fixed.  Not above the true one, and up to some 3 % below it: 20
 /// evaluations of the internal force give a bound of omega_max from above (lanczos.h), from a pseudo-random
 /// start that is the same in every run, however the body is cut.  For no body do more than one in 1,000
 /// starts give a lower one.  Throws std::runtime_error if it meets numbers that are not finite, and
 /// std::logic_error if K is not symmetric or the masses are not the body's.
 double stable_time_step(const Body& body, const MassOperator& mass, const Supports& supports,
-                        const NodalVectors& u, const Halo& halo = Halo());
+                        const NodalVectors& u, const Halo& halo = Halo(), const Springs& springs = {});
 
 // Internal forces of the displacements u + lead v, v being that of half a step before, damp a mode of
 // frequency omega by the ratio xi = omega lead/2 and take from its stable step: omega dt <= 2 (sqrt(1 + xi^2)

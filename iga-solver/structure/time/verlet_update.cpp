@@ -47,32 +47,68 @@ double kick_and_drift(double dt, const NodalVectors& a, const NodalVectors& refe
   return largest.maxCoeff();
 }
 
+namespace {
+
+/// Kinds of forces whose sums a pass takes; supports do no work there.
+constexpr int kSummed[] = {kInternal, kLoads, kForces, kDamping};
+
+/// What a pass over the nodes sums.
+struct LaneSums {
+  Lanes f_v[kForceKinds], f_a[kForceKinds];
+  LaneSums() {
+    for (const int k : kSummed) f_v[k] = f_a[k] = Lanes::Zero();
+  }
+  template <int n, class Part>
+  void add(int k, const Part& f, const Part& velocity, const Part& acceleration) {
+    f_v[k].template head<n>() += f * velocity;
+    f_a[k].template head<n>() += f * acceleration;
+  }
+  ForceSums total() const {
+    ForceSums sums;
+    for (const int k : kSummed) {
+      sums.f_v[k] = f_v[k].sum();
+      sums.f_a[k] = f_a[k].sum();
+    }
+    return sums;
+  }
+};
+
+template <bool is_damped>
 ForceSums accelerate_and_kick(double h, const NodalForces& f, const NodalVectors& inverse_mass,
-                              Eigen::Index first, Eigen::Index count, NodalVectors& a, NodalVectors& v) {
-  constexpr int kSummed = kSupports;  // supports do no work here
-  Lanes f_v[kSummed], f_a[kSummed];
-  for (int k = 0; k < kSummed; ++k) f_v[k] = f_a[k] = Lanes::Zero();
+                              Eigen::Index first, Eigen::Index count, NodalVectors& a, NodalVectors& v,
+                              double damping) {
+  LaneSums sums;
   for_each_part(3 * first, 3 * (first + count), [&](auto width, Eigen::Index i) {
     constexpr int n = width;
     using Part = Eigen::Array<double, n, 1>;
-    const Part internal = part<n>(f.internal, i), loads = part<n>(f.loads, i), forces = part<n>(f.forces, i);
-    const Part acceleration = (loads + forces - internal) * part<n>(inverse_mass, i);
-    const Part velocity = part<n>(v, i) + h * acceleration;
+    const Part internal = part<n>(f.internal, i), loads = part<n>(f.loads, i), forces = part<n>(f.forces, i),
+               inverse = part<n>(inverse_mass, i);
+    Part acceleration = (loads + forces - internal) * inverse, velocity = part<n>(v, i);
+    if constexpr (is_damped) {
+      const Part none = Part::Zero(), rate = (inverse > 0.0).select(Part::Constant(damping), none);
+      velocity += h * ((acceleration - rate * velocity) / (1.0 + h * rate));
+      acceleration -= rate * velocity;  // as a run that begins here finds it
+      const Part force = (inverse > 0.0).select(-rate * velocity / inverse, none);
+      sums.add<n>(kDamping, force, velocity, acceleration);
+    } else {
+      velocity += h * acceleration;
+    }
     part<n>(a, i) = acceleration;
     part<n>(v, i) = velocity;
-    f_v[kInternal].head<n>() += internal * velocity;
-    f_a[kInternal].head<n>() += internal * acceleration;
-    f_v[kLoads].head<n>() += loads * velocity;
-    f_a[kLoads].head<n>() += loads * acceleration;
-    f_v[kForces].head<n>() += forces * velocity;
-    f_a[kForces].head<n>() += forces * acceleration;
+    sums.add<n>(kInternal, internal, velocity, acceleration);
+    sums.add<n>(kLoads, loads, velocity, acceleration);
+    sums.add<n>(kForces, forces, velocity, acceleration);
   });
-  ForceSums sums;
-  for (int k = 0; k < kSummed; ++k) {
-    sums.f_v[k] = f_v[k].sum();
-    sums.f_a[k] = f_a[k].sum();
-  }
-  return sums;
+  return sums.total();
+}
+
+}  // namespace
+
+ForceSums accelerate_and_kick(double h, const NodalForces& f, const NodalVectors& inverse_mass,
+                              Eigen::Index first, Eigen::Index count, NodalVectors& a, NodalVectors& v,
+                              double damping) {
+  return damping > 0.0 ? accelerate_and_kick<true>(h, f, inverse_mass, first, count, a, v, damping)
+                       : accelerate_and_kick<false>(h, f, inverse_mass, first, count, a, v, damping);
 }
 
 }  // namespace structure

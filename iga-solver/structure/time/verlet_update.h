@@ -12,7 +12,7 @@ namespace structure {
 using nurbs::NodalVectors;
 
 /// One number for each kind of nodal forces, in this order; those of supports where they move.
-enum { kInternal, kLoads, kForces, kSupports, kForceKinds };
+enum { kInternal, kLoads, kForces, kSupports, kDamping, kForceKinds };
 using PerForce = Eigen::Array<double, kForceKinds, 1>;
 
 /// Of each kind of forces f: f . v and f . a [energy/time, energy/time^2] at the end of a half kick.
@@ -35,8 +35,10 @@ double kick_and_drift(double dt, const NodalVectors& a, const NodalVectors& refe
 
 /// a = (loads + forces - internal) / m, v += h a, in `count` columns from `first`; the sums are over these,
 /// and the same to the last bit wherever they stand.  `inverse_mass` [1/mass] is 3 x n: 0 where a dof is
-/// fixed, which no force moves.
+/// fixed, which no force moves.  `damping` [1/time]: with it also - damping m v, at the v that the kick leads
+/// to, so that free motion loses (1 - damping h) / (1 + damping h) in a whole step.
 ForceSums accelerate_and_kick(double h, const NodalForces& f, const NodalVectors& inverse_mass,
-                              Eigen::Index first, Eigen::Index count, NodalVectors& a, NodalVectors& v);
+                              Eigen::Index first, Eigen::Index count, NodalVectors& a, NodalVectors& v,
+                              double damping = 0.0);
 
 }  // namespace structure

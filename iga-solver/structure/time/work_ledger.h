@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The work of nodal forces by the rule of velocity Verlet: a half kick by a force F, which takes v to v',
-// does dt/2 F . (v + v')/2.  Summed so, kinetic energy + internal - loads - forces - supports is constant to
-// round-off, whatever the forces and the step: what is left over is energy that a force brought in unseen.
+// does dt/2 F . (v + v')/2.  Summed so, kinetic energy + internal + damped - loads - forces - supports is
+// constant to round-off, whatever the forces and the step: what is left over is energy that a force brought
+// in unseen.
 #pragma once
 
 #include <array>
@@ -19,6 +20,7 @@ struct Work {
   double loads = 0.0;     ///< of the external loads
   double forces = 0.0;    ///< of somebody's forces (contact)
   double supports = 0.0;  ///< of supports that move
+  double damped = 0.0;    ///< taken by damping in proportion to the mass
 };
 
 class WorkLedger {
@@ -31,7 +33,8 @@ class WorkLedger {
   Work work(const Halo& halo) const {
     std::array<ExactSum, kForceKinds> all = sums_;
     halo.sum(all.data(), all.size());
-    return {all[kInternal].value(), all[kLoads].value(), all[kForces].value(), all[kSupports].value()};
+    return {all[kInternal].value(), all[kLoads].value(), all[kForces].value(), all[kSupports].value(),
+            0.0 - all[kDamping].value()};
   }
   /// Of this part.
   const std::array<ExactSum, kForceKinds>& sums() const { return sums_; }

@@ -226,6 +226,9 @@ class CountingSolid final : public structure::Body {
   const NodalVectors& reference() const override { return solid_.reference(); }
   structure::PatchSpaces patches() const override { return solid_.patches(); }
   nurbs::BoundarySurface skin(const structure::SkinPiece& piece) const override { return solid_.skin(piece); }
+  std::vector<structure::SkinBox> skin_boxes(const structure::SkinPiece& piece) const override {
+    return solid_.skin_boxes(piece);
+  }
   structure::ExactSum volume_sum() const override { return solid_.volume_sum(); }
   const structure::Material& material() const override { return solid_.material(); }
   const Eigen::VectorXd& row_sum_mass() const override { return solid_.row_sum_mass(); }

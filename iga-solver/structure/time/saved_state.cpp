@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The whole body's state, in an order that does not depend on how it is cut.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "structure/time/explicit_solver.h"
+
+namespace structure {
+
+std::vector<Id> ExplicitSolver::fixed_dofs() const {
+  const Eigen::Index owned = halo_->owned(u_.cols());
+  std::vector<double> is_fixed(3 * owned, 0.0);
+  for (const Eigen::Index dof : supports_.fixed_dofs())
+    if (dof < 3 * owned) is_fixed[dof] = 1.0;
+  const std::vector<double> all = halo_->in_order({node_ids_.begin(), node_ids_.begin() + owned}, is_fixed);
+  std::vector<Id> fixed;
+  for (std::size_t dof = 0; dof < all.size(); ++dof)
+    if (all[dof] != 0.0) fixed.push_back(static_cast<Id>(dof));
+  return fixed;
+}
+
+std::vector<Id> ExplicitSolver::element_ids() const {
+  std::vector<Id> ids(body_->element_count());
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = halo_->element_id(i);
+  return ids;
+}
+
+std::size_t ExplicitSolver::all_nodes() const {
+  return std::llround(halo_->sum(static_cast<double>(halo_->owned(u_.cols()))));
+}
+
+std::size_t ExplicitSolver::state_size() const {
+  return 1 + 9 * all_nodes() + std::llround(halo_->sum(static_cast<double>(body_->memory().size())));
+}
+
+std::vector<double> ExplicitSolver::in_order(const NodalVectors& values) const {
+  const std::vector<Id> nodes(node_ids_.begin(), node_ids_.begin() + halo_->owned(u_.cols()));
+  return halo_->in_order(nodes, {values.data(), values.data() + 3 * nodes.size()});
+}
+
+void ExplicitSolver::from_order(const double* rows, NodalVectors& values) const {
+  for (Eigen::Index i = 0; i < halo_->held(u_.cols()); ++i)
+    values.col(i) = Vector3::Map(rows + 3 * node_ids_[i]);
+}
+
+std::vector<double> ExplicitSolver::save() const {
+  std::vector<double> state{time_};
+  const auto append = [&](const std::vector<double>& rows) {
+    state.insert(state.end(), rows.begin(), rows.end());
+  };
+  for (const NodalVectors* values : {&u_, &v_, &a_}) append(in_order(*values));
+  append(memory_in_order());
+  return state;
+}
+
+void ExplicitSolver::load(const std::vector<double>& state) {
+  const std::size_t expected = state_size(), all_values = 3 * all_nodes();
+  if (state.size() != expected)
+    throw std::invalid_argument(
+        fmt::format("ExplicitSolver: state of {} numbers, expected {}", state.size(), expected));
+  const double* next = state.data();
+  time_ = *next++;
+  for (NodalVectors* values : {&u_, &v_, &a_}) {
+    from_order(next, *values);
+    next += all_values;
+  }
+  const std::vector<Id> elements = element_ids();
+  std::vector<double> memory(body_->memory().size());
+  const std::size_t width = elements.empty() ? 0 : memory.size() / elements.size();  // equally much of each
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    std::copy_n(next + width * elements[i], width, memory.data() + width * i);
+  body_->set_memory(std::move(memory));
+  x_ = body_->reference() + u_;
+  budget_.reset();
+}
+
+}  // namespace structure

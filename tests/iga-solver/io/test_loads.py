@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Loads of iga-solve in space and time: forces in closed form are the change of momentum in each step, a shaken base is a
+moving frame, a foundation carries a weight, damping, initial velocities; the ledger with all of them; ranks; mistakes."""
+
+import unittest
+
+import numpy as np
+
+from test_supports import run
+
+BLOCK = """units: si
+geometry: {{box: {{origin: {origin}, size: [2, 1, 0.5], elements: {elements}, degree: 2}}}}
+material: {{law: {law}, youngs_modulus: 1e5, poissons_ratio: 0.3, density: 10}}
+output: {{every: 1e-9, file: out}}
+{more}
+"""
+STEP = 2e-4
+
+
+def block(more: str, law="saint_venant_kirchhoff", elements="[4, 3, 2]", origin="[0, 0, 0]") -> str:
+    return BLOCK.format(more=more, law=law, elements=elements, origin=origin)
+
+
+EVERYTHING = """boundary:
+  - {name: base, move: {x: 1e-3, z: -2e-3}, faces: [xi-], time: {sine: {frequency: 20}}}
+  - {name: ground, spring: {stiffness: 1e4, direction: [0, 1, 2]}, faces: [zeta-]}
+  - {name: corner, spring: {stiffness: 30}, edge: [xi+, eta+]}
+loads:
+  gravity: {value: [0, 0, -9.81], time: {ramp: [0, 5e-3]}}
+  tractions:
+    - {face: zeta+, value: [0, 10*x, "-100*sin(pi*y)*(1 + 50*t)"]}
+    - {face: eta-, value: ["20*x^2", 0, 3], time: "1 - exp(-200*t)"}
+  pressures: [{face: xi+, value: "300 + 100*y", time: {ramp: [1e-3, 4e-3]}}, {face: zeta+, value: 50*t}]
+  lines: [{edge: [xi+, zeta+], value: [1, 2, "3*y"], time: {table: [[0, 1], [5e-3, -1]]}}]
+  points: [{face: eta+, at: [0.3, 0.6], force: [5, 0, -5], time: {sine: {frequency: 100}}}]
+  body_force: {value: ["4*y", 0, "x*z"], time: {ramp: [0, 1e-3]}}
+initial: {velocity: [0.1*z, 0, "0.2*sin(x)"]}
+damping: {mass: 5}
+"""
+
+
+class Loads(unittest.TestCase):
+    def solve(self, *arguments, **keywords) -> dict[str, np.ndarray]:
+        done, series = run(*arguments, **keywords)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return series
+
+    def check_balance(self, seen: dict[str, np.ndarray]) -> None:
+        left = (
+            seen["kinetic_energy"] + seen["ledger/internal"] + seen["ledger/damped"] - seen["ledger/loads"]
+            - seen["ledger/supports"]
+        )  # fmt: skip
+        np.testing.assert_allclose(left, left[0], rtol=0, atol=1e-12 * seen["kinetic_energy"].max())
+
+    def test_momentum_is_what_the_loads_give(self):
+        """Of a free block of 2 x 1 x 0.5 whose loads have closed forms."""
+        for loads, force in (
+            ('tractions: [{face: zeta+, value: [x, "y*t", "-3*t^2"]}]', lambda t: (2.0, t, -6 * t**2)),
+            ('tractions: [{face: zeta+, value: [x, y^2, -3], time: "cos(100*t)"}]',
+             lambda t: np.array([2, 2 / 3, -6]) * np.cos(100 * t)),
+            ("tractions: [{face: xi+, value: [1, 2, 3], time: {ramp: [1e-3, 2e-3]}}]",
+             lambda t: 0.5 * np.array([1, 2, 3]) * np.clip((t - 1e-3) / 1e-3, 0, 1)),
+            ("lines: [{edge: [zeta-, eta+], value: [x, 1, 0]}]", lambda t: (2, 2, 0)),
+            ("points: [{face: zeta+, at: [0.1, 0.9], force: [1, 2, 3], time: {table: [[0, 0], [1, 5]]}}]",
+             lambda t: np.array([5, 10, 15]) * t),
+            ("body_force: {value: [x*y*z, 1, 0]}", lambda t: (2 * 0.5 * 0.125, 1, 0)),
+            ("gravity: {value: [1, 0, 2], time: {sine: {frequency: 30}}}",
+             lambda t: 10 * np.array([1, 0, 2]) * np.sin(2 * np.pi * 30 * t)),
+        ):  # fmt: skip
+            with self.subTest(loads):
+                seen = self.solve(block(f"loads: {{{loads}}}"), 4e-3, STEP)
+                self.assertEqual(len(seen["time"]), 21)
+                forces = np.array([force(t) for t in seen["time"]], dtype=float)
+                change = 0.5 * STEP * (forces[1:] + forces[:-1])
+                np.testing.assert_allclose(np.diff(seen["linear_momentum"], axis=0), change, rtol=0, atol=1e-12 * np.abs(change).max())
+                self.check_balance(seen)
+                work = np.abs(seen["ledger/loads"]).max()
+                np.testing.assert_allclose(seen["load_work"], seen["ledger/loads"], rtol=0, atol=0.2 * work)
+
+    def test_a_number_is_an_expression(self):
+        one = self.solve(block("loads: {tractions: [{face: zeta+, value: [1, -2, 3]}]}"), 4e-3, STEP)
+        for value in ('["0*x + 1", -2, 3]', '["1 + 0*t", -2, 3]'):
+            other = self.solve(block(f"loads: {{tractions: [{{face: zeta+, value: {value}}}]}}"), 4e-3, STEP)
+            np.testing.assert_allclose(other["strain_energy"], one["strain_energy"], rtol=1e-10)
+
+    def test_a_pressure_all_round_moves_nothing(self):
+        faces = ", ".join(f"{{face: {face}, value: 2e4, time: {{ramp: [0, 2e-3]}}}}" for face in ("xi-", "xi+", "eta-", "eta+", "zeta-", "zeta+"))
+        seen = self.solve(block(f"loads: {{pressures: [{faces}]}}\ndamping: {{mass: 250}}", law="neo_hooke"), 0.2, STEP)
+        self.assertLess(np.abs(seen["linear_momentum"]).max(), 1e-11)
+        self.assertLess(np.abs(seen["angular_momentum"]).max(), 1e-11)
+        self.check_balance(seen)
+        # at rest: all stretched alike by s, whose stress is mu (s - 1/s) + 3 lambda ln(s)/s = -p s^2
+        mu, lam = 1e5 / 2.6, 1e5 * 0.3 / (1.3 * 0.4)
+        low, high = 0.5, 1.0
+        for _ in range(60):
+            s = 0.5 * (low + high)
+            low, high = (s, high) if mu * (s - 1 / s) + 3 * lam * np.log(s) / s < -2e4 * s**2 else (low, s)
+        energy = 1.0 * (mu / 2 * (3 * s**2 - 3) - 3 * mu * np.log(s) + lam / 2 * (3 * np.log(s)) ** 2)
+        self.assertAlmostEqual(seen["strain_energy"][-1] / energy, 1, delta=1e-6)
+
+    def test_a_shaken_base_is_a_moving_frame(self):
+        """What the base does is taken off the displacements; in its frame inertia is a load, by the scheme's own second
+        difference, -(a sin w t) (2 cos(w dt) - 2)/dt^2."""
+        a, w = 1e-3, 2 * np.pi * 25
+        probes = "probes: {tip: {face: xi+, at: [0.5, 0.5]}}\n"
+        speed = a * np.sin(w * STEP) / STEP
+        shaken = self.solve(block(f"{probes}boundary: [{{name: base, move: {{x: 0, y: 0, z: {a}}}, faces: [xi-], "
+                                  f"time: {{sine: {{frequency: 25}}}}}}]\ninitial: {{velocity: [0, 0, {speed!r}]}}", "linear_elastic"), 0.1, STEP)
+        inertia = -a * (2 * np.cos(w * STEP) - 2) / STEP**2
+        held = self.solve(block(f"{probes}boundary: [{{name: base, fix: [x, y, z], faces: [xi-]}}]\n"
+                                f"loads: {{gravity: {{value: [0, 0, {inertia!r}], time: {{sine: {{frequency: 25}}}}}}}}", "linear_elastic"), 0.1, STEP)
+        base = a * np.sin(w * shaken["time"])
+        np.testing.assert_allclose(shaken["probes/tip"][:, 2] - base, held["probes/tip"][:, 2], rtol=0, atol=1e-9 * a)
+        self.assertGreater(np.abs(held["probes/tip"]).max(), 0.1 * a)
+        held_by = held["reactions/base"][:, 2]  # what carries the base along is what holds it against the load there
+        np.testing.assert_allclose(shaken["reactions/base"][1:, 2], held_by[1:], rtol=0, atol=1e-7 * np.abs(held_by).max())
+        self.check_balance(shaken)
+
+    def test_a_foundation_carries_the_weight(self):
+        """At rest, by damping: weight / (k area) deep; whatever the mesh, since forces go straight through."""
+        more = ("boundary: [{name: ground, spring: {stiffness: 5e3, direction: [0, 0, -3]}, faces: [zeta-]}, {fix: [x, y], patch: 0}]\n"
+                "probes: {below: {face: zeta-, at: [0.3, 0.7]}}\nloads: {gravity: [0, 0, -9.81]}\ndamping: {mass: 60}")  # fmt: skip
+        seen = self.solve(block(more), 1.0, STEP)
+        self.assertAlmostEqual(seen["reactions/ground"][-1, 2] / 98.1, 1, delta=1e-6)
+        self.assertAlmostEqual(seen["probes/below"][-1, 2] / (-98.1 / (5e3 * 2)), 1, delta=1e-2)
+        np.testing.assert_array_equal(seen["reactions/ground"][:, :2], 0)
+        self.check_balance(seen)
+
+    def test_initial_spin(self):
+        """A velocity that is linear in x, y, z is met exactly; inertia is that of lumped masses, 1.15625 times the exact
+        one for 4 quadratic elements across."""
+        w = 3.0
+        seen = self.solve(block(f"initial: {{velocity: [-{w}*y, {w}*x, 0]}}", elements="[4, 4, 2]", origin="[-1, -0.5, 0]"), 1e-3, STEP)
+        exact = 10 * (2**2 + 1**2) / 12
+        self.assertAlmostEqual(seen["angular_momentum"][0, 2] / (exact * 1.15625 * w), 1, delta=1e-9)
+        self.assertAlmostEqual(seen["kinetic_energy"][0] / (0.5 * exact * 1.15625 * w**2), 1, delta=1e-9)
+        self.assertLess(np.abs(seen["linear_momentum"][0]).max(), 1e-12)
+
+    def test_everything_at_once(self):
+        seen = self.solve(block(EVERYTHING), 0.02, STEP)
+        self.check_balance(seen)
+        for name in ("ledger/loads", "ledger/supports", "ledger/damped", "ledger/internal"):
+            self.assertGreater(np.abs(seen[name]).max(), 1e-3 * seen["kinetic_energy"].max(), name)
+
+    def test_ranks(self):
+        model = block(EVERYTHING, elements="[40, 36, 3]")
+        one = self.solve(model, 4e-4, 2e-5)
+        self.check_balance(one)
+        for ranks in (2, 4):
+            more = self.solve(model, 4e-4, 2e-5, ranks)
+            self.assertEqual(set(more), set(one))
+            for name, values in one.items():
+                np.testing.assert_array_equal(more[name], values, err_msg=f"{name}, {ranks} ranks")
+
+    def test_errors(self):
+        for more, expected in (
+            ("loads: {tractions: [{face: zeta+, value: [0, 0, sin(x]}]}", "model.yaml:5: value is 'sin(x': "),
+            ("loads: {tractions: [{face: zeta+, value: [0, q, 1]}]}", "expected a number or an expression of x, y, z, t"),
+            ("loads: {tractions: [{face: zeta+, value: [0, 1]}]}", "value is a list of 2, expected 3 numbers or expressions"),
+            ("loads: {tractions: [{face: zeta+, value: [0, 1, 1e200]}]}", "expected a number of at most 1e+100"),
+            ("loads: {tractions: [{face: zeta+, value: [0, 1, x = 3]}]}", "it assigns"),
+            ("loads: {tractions: [{face: zeta+, value: [0, 1, 1/x]}]}\nboundary: []", None),
+            ("loads: {body_force: {value: [0, t, 1]}}", "expected a number or an expression of x, y, z"),
+            ("loads: {body_force: {value: [0, sqrt(x-1), 1]}}", "model.yaml:5: the expression is not finite somewhere on the solid"),
+            ("loads: {pressures: [{face: zeta+, value: [0, 0, 1]}]}", "value is a list of 3, expected a word"),
+            ("loads: {pressures: [{face: zeta+, value: 1, time: x}]}", "expected a number or an expression of t"),
+            ("loads: {lines: [{edge: [zeta+, zeta-], value: [0, 0, 1]}]}", "edge has no control points"),
+            ("loads: {points: [{face: zeta+, at: [2, 0], force: [0, 0, 1]}]}", "at is [2, 0], expected 2 numbers from 0 to 1"),
+            ("loads: {gravity: deck}", "loads.gravity is deck, expected a vector: there is no deck here"),
+            ("loads: {gravity: moon}", "gravity is 'moon', expected [x, y, z]"),
+            ("loads: {pressure: 3}", "did you mean 'pressures'?"),
+            ("boundary: [{spring: {stiffness: 1, per: area}, edge: [xi-, eta-]}]", "per is area, expected 'faces'"),
+            ("boundary: [{spring: {stiffness: -1}, faces: [xi-]}]", "stiffness is -1, expected a number > 0"),
+            ("boundary: [{spring: {stiffness: 1}, fix: [x], faces: [xi-]}]", "2 of 'fix', 'move', 'spring', 'symmetry'"),
+            ("damping: {mass: -1}", "mass is -1, expected a number >= 0"),
+            ("initial: {velocity: [0, 0, t]}", "expected a number or an expression of x, y, z"),
+        ):  # fmt: skip
+            done, _ = run(block(more), 1e-6, 1e-6)
+            if expected is None:
+                self.assertEqual(done.returncode, 0, "finite at the points where it is asked for")
+                continue
+            self.assertNotEqual(done.returncode, 0, more)
+            self.assertIn(expected, done.stderr, more)
+            self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
