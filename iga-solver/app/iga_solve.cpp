@@ -129,8 +129,10 @@ io::ModelFile read(const Options& options) {
 }
 
 void run(const Options& options) {
-  const io::ModelFile model = read(options);
+  io::ModelFile model = read(options);
   const double end = end_time(options, model);
+  std::optional<parallel::SharedFields> fields;
+  if (model.output && model.output->fields) fields.emplace(MPI_COMM_WORLD, model);
   ExplicitSolver solver = io::build_solver(model, parallel::cut_among(MPI_COMM_WORLD));
   if (!options.quiet) print_model(model, solver);
   const double stable = with_name(model, [&] { return solver.stable_time_step(); });
@@ -147,8 +149,6 @@ void run(const Options& options) {
     history.emplace(MPI_COMM_WORLD, *model.output, model.geometry.units, model.probes,
                     model.named_supports());
   if (history) history->record_if_due(solver);
-  std::optional<parallel::SharedFields> fields;
-  if (model.output && model.output->fields) fields.emplace(MPI_COMM_WORLD, model);
   if (fields) fields->write_if_due(solver);
   const bool progress = !options.quiet && isatty(STDOUT_FILENO);
   for (long step = 1; step <= steps; ++step) {

@@ -321,7 +321,11 @@ void expect_one_shape(const YamlMap& geometry) {
 
 std::vector<Shape> read_shapes(const YamlMap& geometry) {
   for (const ShapeKey& shape : shape_table())
-    if (geometry.has(shape.key)) return {read_sized(shape, geometry.map(shape.key))};
+    if (geometry.has(shape.key)) {
+      std::vector<Shape> shapes;  // a list in braces would be copied
+      shapes.push_back(read_sized(shape, geometry.map(shape.key)));
+      return shapes;
+    }
   return read_patches(geometry);
 }
 

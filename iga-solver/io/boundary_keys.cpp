@@ -76,12 +76,11 @@ BoundaryEntry read_entry(const YamlMap& map, const GeometryFile& geometry) {
   return entry;
 }
 
-void hold(const BoundaryEntry& entry, const GeometryFile& geometry, structure::Supports& supports) {
-  const structure::NodeSet nodes = nodes_of(entry.where, geometry);
+void hold(const BoundaryEntry& entry, structure::Supports& supports) {
   if (entry.moves)
-    supports.move(nodes, entry.directions, entry.displacement, entry.time);
+    supports.move(entry.nodes, entry.directions, entry.displacement, entry.time);
   else
-    supports.fix(nodes, entry.directions);
+    supports.fix(entry.nodes, entry.directions);
 }
 
 }  // namespace
@@ -90,6 +89,7 @@ std::vector<BoundaryEntry> read_boundary(const std::vector<YamlMap>& entries, co
   std::vector<BoundaryEntry> boundary;
   for (const YamlMap& map : entries) {
     boundary.push_back(read_entry(map, geometry));
+    boundary.back().nodes = nodes_of(boundary.back().where, geometry);
     for (std::size_t i = 0; i + 1 < boundary.size(); ++i)
       if (!boundary[i].name.empty() && boundary[i].name == boundary.back().name)
         map.fail("name", fmt::format("name '{}' is given twice, expected once", boundary[i].name));
@@ -97,19 +97,18 @@ std::vector<BoundaryEntry> read_boundary(const std::vector<YamlMap>& entries, co
   return boundary;
 }
 
-structure::Supports supports_of(const std::vector<BoundaryEntry>& boundary, const GeometryFile& geometry) {
+structure::Supports supports_of(const std::vector<BoundaryEntry>& boundary) {
   structure::Supports supports;
-  for (const BoundaryEntry& entry : boundary) hold(entry, geometry, supports);
+  for (const BoundaryEntry& entry : boundary) hold(entry, supports);
   return supports;
 }
 
-std::vector<structure::NamedSupport> named_supports(const std::vector<BoundaryEntry>& boundary,
-                                                    const GeometryFile& geometry) {
+std::vector<structure::NamedSupport> named_supports(const std::vector<BoundaryEntry>& boundary) {
   std::vector<structure::NamedSupport> named;
   structure::Supports all;
   std::vector<Eigen::Index> before;
   for (const BoundaryEntry& entry : boundary) {
-    hold(entry, geometry, all);
+    hold(entry, all);
     structure::NamedSupport support{entry.name, {}};
     std::set_difference(all.fixed_dofs().begin(), all.fixed_dofs().end(), before.begin(), before.end(),
                         std::back_inserter(support.dofs));

@@ -22,6 +22,7 @@ struct BoundaryEntry {
   bool moves = false;
   Vector3 displacement = Vector3::Zero();  ///< of what moves, times the factor [length]
   structure::TimeFunction time = {};
+  structure::NodeSet nodes = {};  ///< of the whole body, there
 };
 
 /// Throws geometry_io::InputError.
@@ -29,10 +30,8 @@ std::vector<BoundaryEntry> read_boundary(const std::vector<geometry_io::YamlMap>
                                          const geometry_io::GeometryFile& geometry);
 
 /// A degree of freedom that several entries hold is the first one's.
-structure::Supports supports_of(const std::vector<BoundaryEntry>& boundary,
-                                const geometry_io::GeometryFile& geometry);
+structure::Supports supports_of(const std::vector<BoundaryEntry>& boundary);
 /// Those with names.
-std::vector<structure::NamedSupport> named_supports(const std::vector<BoundaryEntry>& boundary,
-                                                    const geometry_io::GeometryFile& geometry);
+std::vector<structure::NamedSupport> named_supports(const std::vector<BoundaryEntry>& boundary);
 
 }  // namespace io

@@ -14,7 +14,7 @@ namespace io {
 
 class FieldSeries {
  public:
-  /// `model.output->fields` is there.  Writes nothing yet.
+  /// `model.output->fields` is there, and the control points, too.  Writes nothing yet.
   explicit FieldSeries(const ModelFile& model);
 
   /// Goes on with the files of an earlier run, from `time`: later states are dropped, and come anew.  The

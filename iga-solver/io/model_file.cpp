@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <new>
+#include <utility>
 
 #include "geometry_io/file_kind.h"
 #include "nurbs/memory.h"
@@ -141,6 +142,10 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   return model;
 }
 
+structure::NodalVectors ModelFile::take_control_points() {
+  return std::exchange(std::get<nurbs::Volume>(geometry.patches.front()).control_points, {});
+}
+
 ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& read) {
   const std::string text = read(path);
   if (geometry_io::format_of_path(path) == geometry_io::format::hdf5)  // what was read are its values
@@ -150,11 +155,11 @@ ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& 
 
 namespace {
 
-std::unique_ptr<structure::Solid> build_solid(const ModelFile& model, const structure::Part* part) {
+std::unique_ptr<structure::Solid> build_solid(ModelFile& model, const structure::Part* part) {
+  nurbs::Volume patch{model.volume().space, model.take_control_points()};
   try {
-    if (part)
-      return std::make_unique<structure::Solid>(model.volume(), model.material, model.integration, *part);
-    return std::make_unique<structure::Solid>(model.volume(), model.material, model.integration);
+    if (part) return std::make_unique<structure::Solid>(patch, model.material, model.integration, *part);
+    return std::make_unique<structure::Solid>(std::move(patch), model.material, model.integration);
   } catch (const std::invalid_argument& error) {
     throw geometry_io::InputError(
         fmt::format("{}:{}: geometry: {}", model.file, model.geometry_line, error.what()));
@@ -174,14 +179,14 @@ void expect_room_for_solver(const structure::Part& part) {
 }
 
 /// What fails on one rank fails on all: nothing here waits for another.
-OwnPart build_part(const ModelFile& model, const Cut& cut) {
+OwnPart build_part(ModelFile& model, const Cut& cut) {
   const nurbs::Space<3>& space = model.volume().space;
   OwnPart own;
   std::string problem;
   try {
     own.part = structure::Partition(space, structure::box_cuts(space), cut.parts).part(cut.part);
     own.solid = build_solid(model, &own.part);
-    own.supports = supports_of(model.boundary, model.geometry).on(own.part.nodes);
+    own.supports = supports_of(model.boundary).on(own.part.nodes);
     expect_room_for_solver(own.part);
   } catch (const std::bad_alloc&) {
     problem = nurbs::out_of_memory(model.file);
@@ -192,26 +197,30 @@ OwnPart build_part(const ModelFile& model, const Cut& cut) {
   return own;
 }
 
-structure::ExplicitSolver build_solver_at_rest(const ModelFile& model, const Cut& cut) {
+structure::ExplicitSolver build_solver_at_rest(ModelFile& model, const Cut& cut) {
   if (cut.parts > 1) {
     OwnPart own = build_part(model, cut);
     return {std::move(own.solid), std::move(own.supports), cut.halo(std::move(own.part))};
   }
   const nurbs::Space<3>& space = model.volume().space;
   std::vector<Eigen::Index> runs = structure::Partition(space, structure::box_cuts(space), 1).part(0).runs;
-  return {build_solid(model, nullptr), supports_of(model.boundary, model.geometry),
+  return {build_solid(model, nullptr), supports_of(model.boundary),
           std::make_unique<const structure::Halo>(std::move(runs))};
 }
 
 }  // namespace
 
-structure::ExplicitSolver build_solver(const ModelFile& model, const Cut& cut) {
+structure::ExplicitSolver build_solver(ModelFile& model, const Cut& cut) {
   structure::ExplicitSolver solver = build_solver_at_rest(model, cut);
   const std::vector<structure::Id>& nodes = solver.node_ids();
   structure::NodalVectors f_ext =
       model.gravity.value_or(Vector3::Zero()) * solver.mass().nodal_mass().transpose();
-  for (const FaceTraction& traction : model.tractions)
-    structure::add_traction_load(solver.body(), {0, traction.face}, traction.value, nodes, f_ext);
+  for (const FaceTraction& traction : model.tractions) {
+    const nurbs::BoundarySurface face = solver.body().skin({0, traction.face});
+    const structure::NodalVectors X =
+        solver.reference_of({face.volume_control_point.begin(), face.volume_control_point.end()});
+    structure::add_traction_load(face, X, traction.value, nodes, f_ext);
+  }
   structure::NodalVectors v = structure::NodalVectors::Zero(3, nodes.size());
   v.leftCols(solver.halo().held(v.cols())).colwise() = model.initial_velocity;
   solver.set_load(f_ext);

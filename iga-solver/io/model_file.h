@@ -49,11 +49,11 @@ struct ModelFile {
   std::optional<TimeSpan> time = {};
 
   /// Those of `boundary` that have names.
-  std::vector<structure::NamedSupport> named_supports() const {
-    return io::named_supports(boundary, geometry);
-  }
+  std::vector<structure::NamedSupport> named_supports() const { return io::named_supports(boundary); }
 
+  /// Without control points once a solver was built.
   const nurbs::Volume& volume() const { return std::get<nurbs::Volume>(geometry.patches.front()); }
+  nurbs::NodalVectors take_control_points();
 };
 
 /// `file` is the name used in messages; `read` gives the geometry file that the text may name.  Throws
@@ -73,7 +73,11 @@ struct Cut {
 };
 
 /// The solver in its initial state, loads applied, accelerations not yet worked out; of one part, if the
-/// solid is cut (collective).  Throws geometry_io::InputError if the geometry is left-handed or folded.
-structure::ExplicitSolver build_solver(const ModelFile& model, const Cut& cut = {});
+/// solid is cut (collective).  Takes the control points out of the model: a part keeps no more than its own.
+/// Throws geometry_io::InputError if the geometry is left-handed or folded.
+structure::ExplicitSolver build_solver(ModelFile& model, const Cut& cut = {});
+inline structure::ExplicitSolver build_solver(ModelFile&& model, const Cut& cut = {}) {
+  return build_solver(model, cut);
+}
 
 }  // namespace io

@@ -37,8 +37,6 @@ class Body {
 
   virtual int node_count() const = 0;
   virtual const NodalVectors& reference() const = 0;  ///< undeformed positions of the nodes [length]
-  /// Of all nodes of the whole body, whatever the part.
-  virtual const NodalVectors& whole_reference() const { return reference(); }
   virtual PatchSpaces patches() const = 0;
   virtual nurbs::BoundarySurface skin(const SkinPiece& piece) const = 0;
   virtual ExactSum volume_sum() const = 0;  ///< [length^3]; of a part, to be summed over all

@@ -12,28 +12,27 @@ NodalVectors gravity_load(const Body& body, const Vector3& g) { return g * body.
 
 namespace {
 
-/// Of the nodes of a piece of the skin, by their ids, the areas that a traction counts on.
-std::vector<std::pair<Id, double>> areas(const Body& body, const SkinPiece& piece) {
-  const nurbs::BoundarySurface boundary = body.skin(piece);
-  const Eigen::VectorXd area = nurbs::control_point_areas(
-      boundary.space, body.whole_reference()(Eigen::all, boundary.volume_control_point));
+/// Of the nodes of a face, by their ids, the areas that a traction counts on.
+std::vector<std::pair<Id, double>> areas(const nurbs::BoundarySurface& face, const NodalVectors& X) {
+  const Eigen::VectorXd area = nurbs::control_point_areas(face.space, X);
   std::vector<std::pair<Id, double>> areas;
-  for (Eigen::Index c = 0; c < area.size(); ++c)
-    areas.emplace_back(boundary.volume_control_point[c], area[c]);
+  for (Eigen::Index c = 0; c < area.size(); ++c) areas.emplace_back(face.volume_control_point[c], area[c]);
   return areas;
 }
 
 }  // namespace
 
 NodalVectors traction_load(const Body& body, const SkinPiece& piece, const Vector3& traction) {
-  NodalVectors f = NodalVectors::Zero(3, body.whole_reference().cols());
-  for (const auto& [node, area] : areas(body, piece)) f.col(node) += traction * area;
+  const nurbs::BoundarySurface face = body.skin(piece);
+  const NodalVectors X = body.reference()(Eigen::all, face.volume_control_point);
+  NodalVectors f = NodalVectors::Zero(3, body.node_count());
+  for (const auto& [node, area] : areas(face, X)) f.col(node) += traction * area;
   return f;
 }
 
-void add_traction_load(const Body& body, const SkinPiece& piece, const Vector3& traction,
+void add_traction_load(const nurbs::BoundarySurface& face, const NodalVectors& X, const Vector3& traction,
                        const std::vector<Id>& nodes, NodalVectors& f) {
-  std::vector<std::pair<Id, double>> loaded = areas(body, piece);
+  std::vector<std::pair<Id, double>> loaded = areas(face, X);
   std::sort(loaded.begin(), loaded.end());
   for (std::size_t column = 0; column < nodes.size(); ++column) {
     const auto found =

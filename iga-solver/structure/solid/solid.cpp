@@ -32,10 +32,11 @@ GeometryMode geometry_mode(IntegrationMethod method) {
 }
 
 /// dX/dxi and du/dxi alike: J(i, d) = sum_A q_A,i dR_A/dxi_d.
-Matrix3 parameter_gradient(const nurbs::RationalBasis<3>& basis, const NodalVectors& q) {
+Matrix3 parameter_gradient(const nurbs::RationalBasis<3>& basis, const std::vector<int>& columns,
+                           const NodalVectors& q) {
   Matrix3 J = Matrix3::Zero();
   for (int a = 0; a < basis.count; ++a)
-    for (int d = 0; d < 3; ++d) J.col(d) += basis.dR[d][a] * q.col(basis.control_point[a]);
+    for (int d = 0; d < 3; ++d) J.col(d) += basis.dR[d][a] * q.col(columns[a]);
   return J;
 }
 
@@ -51,35 +52,38 @@ IntegrationMethod integration_method_from_name(const std::string& word) {
 }
 
 Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration)
-    : Solid(std::make_unique<const nurbs::Volume>(std::move(patch)), std::move(material), integration) {
-  prepare(patch_->space.control_point_count(), patch_->space.element_count());
-  boxes_ = whole_patch(patch_->space);
+    : Solid(patch, std::move(material), integration, patch.space.control_point_count(),
+            patch.space.element_count()) {
+  boxes_ = whole_patch(space_);
+  reference_ = std::move(patch.control_points);
   set_up();
 }
 
-Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration,
-             const Part& part)
-    : Solid(std::make_unique<const nurbs::Volume>(std::move(patch)), std::move(material), integration) {
-  prepare(part.columns, part.elements.size());
-  boxes_ = boxes_of(part, patch_->space);
+Solid::Solid(const nurbs::Volume& patch, std::shared_ptr<const Material> material,
+             const Integration& integration, const Part& part)
+    : Solid(patch, std::move(material), integration, part.columns, part.elements.size()) {
+  boxes_ = boxes_of(part, space_);
   border_boxes_ = part.border_boxes;
-  part_reference_ = NodalVectors::Zero(3, columns_);
+  reference_ = NodalVectors::Zero(3, part.columns);
   for (int column = 0; column < part.held(); ++column)
-    part_reference_->col(column) = patch_->control_points.col(part.nodes[column]);
+    reference_.col(column) = patch.control_points.col(part.nodes[column]);
   set_up();
 }
 
-Solid::Solid(std::unique_ptr<const nurbs::Volume> patch, std::shared_ptr<const Material> material,
-             const Integration& integration)
-    : patch_(std::move(patch)),
+Solid::Solid(const nurbs::Volume& patch, std::shared_ptr<const Material> material,
+             const Integration& integration, int columns, std::size_t elements)
+    : space_(patch.space),
       material_(std::move(material)),
       integration_(integration),
       first_element_{0},
-      functions_(patch_->space.functions_per_element()),
+      functions_(space_.functions_per_element()),
       padded_(padded(functions_)),
-      tabulate_(*patch_, integration.quadrature),
-      tabulate_fully_(*patch_, Quadrature::full) {
-  nurbs::check_patch(*patch_);
+      tabulate_(space_, integration.quadrature),
+      tabulate_fully_(space_, Quadrature::full),
+      remembered_(std::size_t(tabulate_.slots()) * material_->state_size()) {
+  nurbs::check_patch(patch);
+  choose_method(patch);
+  expect_memory(columns, elements);
 }
 
 void Solid::set_up() {
@@ -87,53 +91,52 @@ void Solid::set_up() {
     first_element_.push_back(first_element_.back() + box.spans.element_count());
   integrate_mass();
   if (integration_.method == IntegrationMethod::elements)
-    integrals_ = std::make_unique<ElementLoop>(*patch_, boxes_, *material_, integration_.quadrature);
+    integrals_ =
+        std::make_unique<ElementLoop>(space_, reference_, boxes_, *material_, integration_.quadrature);
   else
-    integrals_ = std::make_unique<PatchSweep>(*patch_, boxes_, *material_, integration_.quadrature,
-                                              geometry_mode(integration_.method));
+    integrals_ = std::make_unique<PatchSweep>(space_, reference_, boxes_, *material_, integration_.quadrature,
+                                              SweepGeometry{geometry_mode(integration_.method), J_});
   memory_.assign(element_count() * remembered_, 0.0);
   next_memory_ = memory_;
 }
 
 /// Stored geometry of an element [bytes].
 double Solid::element_table_bytes() const {
-  return sizeof(double) * table_numbers(patch_->space.rational()) * double(tabulate_.slots());
+  return sizeof(double) * table_numbers(space_.rational()) * double(tabulate_.slots());
 }
 
-/// How, and whether it fits into memory: solid, and a solver for it.
-void Solid::prepare(int columns, std::size_t elements) {
-  columns_ = columns;
-  remembered_ = std::size_t(tabulate_.slots()) * material_->state_size();
-  choose_method();
+/// Whether solid, and a solver for it, fit.
+void Solid::expect_memory(int columns, std::size_t elements) const {
   constexpr double kBytesPerNode = 230.0;  // as measured by tests/benchmark/structure/large_solid
   const int points = tabulate_.slots();
   double per_element = 2.0 * sizeof(double) * static_cast<double>(remembered_);
   if (integration_.method == IntegrationMethod::stored) per_element += element_table_bytes();
   if (integration_.method == IntegrationMethod::elements)
     per_element += sizeof(double) * (3.0 * padded_ + 1.0) * points;
-  nurbs::expect_memory(
-      kBytesPerNode * columns_ + per_element * static_cast<double>(elements),
-      fmt::format("a solid of {} elements of degrees {}, {}, {}", elements, patch_->space.degree(0),
-                  patch_->space.degree(1), patch_->space.degree(2)));
+  nurbs::expect_memory(kBytesPerNode * columns + per_element * static_cast<double>(elements),
+                       fmt::format("a solid of {} elements of degrees {}, {}, {}", elements, space_.degree(0),
+                                   space_.degree(1), space_.degree(2)));
 }
 
-void Solid::choose_method() {
+/// By the whole patch, so that it is the same on any number of ranks.
+void Solid::choose_method(const nurbs::Volume& patch) {
   IntegrationMethod& method = integration_.method;
-  const bool can_sweep = PatchSweep::can_sweep(patch_->space);
-  // Of the whole patch, so that it is the same on any number of ranks.
-  const double table = element_table_bytes() * static_cast<double>(patch_->space.element_count());
+  const bool can_sweep = PatchSweep::can_sweep(space_);
+  if (method == IntegrationMethod::automatic || method == IntegrationMethod::affine)
+    J_ = affine_jacobian(patch);
+  const double table = element_table_bytes() * static_cast<double>(space_.element_count());
   if (method == IntegrationMethod::automatic)
-    method = !can_sweep                 ? IntegrationMethod::elements
-             : affine_jacobian(*patch_) ? IntegrationMethod::affine
-             : table <= kCachedTable    ? IntegrationMethod::stored
-                                        : IntegrationMethod::recomputed;
+    method = !can_sweep              ? IntegrationMethod::elements
+             : J_                    ? IntegrationMethod::affine
+             : table <= kCachedTable ? IntegrationMethod::stored
+                                     : IntegrationMethod::recomputed;
   if (method != IntegrationMethod::elements && !can_sweep)
     throw std::invalid_argument(
         fmt::format("Solid: method is '{}' and the degrees are {}, {}, {}, expected degrees {} to {} (or "
                     "'auto', 'elements')",
-                    name(method), patch_->space.degree(0), patch_->space.degree(1), patch_->space.degree(2),
-                    kLowestSweptDegree, kHighestSweptDegree));
-  if (method == IntegrationMethod::affine && !affine_jacobian(*patch_))
+                    name(method), space_.degree(0), space_.degree(1), space_.degree(2), kLowestSweptDegree,
+                    kHighestSweptDegree));
+  if (method == IntegrationMethod::affine && !J_)
     throw std::invalid_argument(
         "Solid: method is 'affine', expected 'auto', 'stored' or 'recomputed': the Jacobian of the patch is "
         "not the same everywhere");
@@ -143,8 +146,9 @@ void Solid::choose_method() {
 void Solid::integrate_mass() {
   row_sum_mass_ = Eigen::VectorXd::Zero(node_count());
   double least_det = -1.0;  // not known
-  if (PatchSweep::can_sweep(patch_->space)) {
-    const PatchSweep sweep(*patch_, boxes_, *material_, Quadrature::full, GeometryMode::recomputed);
+  if (PatchSweep::can_sweep(space_)) {
+    const PatchSweep sweep(space_, reference_, boxes_, *material_, Quadrature::full,
+                           {GeometryMode::recomputed});
     const PatchSweep::Volume volume = sweep.add_row_sums(row_sum_mass_, material_->density());
     volume_ = volume.volume;
     least_det = volume.least_det;
@@ -157,11 +161,11 @@ void Solid::integrate_mass_of_elements() {
   row_sum_mass_.setZero();
   volume_ = ExactSum();
   for (std::size_t b = 0; b < boxes_.size(); ++b) {
-    Eigen::VectorXd share = Eigen::VectorXd::Zero(boxes_[b].nodes.size());
-    std::vector<int> local(boxes_[b].nodes.size());
+    Eigen::VectorXd share = Eigen::VectorXd::Zero(boxes_[b].columns.size());
+    std::vector<int> local(boxes_[b].columns.size());
     std::iota(local.begin(), local.end(), 0);
     for (int e = first_element_[b]; e < first_element_[b + 1]; ++e) {
-      const std::vector<int> nodes = element_columns(patch_->space, boxes_[b].spans, local, spans_of(e));
+      const std::vector<int> nodes = element_columns(space_, boxes_[b].spans, local, spans_of(e));
       const std::vector<double>& mass = one(e).mass;
       for (int a = 0; a < functions_; ++a) share[nodes[a]] += mass[a];
       volume_.add(std::accumulate(mass.begin(), mass.end(), 0.0) / material_->density());
@@ -183,13 +187,11 @@ std::size_t Solid::box_of(int element) const {
 const Solid::OneElement& Solid::one(int element) const {
   if (one_.element == element) return one_;
   one_.element = -1;  // until all is known
-  const std::array<int, 3> spans = spans_of(element);
-  const int in_patch = patch_->space.element_index(spans);
-  const PlacedBox& box = boxes_[box_of(element)];
-  one_.columns = element_columns(patch_->space, box.spans, box.read(), spans);
-  tabulate_(in_patch, one_.tables);
+  const int in_patch = space_.element_index(spans_of(element));
+  one_.columns = element_nodes(element);
+  tabulate_(in_patch, {reference_, one_.columns}, one_.tables);
   one_.mass.assign(padded_, 0.0);
-  tabulate_fully_.add_row_sums(in_patch, one_.mass.data());
+  tabulate_fully_.add_row_sums(in_patch, {reference_, one_.columns}, one_.mass.data());
   for (double& mass : one_.mass) mass *= material_->density();
   one_.element = element;
   return one_;
@@ -202,22 +204,25 @@ std::string Solid::discretisation() const {
 nurbs::BoundarySurface Solid::skin(const SkinPiece& piece) const {
   if (piece.patch != 0)
     throw std::invalid_argument(fmt::format("Solid: skin of patch {}, expected 0: it has one", piece.patch));
-  return nurbs::boundary_surface(patch_->space, piece.face);
+  return nurbs::boundary_surface(space_, piece.face);
 }
 
 std::string Solid::describe_element(int element) const {
-  const nurbs::Space<3>& space = patch_->space;
   const std::array<int, 3> spans = spans_of(element);
-  const nurbs::Parameter<3> centre = space.element_centre(space.element_index(spans));
+  const std::vector<int> columns = element_nodes(element);
+  nurbs::RationalBasis<3> basis;
+  nurbs::evaluate(space_, space_.element_centre(space_.element_index(spans)), 0, basis);
+  Vector3 centre = Vector3::Zero();
+  for (int a = 0; a < basis.count; ++a) centre += basis.R[a] * reference_.col(columns[a]);
   return fmt::format("spans {}, {}, {} of xi, eta, zeta, undeformed about {}", spans[0], spans[1], spans[2],
-                     text(nurbs::interpolate(space, patch_->control_points, centre)));
+                     text(centre));
 }
 
 std::vector<std::array<int, 2>> Solid::net_edges() const {
   std::vector<std::array<int, 2>> edges;
   for (const PlacedBox& box : boxes_) {
     const std::vector<int>& columns = box.read();
-    const std::array<int, 3> counts = box_node_counts(patch_->space, box.spans);
+    const std::array<int, 3> counts = box_node_counts(space_, box.spans);
     const int strides[3] = {1, counts[0], counts[0] * counts[1]};
     for (int node = 0; node < static_cast<int>(columns.size()); ++node)
       for (int d = 0; d < 3; ++d)
@@ -238,7 +243,7 @@ void Solid::gather(int element, const NodalVectors& nodal, double* values) const
 
 std::vector<int> Solid::element_nodes(int element) const {
   const PlacedBox& box = boxes_[box_of(element)];
-  return element_columns(patch_->space, box.spans, box.read(), spans_of(element));
+  return element_columns(space_, box.spans, box.read(), spans_of(element));
 }
 
 void Solid::element_force(int element, const double* u, double* f) const {
@@ -288,20 +293,25 @@ void Solid::set_memory(std::vector<double> memory) {
   memory_ = std::move(memory);
 }
 
+int Solid::element_at(const nurbs::Parameter<3>& xi) const {
+  const std::array<int, 3> span = space_.element_indices(space_.element_at(xi));
+  std::size_t b = 0;
+  while (!boxes_[b].spans.holds(span)) ++b;
+  return first_element_[b] + boxes_[b].spans.element(span);
+}
+
 Matrix3 Solid::displacement_gradient(const NodalVectors& u, const nurbs::Parameter<3>& xi) const {
+  const std::vector<int> columns = element_nodes(element_at(xi));
   nurbs::RationalBasis<3> basis;
-  nurbs::evaluate(patch_->space, xi, 1, basis);
-  return parameter_gradient(basis, u) * parameter_gradient(basis, patch_->control_points).inverse();
+  nurbs::evaluate(space_, xi, 1, basis);
+  return parameter_gradient(basis, columns, u) * parameter_gradient(basis, columns, reference_).inverse();
 }
 
 /// Where the quadrature point that is nearest in parameters has its memory.
 std::size_t Solid::nearest_memory(const nurbs::Parameter<3>& xi) const {
-  const std::array<int, 3> span = patch_->space.element_indices(patch_->space.element_at(xi));
-  std::size_t b = 0;
-  while (!boxes_[b].spans.holds(span)) ++b;
-  const SpanBox& box = boxes_[b].spans;
-  const std::size_t element = first_element_[b] + box.element(span);
-  return element * remembered_ + std::size_t(tabulate_.nearest_slot(span, xi)) * material_->state_size();
+  const int element = element_at(xi);
+  const std::size_t slot = tabulate_.nearest_slot(spans_of(element), xi);
+  return element * remembered_ + slot * material_->state_size();
 }
 
 Matrix3 Solid::stress(const NodalVectors& u, const nurbs::Parameter<3>& xi) const {

@@ -43,11 +43,13 @@ class Solid final : public Body {
   /// if the Jacobian determinant of some element is not positive (a left-handed or folded patch), or if the
   /// integration is not for it.
   Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration = {});
-  /// A part of it, cut at box_cuts.  The patch itself stays whole on every rank.
-  Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration,
+  /// A part of it, cut at box_cuts: keeps the knots and weights of the patch, and its own control points.
+  Solid(const nurbs::Volume& patch, std::shared_ptr<const Material> material, const Integration& integration,
         const Part& part);
+  Solid(const Solid&) = delete;  // what integrates it refers to it
+  Solid& operator=(const Solid&) = delete;
 
-  const nurbs::Volume& patch() const { return *patch_; }
+  const nurbs::Space<3>& space() const { return space_; }
   const Integration& integration() const { return integration_; }  ///< the method that was chosen
   double table_bytes() const { return integrals_->table_bytes(); }
   /// H = du/dX [-] at a parameter point.
@@ -56,12 +58,9 @@ class Solid final : public Body {
   /// A law with memory takes that of the nearest quadrature point.
   Matrix3 stress(const NodalVectors& u, const nurbs::Parameter<3>& xi) const;
 
-  int node_count() const override { return columns_; }
-  const NodalVectors& reference() const override {
-    return part_reference_ ? *part_reference_ : patch_->control_points;
-  }
-  const NodalVectors& whole_reference() const override { return patch_->control_points; }
-  PatchSpaces patches() const override { return std::vector{patch_->space}; }
+  int node_count() const override { return static_cast<int>(reference_.cols()); }
+  const NodalVectors& reference() const override { return reference_; }
+  PatchSpaces patches() const override { return std::vector{space_}; }
   /// Throws std::invalid_argument unless it is a face of patch 0.
   nurbs::BoundarySurface skin(const SkinPiece& piece) const override;
   ExactSum volume_sum() const override { return volume_; }
@@ -90,8 +89,9 @@ class Solid final : public Body {
   std::vector<std::array<int, 2>> net_edges() const override;
 
  private:
-  Solid(std::unique_ptr<const nurbs::Volume> patch, std::shared_ptr<const Material> material,
-        const Integration& integration);
+  /// Without boxes and control points yet.
+  Solid(const nurbs::Volume& patch, std::shared_ptr<const Material> material, const Integration& integration,
+        int columns, std::size_t elements);
   /// One element, worked out when it is asked for.
   struct OneElement {
     int element = -1;
@@ -102,22 +102,24 @@ class Solid final : public Body {
   const OneElement& one(int element) const;
   std::array<int, 3> spans_of(int element) const;
   std::size_t box_of(int element) const;
+  int element_at(const nurbs::Parameter<3>& xi) const;
   void set_up();
-  void choose_method();
+  void choose_method(const nurbs::Volume& patch);
   double element_table_bytes() const;
-  void prepare(int columns, std::size_t elements);
+  void expect_memory(int columns, std::size_t elements) const;
   void integrate_mass();
   void integrate_mass_of_elements();
   std::size_t nearest_memory(const nurbs::Parameter<3>& xi) const;
 
-  std::unique_ptr<const nurbs::Volume> patch_;  // tables refer to it
+  nurbs::Space<3> space_;  // of the whole patch
+  NodalVectors reference_;
   std::shared_ptr<const Material> material_;
   Integration integration_;
+  std::optional<Matrix3> J_;  // of an affine map
   std::vector<PlacedBox> boxes_;
-  int columns_, border_boxes_ = 0;              // of nodal arrays; boxes with shares for others come first
-  std::optional<NodalVectors> part_reference_;  // of a part
-  std::vector<int> first_element_;              // of each box, and of one beyond
-  int functions_, padded_;                      // per element
+  int border_boxes_ = 0;            // those with shares for others come first
+  std::vector<int> first_element_;  // of each box, and of one beyond
+  int functions_, padded_;          // per element
   ElementTabulator tabulate_, tabulate_fully_;
   std::unique_ptr<const Integrals> integrals_;
   std::size_t remembered_;                    // numbers per element

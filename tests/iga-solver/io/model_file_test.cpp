@@ -74,7 +74,7 @@ TEST(ModelFile, LeavesOutWhatIsOptional) {
 }
 
 TEST(BuildSolver, HasTheMassSupportsLoadsAndVelocitiesOfTheFile) {
-  const ModelFile model = io::parse_model_file(kPlate, "plate.yaml");
+  ModelFile model = io::parse_model_file(kPlate, "plate.yaml");
   structure::ExplicitSolver solver = io::build_solver(model);
   const double mass = 7850.0 * 2 * 4 * 0.5;
   EXPECT_NEAR(solver.mass().nodal_mass().sum(), mass, 1e-9 * mass);
