@@ -261,4 +261,30 @@ TEST(Solid, RefusesAPatchWithANegativeJacobianAndSaysWhere) {
   EXPECT_THAT(message_of([&] { Solid(folded, models::elastic()); }), testing::HasSubstr("element 2"));
 }
 
+// A part has the control points of its own elements alone, and says the same of what it holds.
+TEST(Solid, APartIsTheWholeWhereItIs) {
+  const nurbs::Volume patch =
+      models::distorted(models::block({1, 2, 1}, {3, structure::kBoxSpans[1] + 7, 2}, 2), 0.004);
+  const nurbs::Space<3>& space = patch.space;
+  const Solid whole(patch, models::elastic());
+  const NodalVectors u = 0.01 * models::random_vectors(whole.node_count(), 3);
+  const structure::Partition partition(space, structure::box_cuts(space), 2);
+  for (int p = 0; p < 2; ++p) {
+    const structure::Part part = partition.part(p);
+    const Solid own(patch, models::elastic(), {}, part);
+    NodalVectors u_own = NodalVectors::Zero(3, part.columns);
+    for (int column = 0; column < part.held(); ++column) {
+      u_own.col(column) = u.col(part.nodes[column]);
+      EXPECT_EQ(own.reference().col(column), patch.control_points.col(part.nodes[column]));
+    }
+    const nurbs::Parameter<3> xi{0.4, p == 0 ? 0.1 : 0.9, 0.7};
+    EXPECT_EQ(own.stress(u_own, xi), whole.stress(u, xi));
+    for (int e = 0; e < own.element_count(); ++e) {
+      const int id = static_cast<int>(part.elements[e]);
+      EXPECT_EQ(own.describe_element(e), whole.describe_element(id));
+      EXPECT_EQ(own.element_mass(e)[0], whole.element_mass(id)[0]);
+    }
+  }
+}
+
 }  // namespace
