@@ -56,9 +56,9 @@ std::string name_of(const structure::SkinPiece& piece) {
   return piece.patch == 0 ? face : fmt::format("{} {}", piece.patch, face);
 }
 
-FingerprintPart material_part(const structure::Material& material) {
+FingerprintPart material_part(const structure::Material& material, const std::string& of_patch) {
   const double E = material.youngs_modulus(), nu = material.poissons_ratio(), density = material.density();
-  FingerprintPart part{"material",
+  FingerprintPart part{"material" + of_patch,
                        fmt::format("E = {:.10g}, nu = {:.10g}, density = {:.10g}", E, nu, density),
                        {E, nu, density}};
   for (const double constant : material.further_constants()) {
@@ -70,6 +70,18 @@ FingerprintPart material_part(const structure::Material& material) {
     part.numbers.push_back(size);
   }
   return part;
+}
+
+/// One for all patches, if they are of one.
+void add_materials(const structure::Body& body, Fingerprint& fingerprint) {
+  const std::vector<const structure::Material*> materials = body.materials();
+  const bool one = std::all_of(materials.begin(), materials.end(),
+                               [&](const auto* material) { return material == materials.front(); });
+  for (std::size_t p = 0; p < (one ? 1 : materials.size()); ++p) {
+    const std::string of_patch = one ? "" : fmt::format(" of patch {}", p);
+    fingerprint.push_back(word_part("law of the material" + of_patch, materials[p]->law()));
+    fingerprint.push_back(material_part(*materials[p], of_patch));
+  }
 }
 
 FingerprintPart supports_part(const std::vector<structure::Id>& fixed) {
@@ -128,7 +140,7 @@ void IgaStructure::set_time_step(double dt) {
 }
 
 std::optional<SurfaceMaterial> IgaStructure::material() const {
-  const structure::Material& material = solver_.body().material();
+  const structure::Material& material = *solver_.body().materials()[skin_.front().patch];
   return SurfaceMaterial{material.youngs_modulus(), material.poissons_ratio()};
 }
 
@@ -157,16 +169,16 @@ std::vector<Reaction> IgaStructure::reactions() const {
 
 Fingerprint IgaStructure::fingerprint() const {
   const structure::Body& body = solver_.body();
-  const structure::Material& material = body.material();
   std::vector<std::string> faces;
   for (const structure::SkinPiece& piece : skin_) faces.emplace_back(name_of(piece));
   const std::vector<double> X = solver_.in_order(body.reference());
   const auto geometry = [&](const auto& patches) {
     return geometry_part(patches, NodalVectors::Map(X.data(), 3, static_cast<Eigen::Index>(X.size() / 3)));
   };
-  Fingerprint fingerprint{
-      std::visit(geometry, body.patches()), word_part("surface", fmt::format("{}", fmt::join(faces, ", "))),
-      word_part("law of the material", material.law()), material_part(material), supports_};
+  Fingerprint fingerprint{std::visit(geometry, body.patches()),
+                          word_part("surface", fmt::format("{}", fmt::join(faces, ", ")))};
+  add_materials(body, fingerprint);
+  fingerprint.push_back(supports_);
   if (!body.discretisation().empty()) fingerprint.push_back(word_part("quadrature", body.discretisation()));
   return fingerprint;
 }

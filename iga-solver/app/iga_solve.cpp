@@ -82,12 +82,17 @@ void print_model(const io::ModelFile& model, const ExplicitSolver& solver) {
                    fixed.begin(), fixed.end(), [&](Eigen::Index dof) { return dof < 3 * owned; }))),
                mass = halo.sum(solver.mass().nodal_mass().head(owned).sum());
 
-  const nurbs::Space<3>& space = model.volume().space;
   print_on_first("{} (units {})\n", model.file, geometry_io::units_name(model.geometry.units));
-  print_on_first("  elements     {} ({} x {} x {}), degrees {} {} {}\n", space.element_count(),
-                 space.knots(0).element_count(), space.knots(1).element_count(),
-                 space.knots(2).element_count(), space.degree(0), space.degree(1), space.degree(2));
-  print_on_first("  dof          {}, {} of them fixed\n", 3L * space.control_point_count(),
+  for (int p = 0; p < model.patch_count(); ++p) {
+    const nurbs::Space<3>& space = model.volume(p).space;
+    print_on_first("  elements     {} ({} x {} x {}), degrees {} {} {}{}\n", space.element_count(),
+                   space.knots(0).element_count(), space.knots(1).element_count(),
+                   space.knots(2).element_count(), space.degree(0), space.degree(1), space.degree(2),
+                   model.patch_count() > 1 ? fmt::format(" of patch {}", p) : "");
+  }
+  if (model.patch_count() > 1)
+    print_on_first("  welds        {} nodes of several patches\n", model.nodes.welded().size());
+  print_on_first("  dof          {}, {} of them fixed\n", 3L * model.nodes.node_count(),
                  static_cast<long>(fixed_dofs));
   print_on_first("  mass         {:.8g}\n", mass);
 }

@@ -295,7 +295,7 @@ Shape read_sized(const ShapeKey& shape, const YamlMap& map) {
 std::vector<std::string> all_keys() {
   std::vector<std::string> keys;
   for (const ShapeKey& shape : shape_table()) keys.emplace_back(shape.key);
-  keys.insert(keys.end(), {"patches", "file"});
+  keys.insert(keys.end(), {"patches", "shapes", "file"});
   return keys;
 }
 

@@ -28,10 +28,9 @@ structure::Directions read_directions(const YamlMap& map) {
 }
 
 /// The axis along the normal of an axis-parallel plane face, which is where its control points lie.
-structure::Directions read_symmetry(const YamlMap& map, const Selection& face, const GeometryFile& geometry) {
+structure::Directions read_symmetry(const YamlMap& map, const nurbs::Volume& patch, nurbs::Face face) {
   constexpr double kFlat = 1e-9;
-  const nurbs::NodalVectors& all = std::get<nurbs::Volume>(geometry.patches[face.patch]).control_points;
-  const nurbs::NodalVectors X = all(Eigen::all, nodes_of(face, geometry));
+  const nurbs::NodalVectors X = patch.control_points(Eigen::all, structure::nodes_on(patch.space, {face}));
   const Vector3 extent = X.rowwise().maxCoeff() - X.rowwise().minCoeff();
   structure::Directions normal;
   for (int i = 0; i < 3; ++i) normal[i] = extent[i] <= kFlat * extent.maxCoeff();
@@ -54,12 +53,16 @@ void read_motion(const YamlMap& entry, BoundaryEntry& support) {
   support.time = read_time_function(entry);
 }
 
-BoundaryEntry read_entry(const YamlMap& map, const GeometryFile& geometry) {
+BoundaryEntry read_entry(const YamlMap& map, const GeometryFile& geometry,
+                         const structure::NodeNumbering& nodes) {
   BoundaryEntry entry{map.has("name") ? map.word("name") : "", {}, {false, false, false}};
   if (map.has("symmetry")) {
     map.allow_only({"name", "symmetry", "patch"});
-    entry.where = {read_patch(map, geometry), {read_face(map, "symmetry")}};
-    entry.directions = read_symmetry(map, entry.where, geometry);
+    const int patch = read_patch(map, geometry);
+    const nurbs::Face face = read_face(map, "symmetry");
+    entry.directions = read_symmetry(map, std::get<nurbs::Volume>(geometry.patches[patch]), face);
+    entry.where = {{patch}, {face}};
+    entry.nodes = nodes_of(entry.where, geometry, nodes);
     return entry;
   }
   map.allow_only(with_selection_keys({"name", "fix", "symmetry", "move", "time"}));
@@ -72,7 +75,8 @@ BoundaryEntry read_entry(const YamlMap& map, const GeometryFile& geometry) {
     entry.directions = read_directions(map);
   else
     read_motion(map, entry);
-  entry.where = read_selection(map, geometry);
+  entry.where = read_selection(map, geometry, nodes);
+  entry.nodes = nodes_of(entry.where, geometry, nodes);
   return entry;
 }
 
@@ -85,11 +89,11 @@ void hold(const BoundaryEntry& entry, structure::Supports& supports) {
 
 }  // namespace
 
-std::vector<BoundaryEntry> read_boundary(const std::vector<YamlMap>& entries, const GeometryFile& geometry) {
+std::vector<BoundaryEntry> read_boundary(const std::vector<YamlMap>& entries, const GeometryFile& geometry,
+                                         const structure::NodeNumbering& nodes) {
   std::vector<BoundaryEntry> boundary;
   for (const YamlMap& map : entries) {
-    boundary.push_back(read_entry(map, geometry));
-    boundary.back().nodes = nodes_of(boundary.back().where, geometry);
+    boundary.push_back(read_entry(map, geometry, nodes));
     for (std::size_t i = 0; i + 1 < boundary.size(); ++i)
       if (!boundary[i].name.empty() && boundary[i].name == boundary.back().name)
         map.fail("name", fmt::format("name '{}' is given twice, expected once", boundary[i].name));

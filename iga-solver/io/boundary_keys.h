@@ -27,7 +27,8 @@ struct BoundaryEntry {
 
 /// Throws geometry_io::InputError.
 std::vector<BoundaryEntry> read_boundary(const std::vector<geometry_io::YamlMap>& entries,
-                                         const geometry_io::GeometryFile& geometry);
+                                         const geometry_io::GeometryFile& geometry,
+                                         const structure::NodeNumbering& nodes);
 
 /// A degree of freedom that several entries hold is the first one's.
 structure::Supports supports_of(const std::vector<BoundaryEntry>& boundary);

@@ -7,9 +7,10 @@
 #include <utility>
 
 #include "geometry_io/file_kind.h"
+#include "io/material_keys.h"
 #include "nurbs/memory.h"
 #include "structure/conditions/loads.h"
-#include "structure/material/laws.h"
+#include "structure/weld.h"
 
 namespace io {
 
@@ -17,44 +18,19 @@ using geometry_io::YamlMap;
 
 namespace {
 
-std::shared_ptr<const structure::Material> read_constants(const YamlMap& map,
-                                                          const structure::MaterialLaw& law) {
-  std::vector<std::string> keys = {"law"};
-  for (const structure::MaterialConstant& constant : law.constants) keys.emplace_back(constant.key);
-  for (const structure::MaterialDirection& direction : law.directions) keys.emplace_back(direction.key);
-  map.allow_only(keys);
-  std::vector<double> values;
-  for (const structure::MaterialConstant& constant : law.constants)
-    values.push_back(map.number(constant.key, {constant.low, constant.high}));
-  for (const structure::MaterialDirection& direction : law.directions) {
-    const Vector3 v = map.has(direction.key) ? map.vector3(direction.key) : direction.otherwise;
-    values.insert(values.end(), v.begin(), v.end());
-  }
-  try {
-    return law.make(values);
-  } catch (const std::invalid_argument& error) {
-    map.fail("law", error.what());
-  }
-}
-
-std::shared_ptr<const structure::Material> read_material(const YamlMap& map) {
-  const std::string name = map.word("law");
-  std::vector<std::string> known;
-  for (const structure::MaterialLaw& law : structure::material_laws()) {
-    if (name == law.word) return read_constants(map, law);
-    known.emplace_back(law.word);
-  }
-  map.fail("law", fmt::format("law is '{}', expected one of: {}", name, fmt::join(known, ", ")));
-}
-
-structure::Probe read_probe(const YamlMap& probes, const std::string& name, const nurbs::Space<3>& space) {
+structure::Probe read_probe(const YamlMap& probes, const std::string& name, const ModelFile& model) {
   const YamlMap map = probes.map(name);
-  map.allow_only({"face", "at"});
+  map.allow_only({"face", "patch", "at"});
+  const int patch = read_patch(map, model.geometry);
+  const nurbs::Space<3>& space = model.volume(patch).space;
   const nurbs::Face face = read_face(map, "face");
   const std::vector<double> at = map.numbers("at");
   if (at.size() != 2) map.fail("at", fmt::format("at has {} numbers, expected 2 from 0 to 1", at.size()));
   try {
-    return structure::probe_at(name, space, structure::face_point(space, face, {at[0], at[1]}));
+    structure::Probe probe =
+        structure::probe_at(name, space, structure::face_point(space, face, {at[0], at[1]}));
+    for (int& node : probe.nodes) node = static_cast<int>(model.nodes.node(patch, node));
+    return probe;
   } catch (const std::invalid_argument&) {
     map.fail("at", fmt::format("at is [{}, {}], expected 2 numbers from 0 to 1", at[0], at[1]));
   }
@@ -65,8 +41,9 @@ void read_loads(const YamlMap& map, ModelFile& model) {
   if (map.has("gravity")) model.gravity = map.vector3("gravity");
   if (!map.has("tractions")) return;
   for (const YamlMap& traction : map.list_of_maps("tractions")) {
-    traction.allow_only({"face", "value"});
-    model.tractions.push_back({read_face(traction, "face"), traction.vector3("value")});
+    traction.allow_only({"face", "patch", "value"});
+    model.tractions.push_back(
+        {{read_patch(traction, model.geometry), read_face(traction, "face")}, traction.vector3("value")});
   }
 }
 
@@ -97,17 +74,31 @@ structure::Integration read_integration(const YamlMap& map) {
   return integration;
 }
 
+/// Volumes alone, and what of them is welded.
+structure::NodeNumbering read_welds(const YamlMap& document, const geometry_io::GeometryFile& geometry) {
+  std::vector<nurbs::Volume> volumes;
+  for (const geometry_io::Shape& patch : geometry.patches) {
+    if (!std::holds_alternative<nurbs::Volume>(patch))
+      document.fail("geometry",
+                    "geometry is a surface, expected a volume: a solid with a material needs one");
+    volumes.push_back(std::get<nurbs::Volume>(patch));
+  }
+  if (document.has("weld") && document.word_of("weld", {"yes", "no"}) == "no")
+    return structure::without_welds(volumes);
+  try {
+    return structure::weld(volumes);
+  } catch (const std::invalid_argument& error) {
+    document.fail("geometry", fmt::format("geometry: {}; or 'weld: no'", error.what()));
+  }
+}
+
 ModelFile read_required(const YamlMap& document, const geometry_io::ReadFile& read) {
-  ModelFile model{document.file(), document.line_of("geometry"),
-                  geometry_io::read_geometry(document, geometry_io::geometry_opener(read)),
-                  read_material(document.map("material"))};
-  const std::vector<geometry_io::Shape>& patches = model.geometry.patches;
-  if (patches.size() != 1)
-    document.fail("geometry",
-                  fmt::format("geometry has {} patches, expected one for a solid", patches.size()));
-  if (!std::holds_alternative<nurbs::Volume>(patches.front()))
-    document.fail("geometry", "geometry is a surface, expected a volume: a solid with a material needs one");
-  return model;
+  geometry_io::GeometryFile geometry =
+      geometry_io::read_geometry(document, geometry_io::geometry_opener(read));
+  structure::NodeNumbering nodes = read_welds(document, geometry);
+  const int patches = static_cast<int>(geometry.patches.size());
+  return {document.file(), document.line_of("geometry"), std::move(geometry), std::move(nodes),
+          read_materials(document, patches)};
 }
 
 }  // namespace
@@ -121,15 +112,14 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   };
   const YamlMap document = YamlMap::parse(text, file);
   document.allow_only({"units", "geometry", "material", "boundary", "surfaces", "probes", "output", "loads",
-                       "initial", "time", "integration"});
+                       "initial", "time", "integration", "weld"});
   ModelFile model = read_required(document, read_and_note);
   if (document.has("integration")) model.integration = read_integration(document.map("integration"));
   if (document.has("boundary"))
-    model.boundary = read_boundary(document.list_of_maps("boundary"), model.geometry);
+    model.boundary = read_boundary(document.list_of_maps("boundary"), model.geometry, model.nodes);
   if (document.has("probes")) {
     const YamlMap probes = document.map("probes");
-    for (const std::string& name : probes.keys())
-      model.probes.push_back(read_probe(probes, name, model.volume().space));
+    for (const std::string& name : probes.keys()) model.probes.push_back(read_probe(probes, name, model));
   }
   if (document.has("output")) model.output = read_output(document.map("output"), model.geometry, inputs);
   if (document.has("loads")) read_loads(document.map("loads"), model);
@@ -142,8 +132,13 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   return model;
 }
 
-structure::NodalVectors ModelFile::take_control_points() {
-  return std::exchange(std::get<nurbs::Volume>(geometry.patches.front()).control_points, {});
+std::vector<nurbs::Volume> ModelFile::take_control_points() {
+  std::vector<nurbs::Volume> volumes;
+  for (geometry_io::Shape& shape : geometry.patches) {
+    auto& volume = std::get<nurbs::Volume>(shape);
+    volumes.push_back({volume.space, std::exchange(volume.control_points, {})});
+  }
+  return volumes;
 }
 
 ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& read) {
@@ -155,15 +150,23 @@ ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& 
 
 namespace {
 
-std::unique_ptr<structure::Solid> build_solid(ModelFile& model, const structure::Part* part) {
-  nurbs::Volume patch{model.volume().space, model.take_control_points()};
+std::unique_ptr<structure::Solid> build_solid(ModelFile& model, const structure::Part& part) {
+  const std::vector<nurbs::Volume> volumes = model.take_control_points();
+  std::vector<structure::MaterialPatch> patches;
+  for (std::size_t p = 0; p < volumes.size(); ++p) patches.push_back({volumes[p], model.materials[p]});
   try {
-    if (part) return std::make_unique<structure::Solid>(patch, model.material, model.integration, *part);
-    return std::make_unique<structure::Solid>(std::move(patch), model.material, model.integration);
+    return std::make_unique<structure::Solid>(patches, model.nodes, model.integration, part);
   } catch (const std::invalid_argument& error) {
     throw geometry_io::InputError(
         fmt::format("{}:{}: geometry: {}", model.file, model.geometry_line, error.what()));
   }
+}
+
+structure::Part cut_out(const ModelFile& model, int part, int parts) {
+  std::vector<structure::PatchBoxes> boxes;
+  for (int p = 0; p < model.patch_count(); ++p)
+    boxes.emplace_back(model.volume(p).space, structure::box_cuts(model.volume(p).space));
+  return structure::Partition(std::move(boxes), model.nodes, parts).part(part);
 }
 
 struct OwnPart {
@@ -180,12 +183,11 @@ void expect_room_for_solver(const structure::Part& part) {
 
 /// What fails on one rank fails on all: nothing here waits for another.
 OwnPart build_part(ModelFile& model, const Cut& cut) {
-  const nurbs::Space<3>& space = model.volume().space;
   OwnPart own;
   std::string problem;
   try {
-    own.part = structure::Partition(space, structure::box_cuts(space), cut.parts).part(cut.part);
-    own.solid = build_solid(model, &own.part);
+    own.part = cut_out(model, cut.part, cut.parts);
+    own.solid = build_solid(model, own.part);
     own.supports = supports_of(model.boundary).on(own.part.nodes);
     expect_room_for_solver(own.part);
   } catch (const std::bad_alloc&) {
@@ -202,10 +204,9 @@ structure::ExplicitSolver build_solver_at_rest(ModelFile& model, const Cut& cut)
     OwnPart own = build_part(model, cut);
     return {std::move(own.solid), std::move(own.supports), cut.halo(std::move(own.part))};
   }
-  const nurbs::Space<3>& space = model.volume().space;
-  std::vector<Eigen::Index> runs = structure::Partition(space, structure::box_cuts(space), 1).part(0).runs;
-  return {build_solid(model, nullptr), supports_of(model.boundary),
-          std::make_unique<const structure::Halo>(std::move(runs))};
+  structure::Part all = cut_out(model, 0, 1);
+  return {build_solid(model, all), supports_of(model.boundary),
+          std::make_unique<const structure::Halo>(std::move(all.runs))};
 }
 
 }  // namespace
@@ -216,7 +217,7 @@ structure::ExplicitSolver build_solver(ModelFile& model, const Cut& cut) {
   structure::NodalVectors f_ext =
       model.gravity.value_or(Vector3::Zero()) * solver.mass().nodal_mass().transpose();
   for (const FaceTraction& traction : model.tractions) {
-    const nurbs::BoundarySurface face = solver.body().skin({0, traction.face});
+    const nurbs::BoundarySurface face = solver.body().skin(traction.piece);
     const structure::NodalVectors X =
         solver.reference_of({face.volume_control_point.begin(), face.volume_control_point.end()});
     structure::add_traction_load(face, X, traction.value, nodes, f_ext);

@@ -15,6 +15,7 @@
 #include "io/boundary_keys.h"
 #include "io/output_keys.h"
 #include "structure/conditions/probe.h"
+#include "structure/node_numbering.h"
 #include "structure/partition.h"
 #include "structure/solid/solid.h"
 #include "structure/time/explicit_solver.h"
@@ -25,7 +26,7 @@ using nurbs::Vector3;
 
 /// One entry of `loads: tractions`: dead traction [force/length^2] on a face.
 struct FaceTraction {
-  nurbs::Face face;
+  structure::SkinPiece piece;
   Vector3 value;
 };
 
@@ -37,8 +38,9 @@ struct TimeSpan {
 struct ModelFile {
   std::string file;  ///< as given, for messages
   int geometry_line;
-  geometry_io::GeometryFile geometry;  ///< holds one patch, a Volume
-  std::shared_ptr<const structure::Material> material;
+  geometry_io::GeometryFile geometry;                                 ///< holds Volumes alone
+  structure::NodeNumbering nodes;                                     ///< of their control points
+  std::vector<std::shared_ptr<const structure::Material>> materials;  ///< of each patch
   structure::Integration integration = {};
   std::vector<BoundaryEntry> boundary = {};
   std::vector<structure::Probe> probes = {};  ///< in the order of the file
@@ -52,8 +54,11 @@ struct ModelFile {
   std::vector<structure::NamedSupport> named_supports() const { return io::named_supports(boundary); }
 
   /// Without control points once a solver was built.
-  const nurbs::Volume& volume() const { return std::get<nurbs::Volume>(geometry.patches.front()); }
-  nurbs::NodalVectors take_control_points();
+  const nurbs::Volume& volume(int patch = 0) const {
+    return std::get<nurbs::Volume>(geometry.patches[patch]);
+  }
+  int patch_count() const { return static_cast<int>(geometry.patches.size()); }
+  std::vector<nurbs::Volume> take_control_points();
 };
 
 /// `file` is the name used in messages; `read` gives the geometry file that the text may name.  Throws

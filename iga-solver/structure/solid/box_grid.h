@@ -57,9 +57,10 @@ struct PlacedBox {
   const std::vector<int>& write() const { return share_columns.empty() ? columns : share_columns; }
 };
 
-/// All boxes of a patch that is held whole.
+/// The part that has all of one patch whose control points are the nodes; and its boxes.
+Part whole_part(const nurbs::Space<3>& space);
 std::vector<PlacedBox> whole_patch(const nurbs::Space<3>& space);
-/// Those of a part of it, cut at box_cuts, in the order in which the part has them.
-std::vector<PlacedBox> boxes_of(const Part& part, const nurbs::Space<3>& space);
+/// Those of a patch that a part has, cut at box_cuts, in the order in which the part has them.
+std::vector<PlacedBox> boxes_of(const Part& part, int patch, const nurbs::Space<3>& space);
 
 }  // namespace structure

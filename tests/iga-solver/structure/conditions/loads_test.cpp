@@ -36,7 +36,7 @@ TEST(Supports, FixOneFaceInTheGivenDirectionsOnly) {
 TEST(TractionLoad, BalancesTheInternalForceOfConstantStress) {
   const Vector3 size(1, 2, 3);
   const Solid solid(models::block(size, {2, 3, 1}, {2, 3, 1}), models::elastic());
-  const structure::Matrix3 H = models::some_gradient(), P = solid.material().stress(H, nullptr);
+  const structure::Matrix3 H = models::some_gradient(), P = (*solid.materials().front()).stress(H, nullptr);
   NodalVectors f_int(3, solid.node_count()), f_ext = NodalVectors::Zero(3, solid.node_count());
   solid.internal_force(models::linear_field(H, solid.reference()), f_int);
   for (int d = 0; d < 3; ++d) {

@@ -174,7 +174,7 @@ TEST(Stress, OfALinearFieldIsTheSameEverywhere) {
   for (const nurbs::Parameter<3>& xi :
        {nurbs::Parameter<3>{0.0, 0.0, 0.0}, {0.3, 0.6, 0.9}, {1.0, 0.5, 1.0}}) {
     EXPECT_LT((solid.displacement_gradient(u, xi) - H).norm(), 1e-12);
-    EXPECT_LT((solid.stress(u, xi) - solid.material().stress(H, nullptr)).norm(), 1e-12);
+    EXPECT_LT((solid.stress(u, xi) - (*solid.materials().front()).stress(H, nullptr)).norm(), 1e-12);
   }
 }
 
@@ -185,7 +185,7 @@ TEST(RowSumMass, SumsToDensityTimesVolumeAndIsPositive) {
   // The element masses are the same mass, sorted by element.
   double sum = 0.0;
   for (int e = 0; e < solid.space().element_count(); ++e)
-    for (int a = 0; a < solid.padded_functions(); ++a) sum += solid.element_mass(e)[a];
+    for (int a = 0; a < solid.padded_functions(e); ++a) sum += solid.element_mass(e)[a];
   EXPECT_NEAR(sum, solid.row_sum_mass().sum(), 1e-9);
 }
 
@@ -216,7 +216,7 @@ std::string message_of(const std::function<void()>& action) {
 // Kernels go over whole vectors: what lies beyond an element's functions must be a number, and 0.
 TEST(Solid, GathersZerosBeyondTheFunctions) {
   const Solid solid(models::block({1, 1, 1}, {2, 2, 2}, 2), models::elastic());
-  const int functions = 27, padded = solid.padded_functions();
+  const int functions = 27, padded = solid.padded_functions(0);
   ASSERT_GT(padded, functions);
   std::vector<double> values(3 * padded, std::nan(""));
   solid.gather(3, NodalVectors::Ones(3, solid.node_count()), values.data());

@@ -227,7 +227,7 @@ class CountingSolid final : public structure::Body {
   structure::PatchSpaces patches() const override { return solid_.patches(); }
   nurbs::BoundarySurface skin(const structure::SkinPiece& piece) const override { return solid_.skin(piece); }
   structure::ExactSum volume_sum() const override { return solid_.volume_sum(); }
-  const structure::Material& material() const override { return solid_.material(); }
+  std::vector<const structure::Material*> materials() const override { return solid_.materials(); }
   const Eigen::VectorXd& row_sum_mass() const override { return solid_.row_sum_mass(); }
   void evolve(const NodalVectors&, double, NodalVectors&, const std::function<void()>&) override {}
   void commit() override {}
@@ -237,7 +237,7 @@ class CountingSolid final : public structure::Body {
     return solid_.strain_energy_sum(u);
   }
   int element_count() const override { return solid_.element_count(); }
-  int padded_functions() const override { return solid_.padded_functions(); }
+  int padded_functions(int element) const override { return solid_.padded_functions(element); }
   void gather(int, const NodalVectors&, double*) const override { ADD_FAILURE(); }
   void element_force(int, const double*, double*) const override { ADD_FAILURE(); }
   const double* element_mass(int element) const override { return solid_.element_mass(element); }
