@@ -25,15 +25,17 @@ std::vector<int> side_nodes(const nurbs::BoundarySurface& face, int side) {
   return nodes;
 }
 
-ContactSurface surface_of(const structure::Body& body, const std::vector<structure::SkinPiece>& skin) {
+ContactSurface surface_of(const structure::ExplicitSolver& solver,
+                          const std::vector<structure::SkinPiece>& skin) {
   std::vector<nurbs::BoundarySurface> faces;
   std::vector<nurbs::Surface> patches;
   std::vector<NodeId> nodes;
   std::vector<int> outward_sign;
   for (const structure::SkinPiece& piece : skin) {
-    const nurbs::BoundarySurface face = body.skin(piece);
-    patches.push_back({face.space, body.whole_reference()(Eigen::all, face.volume_control_point)});
-    nodes.insert(nodes.end(), face.volume_control_point.begin(), face.volume_control_point.end());
+    const nurbs::BoundarySurface face = solver.body().skin(piece);
+    const std::vector<structure::Id> ids(face.volume_control_point.begin(), face.volume_control_point.end());
+    patches.push_back({face.space, solver.reference_of(ids)});
+    nodes.insert(nodes.end(), ids.begin(), ids.end());
     outward_sign.push_back(face.outward_sign);
     faces.push_back(face);
   }
@@ -45,8 +47,7 @@ ContactSurface surface_of(const structure::Body& body, const std::vector<structu
   constexpr double kTolerance = 1e-9;
   nurbs::MultiPatch topology = nurbs::join(patches).topology;
   topology.set_borders(nurbs::find_borders(patches, kTolerance, {}, same_nodes));
-  return {std::move(topology), SurfaceMap::selection(nodes, body.whole_reference().cols()),
-          std::move(outward_sign)};
+  return {std::move(topology), SurfaceMap::selection(nodes, solver.all_nodes()), std::move(outward_sign)};
 }
 
 /// "zeta+" as in model files; of a further patch "1 zeta+".
@@ -55,9 +56,9 @@ std::string name_of(const structure::SkinPiece& piece) {
   return piece.patch == 0 ? face : fmt::format("{} {}", piece.patch, face);
 }
 
-FingerprintPart material_part(const structure::Material& material) {
+FingerprintPart material_part(const structure::Material& material, const std::string& of_patch) {
   const double E = material.youngs_modulus(), nu = material.poissons_ratio(), density = material.density();
-  FingerprintPart part{"material",
+  FingerprintPart part{"material" + of_patch,
                        fmt::format("E = {:.10g}, nu = {:.10g}, density = {:.10g}", E, nu, density),
                        {E, nu, density}};
   for (const double constant : material.further_constants()) {
@@ -69,6 +70,18 @@ FingerprintPart material_part(const structure::Material& material) {
     part.numbers.push_back(size);
   }
   return part;
+}
+
+/// One for all patches, if they are of one.
+void add_materials(const structure::Body& body, Fingerprint& fingerprint) {
+  const std::vector<const structure::Material*> materials = body.materials();
+  const bool one = std::all_of(materials.begin(), materials.end(),
+                               [&](const auto* material) { return material == materials.front(); });
+  for (std::size_t p = 0; p < (one ? 1 : materials.size()); ++p) {
+    const std::string of_patch = one ? "" : fmt::format(" of patch {}", p);
+    fingerprint.push_back(word_part("law of the material" + of_patch, materials[p]->law()));
+    fingerprint.push_back(material_part(*materials[p], of_patch));
+  }
 }
 
 FingerprintPart supports_part(const std::vector<structure::Id>& fixed) {
@@ -87,7 +100,7 @@ IgaStructure::IgaStructure(structure::ExplicitSolver solver, std::vector<structu
       nodes_(solver_.node_ids()),
       in_parts_(in_parts),
       supports_(supports_part(solver_.fixed_dofs())),
-      surface_(surface_of(solver_.body(), skin_)),
+      surface_(surface_of(solver_, skin_)),
       probes_(std::move(probes)),
       gravity_(gravity) {}
 
@@ -132,7 +145,7 @@ void IgaStructure::set_gravity(const Vector3& g) {
 }
 
 std::optional<SurfaceMaterial> IgaStructure::material() const {
-  const structure::Material& material = solver_.body().material();
+  const structure::Material& material = *solver_.body().materials()[skin_.front().patch];
   return SurfaceMaterial{material.youngs_modulus(), material.poissons_ratio()};
 }
 
@@ -161,13 +174,16 @@ std::vector<Reaction> IgaStructure::reactions() const {
 
 Fingerprint IgaStructure::fingerprint() const {
   const structure::Body& body = solver_.body();
-  const structure::Material& material = body.material();
   std::vector<std::string> faces;
   for (const structure::SkinPiece& piece : skin_) faces.emplace_back(name_of(piece));
-  const auto geometry = [&](const auto& patches) { return geometry_part(patches, body.whole_reference()); };
-  Fingerprint fingerprint{
-      std::visit(geometry, body.patches()), word_part("surface", fmt::format("{}", fmt::join(faces, ", "))),
-      word_part("law of the material", material.law()), material_part(material), supports_};
+  const std::vector<double> X = solver_.in_order(body.reference());
+  const auto geometry = [&](const auto& patches) {
+    return geometry_part(patches, NodalVectors::Map(X.data(), 3, static_cast<Eigen::Index>(X.size() / 3)));
+  };
+  Fingerprint fingerprint{std::visit(geometry, body.patches()),
+                          word_part("surface", fmt::format("{}", fmt::join(faces, ", ")))};
+  add_materials(body, fingerprint);
+  fingerprint.push_back(supports_);
   if (!body.discretisation().empty()) fingerprint.push_back(word_part("quadrature", body.discretisation()));
   return fingerprint;
 }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
 #include "coupling/iga_structure.h"
 #include "coupling/model_text.h"
 #include "coupling/open_structure.h"
@@ -19,11 +22,13 @@ std::optional<Vector3> gravity_of(const io::ModelFile& model) {
 }
 
 OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface) {
-  const io::ModelFile model = io::read_model_file(path, reader_on_all_ranks(comm));
+  io::ModelFile model = io::read_model_file(path, reader_on_all_ranks(comm));
   geometry_io::named_surface(model.geometry, surface, path);  // complains about a name that is not there
   std::vector<structure::SkinPiece> skin;
   for (const geometry_io::SurfacePiece& piece : model.geometry.surfaces.at(surface))
     skin.push_back({piece.patch, *piece.face});
+  std::optional<parallel::SharedFields> fields;
+  if (model.output && model.output->fields) fields.emplace(comm, model);
   const io::Cut cut = parallel::cut_among(comm);
   auto solver = std::make_unique<IgaStructure>(io::build_solver(model, cut), std::move(skin), model.probes,
                                                gravity_of(model), cut.parts > 1);
@@ -32,7 +37,7 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
   if (model.output)
     solver->write_history(parallel::SharedHistory(comm, *model.output, model.geometry.units, model.probes,
                                                   model.named_supports()));
-  if (model.output && model.output->fields) solver->write_fields(parallel::SharedFields(comm, model));
+  if (fields) solver->write_fields(std::move(*fields));
   return {std::move(solver), model.geometry.units};
 }
 

@@ -130,7 +130,7 @@ class StructureSolver {
   virtual void load(const std::vector<double>& state) = 0;
   /// How many numbers save() gives; collective.
   virtual std::size_t state_size() const { return save().size(); }
-  /// What these numbers belong to: all that must be the same in the solver that loads them.
+  /// What these numbers belong to: all that must be the same in the solver that loads them.  Collective.
   virtual Fingerprint fingerprint() const = 0;
 };
 

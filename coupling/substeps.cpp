@@ -32,7 +32,10 @@ constexpr double kDamping = 0.02;
 double lead(double dt) { return 2.0 * kDamping / kPi * dt; }
 
 bool is_linear(const structure::Body& body) {
-  return body.material().law() == std::string_view(structure::LinearElasticLaw::kWord);
+  const std::vector<const structure::Material*> materials = body.materials();
+  return std::all_of(materials.begin(), materials.end(), [](const structure::Material* material) {
+    return material->law() == std::string_view(structure::LinearElasticLaw::kWord);
+  });
 }
 
 /// Columns of the nodes that the surface hangs on.

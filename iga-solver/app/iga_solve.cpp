@@ -82,12 +82,17 @@ void print_model(const io::ModelFile& model, const ExplicitSolver& solver) {
                    fixed.begin(), fixed.end(), [&](Eigen::Index dof) { return dof < 3 * owned; }))),
                mass = halo.sum(solver.mass().nodal_mass().head(owned).sum());
 
-  const nurbs::Space<3>& space = model.volume().space;
   print_on_first("{} (units {})\n", model.file, geometry_io::units_name(model.geometry.units));
-  print_on_first("  elements     {} ({} x {} x {}), degrees {} {} {}\n", space.element_count(),
-                 space.knots(0).element_count(), space.knots(1).element_count(),
-                 space.knots(2).element_count(), space.degree(0), space.degree(1), space.degree(2));
-  print_on_first("  dof          {}, {} of them fixed\n", 3L * space.control_point_count(),
+  for (int p = 0; p < model.patch_count(); ++p) {
+    const nurbs::Space<3>& space = model.volume(p).space;
+    print_on_first("  elements     {} ({} x {} x {}), degrees {} {} {}{}\n", space.element_count(),
+                   space.knots(0).element_count(), space.knots(1).element_count(),
+                   space.knots(2).element_count(), space.degree(0), space.degree(1), space.degree(2),
+                   model.patch_count() > 1 ? fmt::format(" of patch {}", p) : "");
+  }
+  if (model.patch_count() > 1)
+    print_on_first("  welds        {} nodes of several patches\n", model.nodes.welded().size());
+  print_on_first("  dof          {}, {} of them fixed\n", 3L * model.nodes.node_count(),
                  static_cast<long>(fixed_dofs));
   print_on_first("  mass         {:.8g}\n", mass);
 }
@@ -132,11 +137,13 @@ io::ModelFile read(const Options& options) {
 }
 
 void run(const Options& options) {
-  const io::ModelFile model = read(options);
+  io::ModelFile model = read(options);
   if (model.loads.gravity && model.loads.gravity->of_the_deck)
     throw std::runtime_error(
         fmt::format("{}: loads.gravity is deck, expected a vector: there is no deck here", model.file));
   const double end = end_time(options, model);
+  std::optional<parallel::SharedFields> fields;
+  if (model.output && model.output->fields) fields.emplace(MPI_COMM_WORLD, model);
   ExplicitSolver solver = io::build_solver(model, parallel::cut_among(MPI_COMM_WORLD));
   if (!options.quiet) print_model(model, solver);
   const double stable = with_name(model, [&] { return solver.stable_time_step(); });
@@ -153,8 +160,6 @@ void run(const Options& options) {
     history.emplace(MPI_COMM_WORLD, *model.output, model.geometry.units, model.probes,
                     model.named_supports());
   if (history) history->record_if_due(solver);
-  std::optional<parallel::SharedFields> fields;
-  if (model.output && model.output->fields) fields.emplace(MPI_COMM_WORLD, model);
   if (fields) fields->write_if_due(solver);
   const bool progress = !options.quiet && isatty(STDOUT_FILENO);
   for (long step = 1; step <= steps; ++step) {

@@ -36,6 +36,33 @@ GeometryFile open_other_file(const YamlMap& geometry, Units units, const OpenGeo
   return open((std::filesystem::path(geometry.file()).parent_path() / file).string(), units);
 }
 
+GeometryFile read_changed(const YamlMap& map, Units units, const OpenGeometry& open);
+
+/// `shapes`, patch after patch; surfaces that files among them name stay named.
+GeometryFile read_several(const YamlMap& geometry, Units units, const OpenGeometry& open) {
+  GeometryFile all{units, {}, {}};
+  for (const YamlMap& map : geometry.list_of_maps("shapes")) {
+    GeometryFile part = read_changed(map, units, open);
+    for (auto& [name, pieces] : part.surfaces) {
+      for (SurfacePiece& piece : pieces) piece.patch += static_cast<int>(all.patches.size());
+      if (!all.surfaces.emplace(name, pieces).second)
+        map.fail("file", fmt::format("surface '{}' is named by two files, expected one", name));
+    }
+    all.patches.insert(all.patches.end(), part.patches.begin(), part.patches.end());
+  }
+  if (all.patches.empty()) geometry.fail("shapes", "shapes is empty, expected one shape at least");
+  return all;
+}
+
+GeometryFile read_changed(const YamlMap& map, Units units, const OpenGeometry& open) {
+  expect_one_shape(map);
+  GeometryFile geometry = map.has("file")     ? open_other_file(map, units, open)
+                          : map.has("shapes") ? read_several(map, units, open)
+                                              : GeometryFile{units, read_shapes(map), {}};
+  change_shapes(map, geometry.patches);
+  return geometry;
+}
+
 }  // namespace
 
 const char* units_name(Units units) { return kUnitsNames.begin()[static_cast<int>(units)]; }
@@ -49,11 +76,7 @@ Units units_from_name(const std::string& name) {
 
 GeometryFile read_geometry(const YamlMap& document, const OpenGeometry& open) {
   const Units units = units_from_name(document.word_of("units", kUnitsNames));
-  const YamlMap map = document.map("geometry");
-  expect_one_shape(map);
-  GeometryFile geometry =
-      map.has("file") ? open_other_file(map, units, open) : GeometryFile{units, read_shapes(map), {}};
-  change_shapes(map, geometry.patches);
+  GeometryFile geometry = read_changed(document.map("geometry"), units, open);
   if (!document.has("surfaces")) return geometry;
 
   const YamlMap surfaces = document.map("surfaces");

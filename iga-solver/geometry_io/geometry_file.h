@@ -13,6 +13,7 @@
 //     torus: {centre, axis, radius, tube_radius, angle: [0,360], tube_angle: [0,360], elements}
 //     tube: {origin, axis, inner_radius, outer_radius, length, angle, elements: [8,4,2]}        # a solid
 //     patches: [{degrees: [2,2], knots: [[..],[..]], control_points: [[x,y,z],..], weights: [..]}, ..]
+//     shapes: [{box: {..}}, {tube: {..}, move: [x,y,z]}, ..]      # several of these, each with its changes
 //     file: drum.h5                             # another geometry file, of any format; relative to this one
 //                                               # and, if wanted: refine, scale, rotate, move
 //                                               (shape_changes.h)

@@ -295,7 +295,7 @@ Shape read_sized(const ShapeKey& shape, const YamlMap& map) {
 std::vector<std::string> all_keys() {
   std::vector<std::string> keys;
   for (const ShapeKey& shape : shape_table()) keys.emplace_back(shape.key);
-  keys.insert(keys.end(), {"patches", "file"});
+  keys.insert(keys.end(), {"patches", "shapes", "file"});
   return keys;
 }
 
@@ -321,7 +321,11 @@ void expect_one_shape(const YamlMap& geometry) {
 
 std::vector<Shape> read_shapes(const YamlMap& geometry) {
   for (const ShapeKey& shape : shape_table())
-    if (geometry.has(shape.key)) return {read_sized(shape, geometry.map(shape.key))};
+    if (geometry.has(shape.key)) {
+      std::vector<Shape> shapes;  // a list in braces would be copied
+      shapes.push_back(read_sized(shape, geometry.map(shape.key)));
+      return shapes;
+    }
   return read_patches(geometry);
 }
 

@@ -17,7 +17,7 @@ struct ShapeWords {
 };
 std::vector<ShapeWords> shape_words();
 
-/// Throws InputError unless there is one shape, `patches` or `file`, beside what changes it
+/// Throws InputError unless there is one shape, `patches`, `shapes` or `file`, beside what changes it
 /// (shape_changes.h).
 void expect_one_shape(const YamlMap& geometry);
 

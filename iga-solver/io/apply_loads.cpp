@@ -19,8 +19,9 @@ namespace {
 
 class Applied {
  public:
-  Applied(const geometry_io::GeometryFile& geometry, ExplicitSolver& solver)
-      : geometry_(geometry), solver_(solver), columns_(solver.node_ids()), dead_(none()) {}
+  Applied(const geometry_io::GeometryFile& geometry, const structure::NodeNumbering& nodes,
+          ExplicitSolver& solver)
+      : geometry_(geometry), nodes_(nodes), solver_(solver), columns_(solver.node_ids()), dead_(none()) {}
   ~Applied() = default;
   Applied(const Applied&) = delete;
 
@@ -29,13 +30,13 @@ class Applied {
   }
   void traction(const FaceLoad& load);
   void pressure(const FaceLoad& load) {
-    solver_.add_load(std::make_unique<structure::FollowingPressure>(solver_.body(), load.piece,
+    solver_.add_load(std::make_unique<structure::FollowingPressure>(solver_.body(), skin(load),
                                                                     load.value.field, load.time));
   }
   void line(const LineLoad& load) {
     NodalVectors f = none();
-    structure::add_line_load(volume(load.patch), node_ids(geometry_, load.patch), load.faces,
-                             load.value.field, columns_, f);
+    structure::add_line_load(volume(load.patch), node_ids(nodes_, load.patch), load.faces, load.value.field,
+                             columns_, f);
     take(f, load.time, load.value.place);
   }
   void point(const PointLoad& load) {
@@ -46,7 +47,7 @@ class Applied {
   void body_force(const BodyForce& load) {
     NodalVectors f = none();
     for (std::size_t patch = 0; patch < geometry_.patches.size(); ++patch)
-      structure::add_body_force(volume(patch), node_ids(geometry_, static_cast<int>(patch)), load.value.field,
+      structure::add_body_force(volume(patch), node_ids(nodes_, static_cast<int>(patch)), load.value.field,
                                 columns_, f);
     take(f, load.time, load.value.place);
   }
@@ -54,6 +55,7 @@ class Applied {
 
  private:
   NodalVectors none() const { return NodalVectors::Zero(3, solver_.body().node_count()); }
+  structure::SkinSurface skin(const FaceLoad& load) const { return skin_of(geometry_, nodes_, load.piece); }
   const nurbs::Volume& volume(std::size_t patch) const {
     return std::get<nurbs::Volume>(geometry_.patches[patch]);
   }
@@ -68,6 +70,7 @@ class Applied {
   }
 
   const geometry_io::GeometryFile& geometry_;
+  const structure::NodeNumbering& nodes_;
   ExplicitSolver& solver_;
   structure::Columns columns_;
   NodalVectors dead_;
@@ -78,22 +81,23 @@ void Applied::traction(const FaceLoad& load) {
   const FieldKey& value = load.value;
   NodalVectors f = none();
   if (value.changes) {
-    solver_.add_load(std::make_unique<structure::FieldTraction>(
-        structure::SkinQuadrature(solver_.body(), load.piece, nodes), value.field, load.time));
+    solver_.add_load(std::make_unique<structure::FieldTraction>(structure::SkinQuadrature(skin(load), nodes),
+                                                                value.field, load.time));
     return;
   }
   if (value.is_uniform)
-    structure::add_traction_load(solver_.body(), load.piece, value.field(Vector3::Zero(), 0.0), nodes, f);
+    structure::add_traction_load(skin(load), value.field(Vector3::Zero(), 0.0), columns_, f);
   else
-    structure::SkinQuadrature(solver_.body(), load.piece, nodes)
+    structure::SkinQuadrature(skin(load), nodes)
         .integrate([&](const Vector3& X) { return value.field(X, 0.0); }, f);
   take(f, load.time, value.place);
 }
 
 }  // namespace
 
-void apply_loads(const Loads& loads, const geometry_io::GeometryFile& geometry, ExplicitSolver& solver) {
-  Applied applied(geometry, solver);
+void apply_loads(const Loads& loads, const geometry_io::GeometryFile& geometry,
+                 const structure::NodeNumbering& nodes, ExplicitSolver& solver) {
+  Applied applied(geometry, nodes, solver);
   if (loads.gravity) applied.gravity(*loads.gravity);
   for (const FaceLoad& load : loads.tractions) applied.traction(load);
   for (const FaceLoad& load : loads.pressures) applied.pressure(load);

@@ -30,10 +30,9 @@ structure::Directions read_directions(const YamlMap& map) {
 }
 
 /// The axis along the normal of an axis-parallel plane face, which is where its control points lie.
-structure::Directions read_symmetry(const YamlMap& map, const Selection& face, const GeometryFile& geometry) {
+structure::Directions read_symmetry(const YamlMap& map, const nurbs::Volume& patch, nurbs::Face face) {
   constexpr double kFlat = 1e-9;
-  const nurbs::NodalVectors& all = std::get<nurbs::Volume>(geometry.patches[face.patch]).control_points;
-  const nurbs::NodalVectors X = all(Eigen::all, nodes_of(face, geometry));
+  const nurbs::NodalVectors X = patch.control_points(Eigen::all, structure::nodes_on(patch.space, {face}));
   const Vector3 extent = X.rowwise().maxCoeff() - X.rowwise().minCoeff();
   structure::Directions normal;
   for (int i = 0; i < 3; ++i) normal[i] = extent[i] <= kFlat * extent.maxCoeff();
@@ -73,12 +72,16 @@ void read_spring(const YamlMap& entry, BoundaryEntry& support) {
     map.fail("per", "per is area, expected 'faces' to have one, or per: node");
 }
 
-BoundaryEntry read_entry(const YamlMap& map, const GeometryFile& geometry) {
+BoundaryEntry read_entry(const YamlMap& map, const GeometryFile& geometry,
+                         const structure::NodeNumbering& nodes) {
   BoundaryEntry entry{map.has("name") ? map.word("name") : "", {}, {false, false, false}};
   if (map.has("symmetry")) {
     map.allow_only({"name", "symmetry", "patch"});
-    entry.where = {read_patch(map, geometry), {read_face(map, "symmetry")}};
-    entry.directions = read_symmetry(map, entry.where, geometry);
+    const int patch = read_patch(map, geometry);
+    const nurbs::Face face = read_face(map, "symmetry");
+    entry.directions = read_symmetry(map, std::get<nurbs::Volume>(geometry.patches[patch]), face);
+    entry.where = {{patch}, {face}};
+    entry.nodes = nodes_of(entry.where, geometry, nodes);
     return entry;
   }
   map.allow_only(with_selection_keys({"name", "fix", "symmetry", "move", "spring", "time"}));
@@ -89,24 +92,25 @@ BoundaryEntry read_entry(const YamlMap& map, const GeometryFile& geometry) {
   if (map.has("fix")) entry.directions = read_directions(map);
   if (map.has("move")) read_motion(map, entry);
   if (map.has("spring")) read_spring(map, entry);
-  entry.where = read_selection(map, geometry);
+  entry.where = read_selection(map, geometry, nodes);
+  entry.nodes = nodes_of(entry.where, geometry, nodes);
   return entry;
 }
 
-void hold(const BoundaryEntry& entry, const GeometryFile& geometry, structure::Supports& supports) {
-  const structure::NodeSet nodes = nodes_of(entry.where, geometry);
+void hold(const BoundaryEntry& entry, structure::Supports& supports) {
   if (entry.moves)
-    supports.move(nodes, entry.directions, entry.displacement, entry.time);
+    supports.move(entry.nodes, entry.directions, entry.displacement, entry.time);
   else if (!entry.spring)
-    supports.fix(nodes, entry.directions);
+    supports.fix(entry.nodes, entry.directions);
 }
 
 }  // namespace
 
-std::vector<BoundaryEntry> read_boundary(const std::vector<YamlMap>& entries, const GeometryFile& geometry) {
+std::vector<BoundaryEntry> read_boundary(const std::vector<YamlMap>& entries, const GeometryFile& geometry,
+                                         const structure::NodeNumbering& nodes) {
   std::vector<BoundaryEntry> boundary;
   for (const YamlMap& map : entries) {
-    boundary.push_back(read_entry(map, geometry));
+    boundary.push_back(read_entry(map, geometry, nodes));
     for (std::size_t i = 0; i + 1 < boundary.size(); ++i)
       if (!boundary[i].name.empty() && boundary[i].name == boundary.back().name)
         map.fail("name", fmt::format("name '{}' is given twice, expected once", boundary[i].name));
@@ -114,16 +118,16 @@ std::vector<BoundaryEntry> read_boundary(const std::vector<YamlMap>& entries, co
   return boundary;
 }
 
-structure::Supports supports_of(const std::vector<BoundaryEntry>& boundary, const GeometryFile& geometry) {
+structure::Supports supports_of(const std::vector<BoundaryEntry>& boundary) {
   structure::Supports supports;
-  for (const BoundaryEntry& entry : boundary) hold(entry, geometry, supports);
+  for (const BoundaryEntry& entry : boundary) hold(entry, supports);
   return supports;
 }
 
 structure::Springs springs_of(const std::vector<BoundaryEntry>& boundary, const GeometryFile& geometry,
-                              const structure::Body& body, const std::vector<structure::Id>& nodes) {
+                              const structure::NodeNumbering& nodes, const std::vector<structure::Id>& ids) {
   structure::Springs springs;
-  const structure::Columns columns(nodes);
+  const structure::Columns columns(ids);
   for (const BoundaryEntry& entry : boundary) {
     if (!entry.spring) continue;
     std::vector<structure::Springs::Spring> group;
@@ -132,24 +136,24 @@ structure::Springs springs_of(const std::vector<BoundaryEntry>& boundary, const 
         group.push_back({column, share * *entry.spring});
     };
     if (entry.per_area)
-      for (const nurbs::Face face : entry.where.faces)
-        for (const auto& [node, area] : structure::skin_areas(body, {entry.where.patch, face}))
-          add(node, area);
+      for (const int patch : entry.where.patches)
+        for (const nurbs::Face face : entry.where.faces)
+          for (const auto& [node, area] : skin_areas(skin_of(geometry, nodes, {patch, face})))
+            add(node, area);
     else
-      for (const int node : nodes_of(entry.where, geometry)) add(node, 1.0);
+      for (const int node : entry.nodes) add(node, 1.0);
     springs.add(std::move(group));
   }
   return springs;
 }
 
-std::vector<structure::NamedSupport> named_supports(const std::vector<BoundaryEntry>& boundary,
-                                                    const GeometryFile& geometry) {
+std::vector<structure::NamedSupport> named_supports(const std::vector<BoundaryEntry>& boundary) {
   std::vector<structure::NamedSupport> named;
   structure::Supports all;
   std::vector<Eigen::Index> before;
   std::size_t springs = 0;
   for (const BoundaryEntry& entry : boundary) {
-    hold(entry, geometry, all);
+    hold(entry, all);
     structure::NamedSupport support{entry.name, {}};
     if (entry.spring) support.spring_group = springs++;
     std::set_difference(all.fixed_dofs().begin(), all.fixed_dofs().end(), before.begin(), before.end(),

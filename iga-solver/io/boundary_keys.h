@@ -28,22 +28,23 @@ struct BoundaryEntry {
   structure::TimeFunction time = {};
   std::optional<structure::Stiffness3> spring = {};  ///< per area [force/length^3] or node [force/length]
   bool per_area = false;
+  structure::NodeSet nodes = {};  ///< of the whole body, there
 };
 
 /// Throws geometry_io::InputError.
 std::vector<BoundaryEntry> read_boundary(const std::vector<geometry_io::YamlMap>& entries,
-                                         const geometry_io::GeometryFile& geometry);
+                                         const geometry_io::GeometryFile& geometry,
+                                         const structure::NodeNumbering& nodes);
 
 /// Those entries that are springs, each a group, on the columns of a part.
 structure::Springs springs_of(const std::vector<BoundaryEntry>& boundary,
-                              const geometry_io::GeometryFile& geometry, const structure::Body& body,
-                              const std::vector<structure::Id>& nodes);
+                              const geometry_io::GeometryFile& geometry,
+                              const structure::NodeNumbering& nodes,
+                              const std::vector<structure::Id>& columns);
 
 /// A degree of freedom that several entries hold is the first one's.
-structure::Supports supports_of(const std::vector<BoundaryEntry>& boundary,
-                                const geometry_io::GeometryFile& geometry);
+structure::Supports supports_of(const std::vector<BoundaryEntry>& boundary);
 /// Those with names.
-std::vector<structure::NamedSupport> named_supports(const std::vector<BoundaryEntry>& boundary,
-                                                    const geometry_io::GeometryFile& geometry);
+std::vector<structure::NamedSupport> named_supports(const std::vector<BoundaryEntry>& boundary);
 
 }  // namespace io

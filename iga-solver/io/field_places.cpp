@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/field_places.h"
 
+#include "structure/weld.h"
+
 namespace io {
 
 std::vector<std::string> field_places(const geometry_io::GeometryFile& geometry) {
@@ -11,13 +13,18 @@ std::vector<std::string> field_places(const geometry_io::GeometryFile& geometry)
   return places;
 }
 
-std::vector<nurbs::Face> faces_of(const std::string& place, const geometry_io::GeometryFile& geometry) {
-  std::vector<nurbs::Face> faces;
+std::vector<structure::SkinPiece> faces_of(const std::string& place,
+                                           const geometry_io::GeometryFile& geometry,
+                                           const structure::NodeNumbering& nodes) {
   if (place == kSkinPlace) {
-    for (int face = 0; face < 6; ++face) faces.push_back(static_cast<nurbs::Face>(face));
-    return faces;
+    std::vector<nurbs::Space<3>> spaces;
+    for (const geometry_io::Shape& patch : geometry.patches)
+      spaces.push_back(std::get<nurbs::Volume>(patch).space);
+    return structure::free_faces(spaces, nodes);
   }
-  for (const geometry_io::SurfacePiece& piece : geometry.surfaces.at(place)) faces.push_back(*piece.face);
+  std::vector<structure::SkinPiece> faces;
+  for (const geometry_io::SurfacePiece& piece : geometry.surfaces.at(place))
+    faces.push_back({piece.patch, *piece.face});
   return faces;
 }
 

@@ -14,7 +14,7 @@ namespace io {
 
 class FieldSeries {
  public:
-  /// `model.output->fields` is there.  Writes nothing yet.
+  /// `model.output->fields` is there, and the control points, too.  Writes nothing yet.
   explicit FieldSeries(const ModelFile& model);
 
   /// Goes on with the files of an earlier run, from `time`: later states are dropped, and come anew.  The
@@ -25,10 +25,14 @@ class FieldSeries {
 
  private:
   struct Place {
-    std::optional<std::vector<nurbs::Face>> faces;  // nothing: the volume
+    std::optional<std::vector<structure::SkinPiece>> faces;  // nothing: the volume
     vtk::Series series;
   };
-  SolidFields fields_;
+  SolidState of_patch(int patch, const SolidState& body) const;
+
+  structure::NodeNumbering nodes_;
+  std::vector<SolidFields> fields_;       // of each patch
+  std::vector<std::size_t> elements_{0};  // of the patches before, and of all
   std::vector<Place> places_;
 };
 

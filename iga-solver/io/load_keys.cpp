@@ -39,17 +39,19 @@ FaceLoad read_face_load(const YamlMap& map, const GeometryFile& geometry, bool i
           read_time_function(map)};
 }
 
-LineLoad read_line_load(const YamlMap& map, const GeometryFile& geometry) {
+LineLoad read_line_load(const YamlMap& map, const GeometryFile& geometry,
+                        const structure::NodeNumbering& nodes) {
   map.allow_only({"edge", "patch", "value", "time"});
-  const Selection edge = read_selection(map, geometry);
+  const Selection edge = read_selection(map, geometry, nodes);
   if (!map.has("edge")) map.fail("", "edge is missing");
-  return {edge.patch,
+  return {edge.patches.front(),
           {edge.faces[0], edge.faces[1]},
           read_field(map, "value", kOfPlace),
           read_time_function(map)};
 }
 
-PointLoad read_point_load(const YamlMap& map, const GeometryFile& geometry) {
+PointLoad read_point_load(const YamlMap& map, const GeometryFile& geometry,
+                          const structure::NodeNumbering& nodes) {
   map.allow_only({"face", "at", "patch", "force", "time"});
   const int patch = read_patch(map, geometry);
   const nurbs::Space<3>& space = std::get<nurbs::Volume>(geometry.patches[patch]).space;
@@ -59,8 +61,7 @@ PointLoad read_point_load(const YamlMap& map, const GeometryFile& geometry) {
   try {
     structure::Probe point =
         structure::probe_at("", space, structure::face_point(space, face, {at[0], at[1]}));
-    const std::vector<structure::Id> ids = node_ids(geometry, patch);
-    for (int& node : point.nodes) node = static_cast<int>(ids[node]);
+    for (int& node : point.nodes) node = static_cast<int>(nodes.node(patch, node));
     return {std::move(point), map.vector3("force"), read_time_function(map)};
   } catch (const std::invalid_argument&) {
     map.fail("at", fmt::format("at is [{}, {}], expected 2 numbers from 0 to 1", at[0], at[1]));
@@ -78,7 +79,7 @@ auto read_each(const YamlMap& map, const std::string& key, Read read) {
 
 }  // namespace
 
-Loads read_loads(const YamlMap& map, const GeometryFile& geometry) {
+Loads read_loads(const YamlMap& map, const GeometryFile& geometry, const structure::NodeNumbering& nodes) {
   map.allow_only({"gravity", "tractions", "pressures", "lines", "points", "body_force"});
   Loads loads;
   if (map.has("gravity")) loads.gravity = read_gravity(map);
@@ -86,8 +87,9 @@ Loads read_loads(const YamlMap& map, const GeometryFile& geometry) {
       read_each(map, "tractions", [&](const YamlMap& m) { return read_face_load(m, geometry, false); });
   loads.pressures =
       read_each(map, "pressures", [&](const YamlMap& m) { return read_face_load(m, geometry, true); });
-  loads.lines = read_each(map, "lines", [&](const YamlMap& m) { return read_line_load(m, geometry); });
-  loads.points = read_each(map, "points", [&](const YamlMap& m) { return read_point_load(m, geometry); });
+  loads.lines = read_each(map, "lines", [&](const YamlMap& m) { return read_line_load(m, geometry, nodes); });
+  loads.points =
+      read_each(map, "points", [&](const YamlMap& m) { return read_point_load(m, geometry, nodes); });
   if (map.has("body_force")) {
     const YamlMap force = map.map("body_force");
     force.allow_only({"value", "time"});

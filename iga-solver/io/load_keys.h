@@ -55,13 +55,14 @@ struct Loads {
 };
 
 /// Throws geometry_io::InputError.
-Loads read_loads(const geometry_io::YamlMap& map, const geometry_io::GeometryFile& geometry);
+Loads read_loads(const geometry_io::YamlMap& map, const geometry_io::GeometryFile& geometry,
+                 const structure::NodeNumbering& nodes);
 /// The key `velocity` of `initial` [length/time]: of control points, at their places.
 FieldKey read_initial_velocity(const geometry_io::YamlMap& map);
 
 /// Gives a solver these loads.  Throws geometry_io::InputError if an expression is not finite somewhere.
 void apply_loads(const Loads& loads, const geometry_io::GeometryFile& geometry,
-                 structure::ExplicitSolver& solver);
+                 const structure::NodeNumbering& nodes, structure::ExplicitSolver& solver);
 /// The nodal velocities, 3 x n.
 structure::NodalVectors velocities_of(const FieldKey& velocity, const structure::ExplicitSolver& solver);
 

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <new>
+#include <utility>
 
 #include "geometry_io/file_kind.h"
+#include "io/material_keys.h"
 #include "nurbs/memory.h"
-#include "structure/material/laws.h"
+#include "structure/weld.h"
 
 namespace io {
 
@@ -15,44 +17,19 @@ using geometry_io::YamlMap;
 
 namespace {
 
-std::shared_ptr<const structure::Material> read_constants(const YamlMap& map,
-                                                          const structure::MaterialLaw& law) {
-  std::vector<std::string> keys = {"law"};
-  for (const structure::MaterialConstant& constant : law.constants) keys.emplace_back(constant.key);
-  for (const structure::MaterialDirection& direction : law.directions) keys.emplace_back(direction.key);
-  map.allow_only(keys);
-  std::vector<double> values;
-  for (const structure::MaterialConstant& constant : law.constants)
-    values.push_back(map.number(constant.key, {constant.low, constant.high}));
-  for (const structure::MaterialDirection& direction : law.directions) {
-    const Vector3 v = map.has(direction.key) ? map.vector3(direction.key) : direction.otherwise;
-    values.insert(values.end(), v.begin(), v.end());
-  }
-  try {
-    return law.make(values);
-  } catch (const std::invalid_argument& error) {
-    map.fail("law", error.what());
-  }
-}
-
-std::shared_ptr<const structure::Material> read_material(const YamlMap& map) {
-  const std::string name = map.word("law");
-  std::vector<std::string> known;
-  for (const structure::MaterialLaw& law : structure::material_laws()) {
-    if (name == law.word) return read_constants(map, law);
-    known.emplace_back(law.word);
-  }
-  map.fail("law", fmt::format("law is '{}', expected one of: {}", name, fmt::join(known, ", ")));
-}
-
-structure::Probe read_probe(const YamlMap& probes, const std::string& name, const nurbs::Space<3>& space) {
+structure::Probe read_probe(const YamlMap& probes, const std::string& name, const ModelFile& model) {
   const YamlMap map = probes.map(name);
-  map.allow_only({"face", "at"});
+  map.allow_only({"face", "patch", "at"});
+  const int patch = read_patch(map, model.geometry);
+  const nurbs::Space<3>& space = model.volume(patch).space;
   const nurbs::Face face = read_face(map, "face");
   const std::vector<double> at = map.numbers("at");
   if (at.size() != 2) map.fail("at", fmt::format("at has {} numbers, expected 2 from 0 to 1", at.size()));
   try {
-    return structure::probe_at(name, space, structure::face_point(space, face, {at[0], at[1]}));
+    structure::Probe probe =
+        structure::probe_at(name, space, structure::face_point(space, face, {at[0], at[1]}));
+    for (int& node : probe.nodes) node = static_cast<int>(model.nodes.node(patch, node));
+    return probe;
   } catch (const std::invalid_argument&) {
     map.fail("at", fmt::format("at is [{}, {}], expected 2 numbers from 0 to 1", at[0], at[1]));
   }
@@ -85,17 +62,31 @@ structure::Integration read_integration(const YamlMap& map) {
   return integration;
 }
 
+/// Volumes alone, and what of them is welded.
+structure::NodeNumbering read_welds(const YamlMap& document, const geometry_io::GeometryFile& geometry) {
+  std::vector<nurbs::Volume> volumes;
+  for (const geometry_io::Shape& patch : geometry.patches) {
+    if (!std::holds_alternative<nurbs::Volume>(patch))
+      document.fail("geometry",
+                    "geometry is a surface, expected a volume: a solid with a material needs one");
+    volumes.push_back(std::get<nurbs::Volume>(patch));
+  }
+  if (document.has("weld") && document.word_of("weld", {"yes", "no"}) == "no")
+    return structure::without_welds(volumes);
+  try {
+    return structure::weld(volumes);
+  } catch (const std::invalid_argument& error) {
+    document.fail("geometry", fmt::format("geometry: {}; or 'weld: no'", error.what()));
+  }
+}
+
 ModelFile read_required(const YamlMap& document, const geometry_io::ReadFile& read) {
-  ModelFile model{document.file(), document.line_of("geometry"),
-                  geometry_io::read_geometry(document, geometry_io::geometry_opener(read)),
-                  read_material(document.map("material"))};
-  const std::vector<geometry_io::Shape>& patches = model.geometry.patches;
-  if (patches.size() != 1)
-    document.fail("geometry",
-                  fmt::format("geometry has {} patches, expected one for a solid", patches.size()));
-  if (!std::holds_alternative<nurbs::Volume>(patches.front()))
-    document.fail("geometry", "geometry is a surface, expected a volume: a solid with a material needs one");
-  return model;
+  geometry_io::GeometryFile geometry =
+      geometry_io::read_geometry(document, geometry_io::geometry_opener(read));
+  structure::NodeNumbering nodes = read_welds(document, geometry);
+  const int patches = static_cast<int>(geometry.patches.size());
+  return {document.file(), document.line_of("geometry"), std::move(geometry), std::move(nodes),
+          read_materials(document, patches)};
 }
 
 }  // namespace
@@ -109,18 +100,17 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   };
   const YamlMap document = YamlMap::parse(text, file);
   document.allow_only({"units", "geometry", "material", "boundary", "surfaces", "probes", "output", "loads",
-                       "initial", "time", "integration", "damping"});
+                       "initial", "time", "integration", "damping", "weld"});
   ModelFile model = read_required(document, read_and_note);
   if (document.has("integration")) model.integration = read_integration(document.map("integration"));
   if (document.has("boundary"))
-    model.boundary = read_boundary(document.list_of_maps("boundary"), model.geometry);
+    model.boundary = read_boundary(document.list_of_maps("boundary"), model.geometry, model.nodes);
   if (document.has("probes")) {
     const YamlMap probes = document.map("probes");
-    for (const std::string& name : probes.keys())
-      model.probes.push_back(read_probe(probes, name, model.volume().space));
+    for (const std::string& name : probes.keys()) model.probes.push_back(read_probe(probes, name, model));
   }
   if (document.has("output")) model.output = read_output(document.map("output"), model.geometry, inputs);
-  if (document.has("loads")) model.loads = read_loads(document.map("loads"), model.geometry);
+  if (document.has("loads")) model.loads = read_loads(document.map("loads"), model.geometry, model.nodes);
   if (document.has("initial")) model.initial_velocity = read_initial_velocity(document.map("initial"));
   if (document.has("damping")) {
     const YamlMap damping = document.map("damping");
@@ -129,6 +119,10 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   }
   if (document.has("time")) model.time = read_time(document.map("time"));
   return model;
+}
+
+void ModelFile::drop_control_points() {
+  for (geometry_io::Shape& patch : geometry.patches) std::get<nurbs::Volume>(patch).control_points = {};
 }
 
 ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& read) {
@@ -140,15 +134,22 @@ ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& 
 
 namespace {
 
-std::unique_ptr<structure::Solid> build_solid(const ModelFile& model, const structure::Part* part) {
+std::unique_ptr<structure::Solid> build_solid(const ModelFile& model, const structure::Part& part) {
+  std::vector<structure::MaterialPatch> patches;
+  for (int p = 0; p < model.patch_count(); ++p) patches.push_back({model.volume(p), model.materials[p]});
   try {
-    if (part)
-      return std::make_unique<structure::Solid>(model.volume(), model.material, model.integration, *part);
-    return std::make_unique<structure::Solid>(model.volume(), model.material, model.integration);
+    return std::make_unique<structure::Solid>(patches, model.nodes, model.integration, part);
   } catch (const std::invalid_argument& error) {
     throw geometry_io::InputError(
         fmt::format("{}:{}: geometry: {}", model.file, model.geometry_line, error.what()));
   }
+}
+
+structure::Part cut_out(const ModelFile& model, int part, int parts) {
+  std::vector<structure::PatchBoxes> boxes;
+  for (int p = 0; p < model.patch_count(); ++p)
+    boxes.emplace_back(model.volume(p).space, structure::box_cuts(model.volume(p).space));
+  return structure::Partition(std::move(boxes), model.nodes, parts).part(part);
 }
 
 struct OwnPart {
@@ -165,13 +166,12 @@ void expect_room_for_solver(const structure::Part& part) {
 
 /// What fails on one rank fails on all: nothing here waits for another.
 OwnPart build_part(const ModelFile& model, const Cut& cut) {
-  const nurbs::Space<3>& space = model.volume().space;
   OwnPart own;
   std::string problem;
   try {
-    own.part = structure::Partition(space, structure::box_cuts(space), cut.parts).part(cut.part);
-    own.solid = build_solid(model, &own.part);
-    own.supports = supports_of(model.boundary, model.geometry).on(own.part.nodes);
+    own.part = cut_out(model, cut.part, cut.parts);
+    own.solid = build_solid(model, own.part);
+    own.supports = supports_of(model.boundary).on(own.part.nodes);
     expect_room_for_solver(own.part);
   } catch (const std::bad_alloc&) {
     problem = nurbs::out_of_memory(model.file);
@@ -187,21 +187,21 @@ structure::ExplicitSolver build_solver_at_rest(const ModelFile& model, const Cut
     OwnPart own = build_part(model, cut);
     return {std::move(own.solid), std::move(own.supports), cut.halo(std::move(own.part))};
   }
-  const nurbs::Space<3>& space = model.volume().space;
-  std::vector<Eigen::Index> runs = structure::Partition(space, structure::box_cuts(space), 1).part(0).runs;
-  return {build_solid(model, nullptr), supports_of(model.boundary, model.geometry),
-          std::make_unique<const structure::Halo>(std::move(runs))};
+  structure::Part all = cut_out(model, 0, 1);
+  return {build_solid(model, all), supports_of(model.boundary),
+          std::make_unique<const structure::Halo>(std::move(all.runs))};
 }
 
 }  // namespace
 
-structure::ExplicitSolver build_solver(const ModelFile& model, const Cut& cut) {
+structure::ExplicitSolver build_solver(ModelFile& model, const Cut& cut) {
   structure::ExplicitSolver solver = build_solver_at_rest(model, cut);
-  solver.set_springs(springs_of(model.boundary, model.geometry, solver.body(), solver.node_ids()));
+  solver.set_springs(springs_of(model.boundary, model.geometry, model.nodes, solver.node_ids()));
   solver.set_mass_damping(model.mass_damping);
-  apply_loads(model.loads, model.geometry, solver);
+  apply_loads(model.loads, model.geometry, model.nodes, solver);
   if (model.initial_velocity) solver.set_velocities(velocities_of(*model.initial_velocity, solver));
   if (!model.named_supports().empty()) solver.keep_reactions();
+  model.drop_control_points();
   return solver;
 }
 

@@ -16,6 +16,7 @@
 #include "io/load_keys.h"
 #include "io/output_keys.h"
 #include "structure/conditions/probe.h"
+#include "structure/node_numbering.h"
 #include "structure/partition.h"
 #include "structure/solid/solid.h"
 #include "structure/time/explicit_solver.h"
@@ -32,8 +33,9 @@ struct TimeSpan {
 struct ModelFile {
   std::string file;  ///< as given, for messages
   int geometry_line;
-  geometry_io::GeometryFile geometry;  ///< holds one patch, a Volume
-  std::shared_ptr<const structure::Material> material;
+  geometry_io::GeometryFile geometry;                                 ///< holds Volumes alone
+  structure::NodeNumbering nodes;                                     ///< of their control points
+  std::vector<std::shared_ptr<const structure::Material>> materials;  ///< of each patch
   structure::Integration integration = {};
   std::vector<BoundaryEntry> boundary = {};
   std::vector<structure::Probe> probes = {};  ///< in the order of the file
@@ -44,11 +46,14 @@ struct ModelFile {
   std::optional<TimeSpan> time = {};
 
   /// Those of `boundary` that have names.
-  std::vector<structure::NamedSupport> named_supports() const {
-    return io::named_supports(boundary, geometry);
-  }
+  std::vector<structure::NamedSupport> named_supports() const { return io::named_supports(boundary); }
 
-  const nurbs::Volume& volume() const { return std::get<nurbs::Volume>(geometry.patches.front()); }
+  /// Without control points once a solver was built.
+  const nurbs::Volume& volume(int patch = 0) const {
+    return std::get<nurbs::Volume>(geometry.patches[patch]);
+  }
+  int patch_count() const { return static_cast<int>(geometry.patches.size()); }
+  void drop_control_points();
 };
 
 /// `file` is the name used in messages; `read` gives the geometry file that the text may name.  Throws
@@ -68,7 +73,11 @@ struct Cut {
 };
 
 /// The solver in its initial state, loads applied, accelerations not yet worked out; of one part, if the
-/// solid is cut (collective).  Throws geometry_io::InputError if the geometry is left-handed or folded.
-structure::ExplicitSolver build_solver(const ModelFile& model, const Cut& cut = {});
+/// solid is cut (collective).  Takes the control points out of the model: a part keeps no more than its own.
+/// Throws geometry_io::InputError if the geometry is left-handed or folded.
+structure::ExplicitSolver build_solver(ModelFile& model, const Cut& cut = {});
+inline structure::ExplicitSolver build_solver(ModelFile&& model, const Cut& cut = {}) {
+  return build_solver(model, cut);
+}
 
 }  // namespace io

@@ -31,8 +31,8 @@ std::vector<nurbs::Face> read_faces(const YamlMap& map, const std::string& key) 
   return faces;
 }
 
-/// Those of a patch; ids are its own as long as a body is of one.
-NodeSet nodes_of_patch(const Selection& selection, const nurbs::Volume& patch) {
+/// Control points of a patch.
+NodeSet points_of_patch(const Selection& selection, const nurbs::Volume& patch) {
   if (selection.box)
     return structure::nodes_within(patch.control_points, (*selection.box)[0], (*selection.box)[1]);
   if (selection.on_all_of_them || selection.faces.empty())
@@ -63,6 +63,15 @@ void expect_faces(const YamlMap& map, const std::string& key, const std::vector<
     map.fail(key, fmt::format("{} has {} faces, expected {} that meet there", key, faces.size(), count));
 }
 
+std::vector<int> read_patches(const YamlMap& map, const GeometryFile& geometry) {
+  const int patches = static_cast<int>(geometry.patches.size());
+  if (map.has("patch") && map.is_list("patch")) return map.integers("patch", 0, patches - 1);
+  if (map.has("patch") || !map.has("box")) return {read_patch(map, geometry)};
+  std::vector<int> all(patches);
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 }  // namespace
 
 std::vector<std::string> with_selection_keys(std::vector<std::string> keys) {
@@ -73,11 +82,16 @@ std::vector<std::string> with_selection_keys(std::vector<std::string> keys) {
 nurbs::Face read_face(const YamlMap& map, const std::string& key) { return face_of(map, key, map.word(key)); }
 
 int read_patch(const YamlMap& map, const GeometryFile& geometry) {
-  return map.has("patch") ? map.integer("patch", 0, static_cast<int>(geometry.patches.size()) - 1) : 0;
+  const int patches = static_cast<int>(geometry.patches.size());
+  if (map.has("patch")) return map.integer("patch", 0, patches - 1);
+  if (patches > 1)
+    map.fail("", fmt::format("nothing says of which patch, expected 'patch', 0 to {}", patches - 1));
+  return 0;
 }
 
-Selection read_selection(const YamlMap& map, const GeometryFile& geometry) {
-  Selection selection{read_patch(map, geometry)};
+Selection read_selection(const YamlMap& map, const GeometryFile& geometry,
+                         const structure::NodeNumbering& nodes) {
+  Selection selection{read_patches(map, geometry)};
   std::vector<std::string> given;
   for (const char* const key : {"faces", "edge", "corner", "box"})
     if (map.has(key)) given.emplace_back(key);
@@ -93,20 +107,32 @@ Selection read_selection(const YamlMap& map, const GeometryFile& geometry) {
   if (key == "edge") expect_faces(map, key, selection.faces, 2);
   if (key == "corner") expect_faces(map, key, selection.faces, 3);
   selection.on_all_of_them = key == "edge" || key == "corner";
-  if (key != "faces" && nodes_of(selection, geometry).empty())
+  if (key != "faces" && nodes_of(selection, geometry, nodes).empty())
     map.fail(key, fmt::format("{} has no control points, expected some", key));
   return selection;
 }
 
-std::vector<structure::Id> node_ids(const GeometryFile& geometry, int patch) {
-  std::vector<structure::Id> ids(
-      std::get<nurbs::Volume>(geometry.patches[patch]).space.control_point_count());
-  std::iota(ids.begin(), ids.end(), structure::Id(0));
+std::vector<structure::Id> node_ids(const structure::NodeNumbering& nodes, int patch) {
+  std::vector<structure::Id> ids;
+  for (int point = 0; point < nodes.control_point_count(patch); ++point)
+    ids.push_back(nodes.node(patch, point));
   return ids;
 }
 
-NodeSet nodes_of(const Selection& selection, const GeometryFile& geometry) {
-  return nodes_of_patch(selection, std::get<nurbs::Volume>(geometry.patches[selection.patch]));
+structure::SkinSurface skin_of(const GeometryFile& geometry, const structure::NodeNumbering& nodes,
+                               const structure::SkinPiece& piece) {
+  return structure::skin_surface(std::get<nurbs::Volume>(geometry.patches[piece.patch]), piece, nodes);
+}
+
+NodeSet nodes_of(const Selection& selection, const GeometryFile& geometry,
+                 const structure::NodeNumbering& nodes) {
+  NodeSet all;
+  for (const int patch : selection.patches)
+    for (const int point : points_of_patch(selection, std::get<nurbs::Volume>(geometry.patches[patch])))
+      all.push_back(static_cast<int>(nodes.node(patch, point)));
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
 }
 
 }  // namespace io

@@ -16,7 +16,7 @@ namespace parallel {
 
 class SharedFields {
  public:
-  /// `model.output->fields` is there.
+  /// `model.output->fields` is there, and the control points, too: before a solver is built.
   SharedFields(MPI_Comm comm, const io::ModelFile& model);
 
   /// The solver has got a saved state: the series go on with those of then.

@@ -20,10 +20,11 @@ void Body::internal_force_change(const NodalVectors& u, const NodalVectors& w, N
 std::vector<int> Body::element_nodes(int element) const {
   NodalVectors numbers = NodalVectors::Zero(3, node_count());
   for (int A = 0; A < node_count(); ++A) numbers(0, A) = A + 1.0;
-  std::vector<double> values(3 * std::size_t(padded_functions()));
+  const int padded = padded_functions(element);
+  std::vector<double> values(3 * std::size_t(padded));
   gather(element, numbers, values.data());
   std::vector<int> nodes;
-  for (int a = 0; a < padded_functions(); ++a)
+  for (int a = 0; a < padded; ++a)
     if (values[a] > 0.0) nodes.push_back(static_cast<int>(values[a]) - 1);
   return nodes;
 }

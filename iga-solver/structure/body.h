@@ -45,14 +45,12 @@ class Body {
 
   virtual int node_count() const = 0;
   virtual const NodalVectors& reference() const = 0;  ///< undeformed positions of the nodes [length]
-  /// Of all nodes of the whole body, whatever the part.
-  virtual const NodalVectors& whole_reference() const { return reference(); }
   virtual PatchSpaces patches() const = 0;
   virtual nurbs::BoundarySurface skin(const SkinPiece& piece) const = 0;
   /// The same box by box, as far as the part has it: forces that follow the skin are added as internal ones.
   virtual std::vector<SkinBox> skin_boxes(const SkinPiece& piece) const = 0;
   virtual ExactSum volume_sum() const = 0;  ///< [length^3]; of a part, to be summed over all
-  virtual const Material& material() const = 0;
+  virtual std::vector<const Material*> materials() const = 0;  ///< of each patch
   /// Choices that a saved state depends on, beside patches and material, in words; empty for the usual ones.
   virtual std::string discretisation() const { return {}; }
   /// Row sums of the consistent mass matrix, integral of density R_A [mass], one per node, all > 0.
@@ -84,14 +82,14 @@ class Body {
   double strain_energy(const NodalVectors& u) const { return strain_energy_sum(u).value(); }
 
   // Single elements, for estimates that look at one element at a time.  Element values are
-  // [3][padded_functions()], 0 beyond the functions: kernels go over whole vectors.
+  // [3][padded_functions(element)], 0 beyond the functions: kernels go over whole vectors.
   virtual int element_count() const = 0;
-  virtual int padded_functions() const = 0;
+  virtual int padded_functions(int element) const = 0;
   virtual void gather(int element, const NodalVectors& nodal, double* values) const = 0;
   /// Nodes whose functions are not zero on it.
   virtual std::vector<int> element_nodes(int element) const;
   virtual void element_force(int element, const double* u, double* f) const = 0;
-  /// Row-sum mass of one element's own volume [mass], [padded_functions()].
+  /// Row-sum mass of one element's own volume [mass], [padded_functions(element)].
   virtual const double* element_mass(int element) const = 0;
   /// Smallest current over reference volume det(I + H) [-] at the element's quadrature points: <= 0 if it is
   /// folded.

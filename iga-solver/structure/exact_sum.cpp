@@ -17,6 +17,13 @@ void ExactSum::carry() {
   since_carry_ = 0;
 }
 
+void ExactSum::add(ExactSum other) {
+  const std::array<std::int64_t, kWords>& words = other.words();
+  carry();
+  for (int k = 0; k < kWords; ++k) words_[k] += words[k];
+  ++since_carry_;
+}
+
 double ExactSum::value() const {
   const std::int64_t plus = words_[kPlaces], minus = words_[kPlaces + 1], none = words_[kPlaces + 2];
   constexpr double kInfinity = std::numeric_limits<double>::infinity();

@@ -13,6 +13,7 @@ namespace structure {
 class ExactSum {
  public:
   void add(double term);
+  void add(ExactSum other);
   /// Rounded once; not finite if a term was not (inf - inf is not a number).
   double value() const;
 

@@ -207,11 +207,7 @@ class PartBuilder {
   PartBuilder(const Partition& partition, int p) : partition_(partition), p_(p) {}
 
   Part build(const std::vector<bool>& has_ghosts) {
-    for (const bool border : {true, false})
-      for (int box = 0; box < partition_.box_count(); ++box)
-        if (partition_.part_of(box) == p_ && has_ghosts[box] == border) part_.boxes.push_back(box);
-    part_.border_boxes = static_cast<int>(
-        std::count_if(part_.boxes.begin(), part_.boxes.end(), [&](int box) { return has_ghosts[box]; }));
+    for (int patch = 0; patch < partition_.patch_count(); ++patch) take_boxes(patch, has_ghosts);
     has_ghosts_ = &has_ghosts;
     take_nodes();
     for (int column = 0; column < part_.held(); ++column) take_shares(column);
@@ -226,6 +222,17 @@ class PartBuilder {
   }
 
  private:
+  void take_boxes(int patch, const std::vector<bool>& has_ghosts) {
+    const int begin = static_cast<int>(part_.boxes.size()), first = partition_.first_box(patch);
+    int border = 0;
+    for (const bool ghosts : {true, false}) {
+      for (int box = first; box < partition_.first_box(patch + 1); ++box)
+        if (partition_.part_of(box) == p_ && has_ghosts[box] == ghosts) part_.boxes.push_back(box);
+      if (ghosts) border = static_cast<int>(part_.boxes.size()) - begin;
+    }
+    part_.patches.push_back({begin, static_cast<int>(part_.boxes.size()), border, first});
+  }
+
   /// Owned ones first, each kind rising.
   void take_nodes() {
     std::vector<Id>& nodes = part_.nodes;

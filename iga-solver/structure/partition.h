@@ -34,15 +34,22 @@ struct SharedNode {
   int column, first, end;
 };
 
+/// What a part has of a patch: boxes [begin, end) of its own, whose numbers count from `first_box`.  The
+/// first `border` of them have ghosts and are integrated before all others: their shares may travel
+/// meanwhile.
+struct PatchPart {
+  int begin, end, border, first_box;
+};
+
 /// Arrays of a part have a column for each node that it owns, then for its ghosts, each in the order of ids;
 /// then for shares that wait to be added, zero but in forces (Halo::held).
 struct Part {
-  std::vector<int> boxes;  ///< in the order in which they are integrated: those with ghosts first
-  int border_boxes = 0;    ///< how many have ghosts: their shares may travel while the others are worked out
-  std::vector<Id> elements;  ///< of these boxes, box after box, the first direction fastest
-  std::vector<Id> nodes;     ///< that the part holds, per column
-  int owned = 0;             ///< how many of them
-  int columns = 0;           ///< of nodes and shares
+  std::vector<int> boxes;          ///< patch after patch, of each those with ghosts first
+  std::vector<PatchPart> patches;  ///< of all patches of the body
+  std::vector<Id> elements;        ///< of these boxes, box after box, the first direction fastest
+  std::vector<Id> nodes;           ///< that the part holds, per column
+  int owned = 0;                   ///< how many of them
+  int columns = 0;                 ///< of nodes and shares
   std::vector<Eigen::Index>
       runs;  ///< first columns of runs of owned nodes that no cut divides (Halo::for_each_run)
   std::vector<SharedNode> shared;
@@ -95,8 +102,9 @@ class Partition {
 
   int box_count() const { return static_cast<int>(part_.size()); }
   int part_of(int box) const { return part_[box]; }
+  int patch_count() const { return static_cast<int>(patches_.size()); }
   int patch_of(int box) const;
-  /// The first box of a patch.
+  /// The first box of a patch, or of one beyond.
   int first_box(int patch) const { return first_box_[patch]; }
   /// Boxes that hold a node, rising.
   class Boxes {

@@ -202,6 +202,26 @@ NodeNumbering weld(const std::vector<nurbs::Volume>& patches, double relative_to
   return nodes;
 }
 
+std::vector<SkinPiece> free_faces(const std::vector<nurbs::Space<3>>& patches, const NodeNumbering& nodes) {
+  std::map<std::vector<Id>, std::vector<SkinPiece>> by_nodes;
+  for (int p = 0; p < static_cast<int>(patches.size()); ++p)
+    for (int f = 0; f < 6; ++f) {
+      const SkinPiece piece{p, static_cast<nurbs::Face>(f)};
+      std::vector<Id> on_face;
+      for (const int point : nurbs::boundary_surface(patches[p], piece.face).volume_control_point)
+        on_face.push_back(nodes.node(p, point));
+      std::sort(on_face.begin(), on_face.end());
+      by_nodes[on_face].push_back(piece);
+    }
+  std::vector<SkinPiece> free;
+  for (const auto& [on_face, pieces] : by_nodes)
+    if (pieces.size() == 1) free.push_back(pieces.front());
+  std::sort(free.begin(), free.end(), [](const SkinPiece& a, const SkinPiece& b) {
+    return std::pair(a.patch, a.face) < std::pair(b.patch, b.face);
+  });
+  return free;
+}
+
 int welded_face_count(const std::vector<nurbs::Volume>& patches, const NodeNumbering& nodes) {
   int count = 0;
   for_each_touching_pair(faces_of(patches, nodes),

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "nurbs/patch.h"
+#include "structure/body.h"
 #include "structure/node_numbering.h"
 
 namespace structure {
@@ -16,6 +17,9 @@ NodeNumbering weld(const std::vector<nurbs::Volume>& patches, double relative_to
 
 /// Every patch on its own.
 NodeNumbering without_welds(const std::vector<nurbs::Volume>& patches);
+
+/// The faces that are not welded to another one.
+std::vector<SkinPiece> free_faces(const std::vector<nurbs::Space<3>>& patches, const NodeNumbering& nodes);
 
 /// How many pairs of faces are welded.
 int welded_face_count(const std::vector<nurbs::Volume>& patches, const NodeNumbering& nodes);

@@ -4,13 +4,13 @@
 #include "io/model_file.h"
 
 int main() {
-  const io::ModelFile model = io::parse_model_file(R"(
+  io::ModelFile model = io::parse_model_file(R"(
 units: si
 geometry: {box: {origin: [0, 0, 0], size: [1, 1, 1], elements: [2, 2, 2], degree: 2}}
 material: {law: linear_elastic, youngs_modulus: 1, poissons_ratio: 0.3, density: 1}
 surfaces: {top: zeta+}
 )",
-                                                   "block.yaml");
+                                             "block.yaml");
   coupling::IgaStructure block(io::build_solver(model), {{0, nurbs::Face::zeta_plus}});
   block.set_time_step(0.1);
   const coupling::NodalForces forces(coupling::NodalVectors::Constant(3, block.positions().cols(), 1.0));

@@ -23,7 +23,7 @@ class OneMode final : public structure::Body {
   }
   std::vector<structure::SkinBox> skin_boxes(const structure::SkinPiece&) const override { return {}; }
   structure::ExactSum volume_sum() const override { return sum_of(1.0); }
-  const structure::Material& material() const override { return material_; }
+  std::vector<const structure::Material*> materials() const override { return {&material_}; }
   const Eigen::VectorXd& row_sum_mass() const override { return mass_; }
   void internal_force(const nurbs::NodalVectors& u, nurbs::NodalVectors& f) const override {
     f = 0.25 * omega_ * omega_ * u;
@@ -40,7 +40,7 @@ class OneMode final : public structure::Body {
     return sum_of(0.125 * omega_ * omega_ * u.squaredNorm());
   }
   int element_count() const override { return 1; }
-  int padded_functions() const override { return 4; }
+  int padded_functions(int) const override { return 4; }
   void gather(int, const nurbs::NodalVectors& nodal, double* values) const override {
     const Eigen::Matrix<double, 4, 3> rows = nodal.transpose();
     std::copy_n(rows.data(), rows.size(), values);

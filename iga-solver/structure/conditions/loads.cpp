@@ -13,31 +13,24 @@ namespace structure {
 
 NodalVectors gravity_load(const Body& body, const Vector3& g) { return g * body.row_sum_mass().transpose(); }
 
-std::vector<std::pair<Id, double>> skin_areas(const Body& body, const SkinPiece& piece) {
-  const nurbs::BoundarySurface boundary = body.skin(piece);
-  const Eigen::VectorXd area = nurbs::control_point_areas(
-      boundary.space, body.whole_reference()(Eigen::all, boundary.volume_control_point));
+std::vector<std::pair<Id, double>> skin_areas(const SkinSurface& skin) {
+  const Eigen::VectorXd area = nurbs::control_point_areas(skin.face.space, skin.X);
   std::vector<std::pair<Id, double>> areas;
   for (Eigen::Index c = 0; c < area.size(); ++c)
-    areas.emplace_back(boundary.volume_control_point[c], area[c]);
+    areas.emplace_back(skin.face.volume_control_point[c], area[c]);
   return areas;
 }
 
 NodalVectors traction_load(const Body& body, const SkinPiece& piece, const Vector3& traction) {
-  NodalVectors f = NodalVectors::Zero(3, body.whole_reference().cols());
-  for (const auto& [node, area] : skin_areas(body, piece)) f.col(node) += traction * area;
+  NodalVectors f = NodalVectors::Zero(3, body.node_count());
+  for (const auto& [node, area] : skin_areas(skin_surface(body, piece))) f.col(node) += traction * area;
   return f;
 }
 
-void add_traction_load(const Body& body, const SkinPiece& piece, const Vector3& traction,
-                       const std::vector<Id>& nodes, NodalVectors& f) {
-  std::vector<std::pair<Id, double>> loaded = skin_areas(body, piece);
-  std::sort(loaded.begin(), loaded.end());
-  for (std::size_t column = 0; column < nodes.size(); ++column) {
-    const auto found =
-        std::lower_bound(loaded.begin(), loaded.end(), std::pair<Id, double>(nodes[column], 0.0));
-    if (found != loaded.end() && found->first == nodes[column]) f.col(column) += traction * found->second;
-  }
+void add_traction_load(const SkinSurface& skin, const Vector3& traction, const Columns& columns,
+                       NodalVectors& f) {
+  for (const auto& [node, area] : skin_areas(skin))
+    if (const std::ptrdiff_t column = columns.of(node); column >= 0) f.col(column) += traction * area;
 }
 
 void add_point_load(const Probe& point, const Vector3& force, const Columns& columns, NodalVectors& f) {

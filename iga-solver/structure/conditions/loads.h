@@ -10,6 +10,7 @@
 #include "structure/conditions/columns.h"
 #include "structure/conditions/field.h"
 #include "structure/conditions/probe.h"
+#include "structure/conditions/skin_surface.h"
 #include "structure/id.h"
 
 namespace structure {
@@ -18,13 +19,13 @@ namespace structure {
 NodalVectors gravity_load(const Body& body, const Vector3& g);
 
 /// Of the nodes of a piece of the skin, by their ids, the areas [length^2] that a traction counts on.
-std::vector<std::pair<Id, double>> skin_areas(const Body& body, const SkinPiece& piece);
-/// On the nodes of the whole body, integral of t R_A over a piece of the skin: uniform dead traction t
+std::vector<std::pair<Id, double>> skin_areas(const SkinSurface& skin);
+/// On the nodes of a body in one piece, integral of t R_A over a piece of the skin: uniform dead traction t
 /// [force/length^2], per reference area, direction fixed in space.
 NodalVectors traction_load(const Body& body, const SkinPiece& piece, const Vector3& traction);
-/// Adds the same to forces f on a part: a column for each id of `nodes`, -1 for columns of no node.
-void add_traction_load(const Body& body, const SkinPiece& piece, const Vector3& traction,
-                       const std::vector<Id>& nodes, NodalVectors& f);
+/// Adds the same to forces f on a part.
+void add_traction_load(const SkinSurface& skin, const Vector3& traction, const Columns& columns,
+                       NodalVectors& f);
 
 // The same for forces at a point [force], along an edge of a patch [force/length], where two of its faces
 // meet, and in its volume [force/length^3].  `ids`: nodes of the whole body, per control point.

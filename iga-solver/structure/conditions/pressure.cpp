@@ -10,11 +10,10 @@
 
 namespace structure {
 
-FollowingPressure::FollowingPressure(const Body& body, const SkinPiece& piece, Field pressure,
+FollowingPressure::FollowingPressure(const Body& body, const SkinSurface& surface, Field pressure,
                                      TimeFunction factor)
     : pressure_(std::move(pressure)), factor_(std::move(factor)) {
-  const nurbs::BoundarySurface skin = body.skin(piece);
-  const NodalVectors X = body.whole_reference()(Eigen::all, skin.volume_control_point);
+  const auto& [piece, skin, X] = surface;
   functions_ = (skin.space.degree(0) + 1) * (skin.space.degree(1) + 1);
   std::size_t most = 0;
   for (SkinBox& box : body.skin_boxes(piece)) {

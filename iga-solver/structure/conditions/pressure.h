@@ -8,13 +8,14 @@
 #include <vector>
 
 #include "structure/conditions/changing_load.h"
+#include "structure/conditions/skin_surface.h"
 
 namespace structure {
 
 class FollowingPressure final : public ChangingLoad {
  public:
   /// p = pressure.x(X, t) times factor(t) [force/length^2], positive pushes.
-  FollowingPressure(const Body& body, const SkinPiece& piece, Field pressure, TimeFunction factor);
+  FollowingPressure(const Body& body, const SkinSurface& surface, Field pressure, TimeFunction factor);
   void add(double t, const NodalVectors& x, const Halo& halo, NodalVectors& f) const override;
 
  private:

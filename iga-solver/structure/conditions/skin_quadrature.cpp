@@ -9,10 +9,9 @@
 namespace structure {
 
 // As many points as nurbs::control_point_areas has.
-SkinQuadrature::SkinQuadrature(const Body& body, const SkinPiece& piece, const std::vector<Id>& nodes) {
+SkinQuadrature::SkinQuadrature(const SkinSurface& surface, const std::vector<Id>& nodes) {
   const Columns columns(nodes);
-  const nurbs::BoundarySurface skin = body.skin(piece);
-  const NodalVectors X = body.whole_reference()(Eigen::all, skin.volume_control_point);
+  const auto& [piece, skin, X] = surface;
   std::vector<std::ptrdiff_t> column_of;
   for (const int node : skin.volume_control_point) column_of.push_back(columns.of(node));
   nurbs::RationalBasis<2> basis;

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "structure/body.h"
+#include "structure/conditions/skin_surface.h"
 #include "structure/id.h"
 
 namespace structure {
@@ -13,7 +13,7 @@ namespace structure {
 class SkinQuadrature {
  public:
   /// `nodes`: ids of the columns of nodal arrays, -1 for columns of no node.
-  SkinQuadrature(const Body& body, const SkinPiece& piece, const std::vector<Id>& nodes);
+  SkinQuadrature(const SkinSurface& surface, const std::vector<Id>& nodes);
 
   /// Adds to f (3 x n) the integral of value(X) R_A over the piece.
   template <class Value>

@@ -55,6 +55,7 @@ std::vector<int> box_nodes(const nurbs::Space<3>& space, const SpanBox& box) {
     end[d] += first[d];
   }
   std::vector<int> nodes;
+  nodes.reserve(std::size_t(end[0] - first[0]) * (end[1] - first[1]) * (end[2] - first[2]));
   for (int k = first[2]; k < end[2]; ++k)
     for (int j = first[1]; j < end[1]; ++j)
       for (int i = first[0]; i < end[0]; ++i)
@@ -62,20 +63,21 @@ std::vector<int> box_nodes(const nurbs::Space<3>& space, const SpanBox& box) {
   return nodes;
 }
 
-std::vector<PlacedBox> whole_patch(const nurbs::Space<3>& space) {
+std::vector<PlacedBox> boxes_of(const Part& part, int patch, const nurbs::Space<3>& space) {
+  const std::vector<SpanBox> grid = box_grid(space);
+  const PatchPart& own = part.patches[patch];
   std::vector<PlacedBox> boxes;
-  for (const SpanBox& box : box_grid(space)) boxes.push_back({box, box_nodes(space, box)});
+  for (int b = own.begin; b < own.end; ++b) {
+    PlacedBox& box = boxes.emplace_back(PlacedBox{grid[part.boxes[b] - own.first_box], part.gather[b]});
+    if (part.scatter[b] != part.gather[b]) box.share_columns = part.scatter[b];
+  }
   return boxes;
 }
 
-std::vector<PlacedBox> boxes_of(const Part& part, const nurbs::Space<3>& space) {
-  const std::vector<SpanBox> grid = box_grid(space);
-  std::vector<PlacedBox> boxes;
-  for (std::size_t b = 0; b < part.boxes.size(); ++b) {
-    const SpanBox& box = grid[part.boxes[b]];
-    boxes.push_back({box, box_nodes(space, box), part.gather[b], part.scatter[b]});
-  }
-  return boxes;
+Part whole_part(const nurbs::Space<3>& space) { return Partition(space, box_cuts(space), 1).part(0); }
+
+std::vector<PlacedBox> whole_patch(const nurbs::Space<3>& space) {
+  return boxes_of(whole_part(space), 0, space);
 }
 
 }  // namespace structure

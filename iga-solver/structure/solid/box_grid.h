@@ -47,20 +47,20 @@ std::vector<int> box_nodes(const nurbs::Space<3>& space, const SpanBox& box);
 /// How many of them there are in each direction.
 std::array<int, 3> box_node_counts(const nurbs::Space<3>& space, const SpanBox& box);
 
-/// A box, and where the values of its control points stand in nodal arrays.
+/// A box, and where the values of its control points, as box_nodes gives them, stand in nodal arrays.
 struct PlacedBox {
   SpanBox spans;
-  std::vector<int> nodes;  ///< control points of the patch, as box_nodes gives them
-  /// Columns that displacements are read from and forces are added to; empty: those of the control points.
-  std::vector<int> read_columns = {}, write_columns = {};
+  std::vector<int> columns;             ///< of positions, displacements and forces
+  std::vector<int> share_columns = {};  ///< of forces, where others than `columns`; else empty
 
-  const std::vector<int>& read() const { return read_columns.empty() ? nodes : read_columns; }
-  const std::vector<int>& write() const { return write_columns.empty() ? nodes : write_columns; }
+  const std::vector<int>& read() const { return columns; }
+  const std::vector<int>& write() const { return share_columns.empty() ? columns : share_columns; }
 };
 
-/// All boxes of a patch that is held whole.
+/// The part that has all of one patch whose control points are the nodes; and its boxes.
+Part whole_part(const nurbs::Space<3>& space);
 std::vector<PlacedBox> whole_patch(const nurbs::Space<3>& space);
-/// Those of a part of it, cut at box_cuts, in the order in which the part has them.
-std::vector<PlacedBox> boxes_of(const Part& part, const nurbs::Space<3>& space);
+/// Those of a patch that a part has, cut at box_cuts, in the order in which the part has them.
+std::vector<PlacedBox> boxes_of(const Part& part, int patch, const nurbs::Space<3>& space);
 
 }  // namespace structure

@@ -39,17 +39,16 @@ std::vector<int> element_columns(const nurbs::Space<3>& space, const SpanBox& bo
   return own;
 }
 
-ElementLoop::ElementLoop(const nurbs::Volume& patch, const std::vector<PlacedBox>& boxes,
-                         const Material& material, Quadrature quadrature)
-    : material_(material), force_kernel_(force_kernel(padded(patch.space.functions_per_element()))) {
-  const nurbs::Space<3>& space = patch.space;
-  const ElementTabulator tabulate(patch, quadrature);
+ElementLoop::ElementLoop(const nurbs::Space<3>& space, const nurbs::NodalVectors& X,
+                         const std::vector<PlacedBox>& boxes, const Material& material, Quadrature quadrature)
+    : material_(material), force_kernel_(force_kernel(padded(space.functions_per_element()))) {
+  const ElementTabulator tabulate(space, quadrature);
   remembered_ = std::size_t(tabulate.slots()) * material.state_size();
   std::size_t count = 0;
   for (const PlacedBox& box : boxes) count += box.spans.element_count();
   elements_.reserve(count);
   for (const PlacedBox& box : boxes) {
-    std::vector<int> local(box.nodes.size());
+    std::vector<int> local(box.columns.size());
     std::iota(local.begin(), local.end(), 0);
     const std::size_t first = elements_.size();
     for (int k = box.spans.begin[2]; k < box.spans.end[2]; ++k)
@@ -58,7 +57,7 @@ ElementLoop::ElementLoop(const nurbs::Volume& patch, const std::vector<PlacedBox
           Element& element = elements_.emplace_back();
           element.read = element_columns(space, box.spans, box.read(), {i, j, k});
           element.write = element_columns(space, box.spans, local, {i, j, k});
-          tabulate(space.element_index({i, j, k}), element.tables);
+          tabulate(space.element_index({i, j, k}), {X, element.read}, element.tables);
         }
     boxes_.push_back({first, elements_.size(), box.write()});
     share_.resize(3, std::max<Eigen::Index>(share_.cols(), static_cast<Eigen::Index>(local.size())));

@@ -13,9 +13,10 @@ namespace structure {
 
 class ElementLoop final : public Integrals {
  public:
-  /// Keeps a reference to the material.  Throws std::invalid_argument if the patch is left-handed or folded.
-  ElementLoop(const nurbs::Volume& patch, const std::vector<PlacedBox>& boxes, const Material& material,
-              Quadrature quadrature);
+  /// X: undeformed positions [length], 3 x columns.  Keeps a reference to the material.  Throws
+  /// std::invalid_argument if the patch is left-handed or folded.
+  ElementLoop(const nurbs::Space<3>& space, const nurbs::NodalVectors& X, const std::vector<PlacedBox>& boxes,
+              const Material& material, Quadrature quadrature);
 
   int box_count() const override { return static_cast<int>(boxes_.size()); }
   void add_forces(int first, int end, const PointMemory& memory, const nurbs::NodalVectors& u,

@@ -13,10 +13,10 @@ namespace structure {
 namespace {
 
 /// dX/dxi from reference control points: J(i, d) = sum_A X_A,i dR_A/dxi_d.
-Matrix3 jacobian(const nurbs::RationalBasis<3>& basis, const nurbs::NodalVectors& X) {
+Matrix3 jacobian(const nurbs::RationalBasis<3>& basis, const ElementNet& net) {
   Matrix3 J = Matrix3::Zero();
   for (int a = 0; a < basis.count; ++a)
-    for (int d = 0; d < 3; ++d) J.col(d) += basis.dR[d][a] * X.col(basis.control_point[a]);
+    for (int d = 0; d < 3; ++d) J.col(d) += basis.dR[d][a] * net.X.col(net.columns[a]);
   return J;
 }
 
@@ -29,9 +29,9 @@ Matrix3 jacobian(const nurbs::RationalBasis<3>& basis, const nurbs::NodalVectors
 
 }  // namespace
 
-ElementTabulator::ElementTabulator(const nurbs::Volume& patch, Quadrature quadrature) : patch_(patch) {
+ElementTabulator::ElementTabulator(const nurbs::Space<3>& space, Quadrature quadrature) : space_(space) {
   for (int d = 0; d < 3; ++d) {
-    rules_[d] = rules_of(patch.space.knots(d), quadrature);
+    rules_[d] = rules_of(space.knots(d), quadrature);
     for (const nurbs::QuadratureRule& rule : rules_[d])
       most_[d] = std::max(most_[d], static_cast<int>(rule.points.size()));
   }
@@ -39,15 +39,15 @@ ElementTabulator::ElementTabulator(const nurbs::Volume& patch, Quadrature quadra
 
 /// at_point(basis, J, w|J|, slot)
 template <class AtPoint>
-void ElementTabulator::for_each_point(int element, AtPoint at_point) const {
-  const std::array<int, 3> span = patch_.space.element_indices(element);
+void ElementTabulator::for_each_point(int element, const ElementNet& net, AtPoint at_point) const {
+  const std::array<int, 3> span = space_.element_indices(element);
   const nurbs::QuadratureRule &x = rules_[0][span[0]], &y = rules_[1][span[1]], &z = rules_[2][span[2]];
   nurbs::RationalBasis<3> basis;
   for (std::size_t k = 0; k < z.points.size(); ++k)
     for (std::size_t j = 0; j < y.points.size(); ++j)
       for (std::size_t i = 0; i < x.points.size(); ++i) {
-        nurbs::evaluate_on_element(patch_.space, element, {x.points[i], y.points[j], z.points[k]}, 1, basis);
-        const Matrix3 J = jacobian(basis, patch_.control_points);
+        nurbs::evaluate_on_element(space_, element, {x.points[i], y.points[j], z.points[k]}, 1, basis);
+        const Matrix3 J = jacobian(basis, net);
         const double det_J = J.determinant();
         if (!(det_J > 0.0)) throw_not_positive(det_J, element, span);
         at_point(basis, J, x.weights[i] * y.weights[j] * z.weights[k] * det_J,
@@ -55,28 +55,29 @@ void ElementTabulator::for_each_point(int element, AtPoint at_point) const {
       }
 }
 
-void ElementTabulator::operator()(int element, ElementTables& tables) const {
-  const int functions = patch_.space.functions_per_element();
+void ElementTabulator::operator()(int element, const ElementNet& net, ElementTables& tables) const {
+  const int functions = space_.functions_per_element();
   tables.points = 0;
   tables.padded = padded(functions);
   tables.wJ.clear();
   tables.slot.clear();
   tables.dR_dX.assign(std::size_t(slots()) * 3 * tables.padded, 0.0);
-  for_each_point(element, [&](const nurbs::RationalBasis<3>& basis, const Matrix3& J, double wJ, int slot) {
-    double* dR_dX = &tables.dR_dX[std::size_t(tables.points++) * 3 * tables.padded];
-    tables.wJ.push_back(wJ);
-    tables.slot.push_back(slot);
-    const Matrix3 J_inverse_transposed = J.inverse().transpose();
-    for (int a = 0; a < functions; ++a) {
-      const nurbs::Vector3 gradient =
-          J_inverse_transposed * nurbs::Vector3(basis.dR[0][a], basis.dR[1][a], basis.dR[2][a]);
-      for (int d = 0; d < 3; ++d) dR_dX[d * tables.padded + a] = gradient[d];
-    }
-  });
+  for_each_point(
+      element, net, [&](const nurbs::RationalBasis<3>& basis, const Matrix3& J, double wJ, int slot) {
+        double* dR_dX = &tables.dR_dX[std::size_t(tables.points++) * 3 * tables.padded];
+        tables.wJ.push_back(wJ);
+        tables.slot.push_back(slot);
+        const Matrix3 J_inverse_transposed = J.inverse().transpose();
+        for (int a = 0; a < functions; ++a) {
+          const nurbs::Vector3 gradient =
+              J_inverse_transposed * nurbs::Vector3(basis.dR[0][a], basis.dR[1][a], basis.dR[2][a]);
+          for (int d = 0; d < 3; ++d) dR_dX[d * tables.padded + a] = gradient[d];
+        }
+      });
 }
 
-void ElementTabulator::add_row_sums(int element, double* sums) const {
-  for_each_point(element, [&](const nurbs::RationalBasis<3>& basis, const Matrix3&, double wJ, int) {
+void ElementTabulator::add_row_sums(int element, const ElementNet& net, double* sums) const {
+  for_each_point(element, net, [&](const nurbs::RationalBasis<3>& basis, const Matrix3&, double wJ, int) {
     for (int a = 0; a < basis.count; ++a) sums[a] += basis.R[a] * wJ;
   });
 }

@@ -8,8 +8,8 @@ namespace structure {
 GaussStresses::GaussStresses(const nurbs::Volume& patch, const Material& material, Quadrature quadrature)
     : patch_(patch),
       material_(material),
-      at_gauss_points_(patch, Quadrature::full),
-      at_quadrature_(patch, quadrature),
+      at_gauss_points_(patch.space, Quadrature::full),
+      at_quadrature_(patch.space, quadrature),
       boxes_(box_grid(patch.space)),
       first_id_{0} {
   for (const SpanBox& box : boxes_) first_id_.push_back(first_id_.back() + box.element_count());
@@ -17,9 +17,9 @@ GaussStresses::GaussStresses(const nurbs::Volume& patch, const Material& materia
 
 const std::vector<PointStress>& GaussStresses::at(int element, const nurbs::NodalVectors& u,
                                                   const std::vector<double>& memory) {
-  at_gauss_points_(element, tables_);
   std::vector<int> nodes(patch_.space.functions_per_element());
   patch_.space.element_control_points(element, nodes.data());
+  at_gauss_points_(element, {patch_.control_points, nodes}, tables_);
   points_.resize(tables_.points);
   for (int q = 0; q < tables_.points; ++q) {
     const double* const dR_dX = &tables_.dR_dX[std::size_t(q) * 3 * tables_.padded];

@@ -28,8 +28,9 @@ std::vector<SkinBox> skin_boxes(const nurbs::Space<3>& space, nurbs::Face face,
   for (const PlacedBox& box : boxes) {
     if (span < box.spans.begin[normal] || span >= box.spans.end[normal]) continue;
     SkinBox skin{elements_on_face(space, box.spans, normal), {}, {}, {}};
-    for (std::size_t i = 0; i < box.nodes.size(); ++i) {
-      const int n_xi = space.control_point_count(0), n_eta = space.control_point_count(1), A = box.nodes[i];
+    const std::vector<int> points = box_nodes(space, box.spans);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const int n_xi = space.control_point_count(0), n_eta = space.control_point_count(1), A = points[i];
       const std::array<int, 3> index{A % n_xi, A / n_xi % n_eta, A / (n_xi * n_eta)};
       if (index[normal] != layer) continue;
       skin.control_points.push_back(index[u] + space.control_point_count(u) * index[v]);

@@ -2,282 +2,213 @@
 #include "structure/solid/solid.h"
 
 #include <fmt/format.h>
-#include <Eigen/LU>
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "nurbs/assert.h"
 #include "nurbs/memory.h"
-#include "structure/solid/element_loop.h"
-#include "structure/sweep/affine_map.h"
-#include "structure/sweep/patch_sweep.h"
 
 namespace structure {
 
 namespace {
 
-/// Stored geometry of so many bytes stays in the cache, where it is read in less time than it is worked out
-/// anew.
-constexpr double kCachedTable = 1 << 20;
-
-constexpr const char* kMethods[] = {"auto", "affine", "stored", "recomputed", "elements"};
-
-GeometryMode geometry_mode(IntegrationMethod method) {
-  return method == IntegrationMethod::affine   ? GeometryMode::affine
-         : method == IntegrationMethod::stored ? GeometryMode::stored
-                                               : GeometryMode::recomputed;
-}
-
-/// dX/dxi and du/dxi alike: J(i, d) = sum_A q_A,i dR_A/dxi_d.
-Matrix3 parameter_gradient(const nurbs::RationalBasis<3>& basis, const NodalVectors& q) {
-  Matrix3 J = Matrix3::Zero();
-  for (int a = 0; a < basis.count; ++a)
-    for (int d = 0; d < 3; ++d) J.col(d) += basis.dR[d][a] * q.col(basis.control_point[a]);
-  return J;
+NodeNumbering own_nodes(const nurbs::Volume& patch) {
+  return NodeNumbering({patch.space.control_point_count()});
 }
 
 }  // namespace
 
-const char* name(IntegrationMethod method) { return kMethods[static_cast<int>(method)]; }
-
-IntegrationMethod integration_method_from_name(const std::string& word) {
-  for (int i = 0; i < 5; ++i)
-    if (word == kMethods[i]) return static_cast<IntegrationMethod>(i);
-  throw std::invalid_argument(
-      fmt::format("method is '{}', expected one of: {}", word, fmt::join(kMethods, ", ")));
-}
-
-Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration)
-    : Solid(std::make_unique<const nurbs::Volume>(std::move(patch)), std::move(material), integration) {
-  prepare(patch_->space.control_point_count(), patch_->space.element_count());
-  boxes_ = whole_patch(patch_->space);
-  set_up();
-}
-
-Solid::Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration,
-             const Part& part)
-    : Solid(std::make_unique<const nurbs::Volume>(std::move(patch)), std::move(material), integration) {
-  prepare(part.columns, part.elements.size());
-  boxes_ = boxes_of(part, patch_->space);
-  border_boxes_ = part.border_boxes;
-  part_reference_ = NodalVectors::Zero(3, columns_);
-  for (int column = 0; column < part.held(); ++column)
-    part_reference_->col(column) = patch_->control_points.col(part.nodes[column]);
-  set_up();
-}
-
-Solid::Solid(std::unique_ptr<const nurbs::Volume> patch, std::shared_ptr<const Material> material,
+Solid::Solid(const nurbs::Volume& patch, std::shared_ptr<const Material> material,
              const Integration& integration)
-    : patch_(std::move(patch)),
-      material_(std::move(material)),
-      integration_(integration),
-      first_element_{0},
-      functions_(patch_->space.functions_per_element()),
-      padded_(padded(functions_)),
-      tabulate_(*patch_, integration.quadrature),
-      tabulate_fully_(*patch_, Quadrature::full) {
-  nurbs::check_patch(*patch_);
-}
+    : Solid(patch, std::move(material), integration, whole_part(patch.space)) {}
 
-void Solid::set_up() {
-  for (const PlacedBox& box : boxes_)
-    first_element_.push_back(first_element_.back() + box.spans.element_count());
-  integrate_mass();
-  if (integration_.method == IntegrationMethod::elements)
-    integrals_ = std::make_unique<ElementLoop>(*patch_, boxes_, *material_, integration_.quadrature);
-  else
-    integrals_ = std::make_unique<PatchSweep>(*patch_, boxes_, *material_, integration_.quadrature,
-                                              geometry_mode(integration_.method));
+Solid::Solid(const nurbs::Volume& patch, std::shared_ptr<const Material> material,
+             const Integration& integration, const Part& part)
+    : Solid({{patch, std::move(material)}}, own_nodes(patch), integration, part) {}
+
+Solid::Solid(const std::vector<MaterialPatch>& patches, const NodeNumbering& nodes,
+             const Integration& integration, const Part& part)
+    : nodes_(nodes), first_element_{0} {
+  for (const MaterialPatch& patch : patches) nurbs::check_patch(patch.volume);
+  take_reference(patches, part);
+  for (std::size_t p = 0; p < patches.size(); ++p) {
+    patches_.push_back(std::make_unique<SolidPatch>(patches[p].volume, patches[p].material, integration, part,
+                                                    static_cast<int>(p), reference_));
+    first_element_.push_back(first_element_.back() + patches_.back()->element_count());
+  }
+  expect_equal_memories();
+  expect_memory();
+  row_sum_mass_ = Eigen::VectorXd::Zero(node_count());
+  for (std::size_t p = 0; p < patches_.size(); ++p) try {
+      patches_[p]->set_up(row_sum_mass_, volume_);
+    } catch (const std::invalid_argument& error) {
+      if (patches_.size() == 1) throw;
+      throw std::invalid_argument(fmt::format("patch {}: {}", p, error.what()));
+    }
   memory_.assign(element_count() * remembered_, 0.0);
   next_memory_ = memory_;
 }
 
-/// Stored geometry of an element [bytes].
-double Solid::element_table_bytes() const {
-  return sizeof(double) * table_numbers(patch_->space.rational()) * double(tabulate_.slots());
+void Solid::take_reference(const std::vector<MaterialPatch>& patches, const Part& part) {
+  reference_ = NodalVectors::Zero(3, part.columns);
+  for (int column = 0; column < part.held(); ++column) {
+    const auto [patch, control_point] = nodes_.place(part.nodes[column]);
+    reference_.col(column) = patches[patch].volume.control_points.col(control_point);
+  }
 }
 
-/// How, and whether it fits into memory: solid, and a solver for it.
-void Solid::prepare(int columns, std::size_t elements) {
-  columns_ = columns;
-  remembered_ = std::size_t(tabulate_.slots()) * material_->state_size();
-  choose_method();
+void Solid::expect_equal_memories() {
+  remembered_ = patches_.front()->remembered();
+  for (const auto& patch : patches_)
+    if (patch->remembered() != remembered_)
+      throw std::invalid_argument(fmt::format(
+          "Solid: elements of its patches remember {} and {} numbers, expected equally many: laws with "
+          "memory need the same law and degrees in all patches",
+          remembered_, patch->remembered()));
+}
+
+/// Whether solid, and a solver for it, fit.
+void Solid::expect_memory() const {
   constexpr double kBytesPerNode = 230.0;  // as measured by tests/benchmark/structure/large_solid
-  const int points = tabulate_.slots();
-  double per_element = 2.0 * sizeof(double) * static_cast<double>(remembered_);
-  if (integration_.method == IntegrationMethod::stored) per_element += element_table_bytes();
-  if (integration_.method == IntegrationMethod::elements)
-    per_element += sizeof(double) * (3.0 * padded_ + 1.0) * points;
-  nurbs::expect_memory(
-      kBytesPerNode * columns_ + per_element * static_cast<double>(elements),
-      fmt::format("a solid of {} elements of degrees {}, {}, {}", elements, patch_->space.degree(0),
-                  patch_->space.degree(1), patch_->space.degree(2)));
+  double bytes = kBytesPerNode * node_count();
+  for (const auto& patch : patches_) bytes += patch->expected_bytes();
+  const nurbs::Space<3>& space = patches_.front()->space();
+  nurbs::expect_memory(bytes, fmt::format("a solid of {} elements of degrees {}, {}, {}", element_count(),
+                                          space.degree(0), space.degree(1), space.degree(2)));
 }
 
-void Solid::choose_method() {
-  IntegrationMethod& method = integration_.method;
-  const bool can_sweep = PatchSweep::can_sweep(patch_->space);
-  // Of the whole patch, so that it is the same on any number of ranks.
-  const double table = element_table_bytes() * static_cast<double>(patch_->space.element_count());
-  if (method == IntegrationMethod::automatic)
-    method = !can_sweep                 ? IntegrationMethod::elements
-             : affine_jacobian(*patch_) ? IntegrationMethod::affine
-             : table <= kCachedTable    ? IntegrationMethod::stored
-                                        : IntegrationMethod::recomputed;
-  if (method != IntegrationMethod::elements && !can_sweep)
-    throw std::invalid_argument(
-        fmt::format("Solid: method is '{}' and the degrees are {}, {}, {}, expected degrees {} to {} (or "
-                    "'auto', 'elements')",
-                    name(method), patch_->space.degree(0), patch_->space.degree(1), patch_->space.degree(2),
-                    kLowestSweptDegree, kHighestSweptDegree));
-  if (method == IntegrationMethod::affine && !affine_jacobian(*patch_))
-    throw std::invalid_argument(
-        "Solid: method is 'affine', expected 'auto', 'stored' or 'recomputed': the Jacobian of the patch is "
-        "not the same everywhere");
-}
-
-/// Row sums by full quadrature, which also looks for folds.
-void Solid::integrate_mass() {
-  row_sum_mass_ = Eigen::VectorXd::Zero(node_count());
-  double least_det = -1.0;  // not known
-  if (PatchSweep::can_sweep(patch_->space)) {
-    const PatchSweep sweep(*patch_, boxes_, *material_, Quadrature::full, GeometryMode::recomputed);
-    const PatchSweep::Volume volume = sweep.add_row_sums(row_sum_mass_, material_->density());
-    volume_ = volume.volume;
-    least_det = volume.least_det;
-  }
-  // Degrees that are not swept, or a fold: found again, with its place.
-  if (!(least_det > 0.0)) integrate_mass_of_elements();
-}
-
-void Solid::integrate_mass_of_elements() {
-  row_sum_mass_.setZero();
-  volume_ = ExactSum();
-  for (std::size_t b = 0; b < boxes_.size(); ++b) {
-    Eigen::VectorXd share = Eigen::VectorXd::Zero(boxes_[b].nodes.size());
-    std::vector<int> local(boxes_[b].nodes.size());
-    std::iota(local.begin(), local.end(), 0);
-    for (int e = first_element_[b]; e < first_element_[b + 1]; ++e) {
-      const std::vector<int> nodes = element_columns(patch_->space, boxes_[b].spans, local, spans_of(e));
-      const std::vector<double>& mass = one(e).mass;
-      for (int a = 0; a < functions_; ++a) share[nodes[a]] += mass[a];
-      volume_.add(std::accumulate(mass.begin(), mass.end(), 0.0) / material_->density());
-    }
-    for (std::size_t a = 0; a < local.size(); ++a) row_sum_mass_[boxes_[b].write()[a]] += share[a];
-  }
-}
-
-std::array<int, 3> Solid::spans_of(int element) const {
+Solid::PatchElement Solid::of(int element) const {
   NURBS_ASSERT(0 <= element && element < element_count(), element, element_count());
-  const std::size_t b = box_of(element);
-  return boxes_[b].spans.span(element - first_element_[b]);
+  const auto next = std::upper_bound(first_element_.begin(), first_element_.end(), element);
+  const auto p = next - first_element_.begin() - 1;
+  return {*patches_[p], element - first_element_[p]};
 }
 
-std::size_t Solid::box_of(int element) const {
-  return std::upper_bound(first_element_.begin(), first_element_.end(), element) - first_element_.begin() - 1;
+double Solid::table_bytes() const {
+  double bytes = 0.0;
+  for (const auto& patch : patches_) bytes += patch->integrals().table_bytes();
+  return bytes;
 }
 
-const Solid::OneElement& Solid::one(int element) const {
-  if (one_.element == element) return one_;
-  one_.element = -1;  // until all is known
-  const std::array<int, 3> spans = spans_of(element);
-  const int in_patch = patch_->space.element_index(spans);
-  const PlacedBox& box = boxes_[box_of(element)];
-  one_.columns = element_columns(patch_->space, box.spans, box.read(), spans);
-  tabulate_(in_patch, one_.tables);
-  one_.mass.assign(padded_, 0.0);
-  tabulate_fully_.add_row_sums(in_patch, one_.mass.data());
-  for (double& mass : one_.mass) mass *= material_->density();
-  one_.element = element;
-  return one_;
+PatchSpaces Solid::patches() const {
+  std::vector<nurbs::Space<3>> spaces;
+  for (const auto& patch : patches_) spaces.push_back(patch->space());
+  return spaces;
+}
+
+std::vector<const Material*> Solid::materials() const {
+  std::vector<const Material*> materials;
+  for (const auto& patch : patches_) materials.push_back(&patch->material());
+  return materials;
 }
 
 std::string Solid::discretisation() const {
-  return integration_.quadrature == Quadrature::full ? "" : name(integration_.quadrature);
+  const Quadrature quadrature = integration().quadrature;
+  return quadrature == Quadrature::full ? "" : name(quadrature);
 }
 
 nurbs::BoundarySurface Solid::skin(const SkinPiece& piece) const {
-  if (piece.patch != 0)
-    throw std::invalid_argument(fmt::format("Solid: skin of patch {}, expected 0: it has one", piece.patch));
-  return nurbs::boundary_surface(patch_->space, piece.face);
+  if (piece.patch < 0 || piece.patch >= static_cast<int>(patches_.size()))
+    throw std::invalid_argument(
+        fmt::format("Solid: skin of patch {}, expected 0 to {}", piece.patch, patches_.size() - 1));
+  nurbs::BoundarySurface face = nurbs::boundary_surface(space(piece.patch), piece.face);
+  for (int& point : face.volume_control_point) point = static_cast<int>(nodes_.node(piece.patch, point));
+  return face;
 }
 
 std::string Solid::describe_element(int element) const {
-  const nurbs::Space<3>& space = patch_->space;
-  const std::array<int, 3> spans = spans_of(element);
-  const nurbs::Parameter<3> centre = space.element_centre(space.element_index(spans));
-  return fmt::format("spans {}, {}, {} of xi, eta, zeta, undeformed about {}", spans[0], spans[1], spans[2],
-                     text(nurbs::interpolate(space, patch_->control_points, centre)));
+  const PatchElement at = of(element);
+  const std::string words = at.patch.describe_element(at.element);
+  const auto is_it = [&](const auto& patch) { return patch.get() == &at.patch; };
+  const auto p = std::find_if(patches_.begin(), patches_.end(), is_it) - patches_.begin();
+  return patches_.size() == 1 ? words : fmt::format("patch {}, {}", p, words);
 }
 
 std::vector<std::array<int, 2>> Solid::net_edges() const {
   std::vector<std::array<int, 2>> edges;
-  for (const PlacedBox& box : boxes_) {
-    const std::vector<int>& columns = box.read();
-    const std::array<int, 3> counts = box_node_counts(patch_->space, box.spans);
-    const int strides[3] = {1, counts[0], counts[0] * counts[1]};
-    for (int node = 0; node < static_cast<int>(columns.size()); ++node)
-      for (int d = 0; d < 3; ++d)
-        if (node / strides[d] % counts[d] + 1 < counts[d])
-          edges.push_back({columns[node], columns[node + strides[d]]});
-  }
+  for (const auto& patch : patches_) patch->add_net_edges(edges);
   return edges;
 }
 
 void Solid::gather(int element, const NodalVectors& nodal, double* values) const {
   NURBS_ASSERT(nodal.cols() == node_count(), nodal.cols(), node_count());
-  const std::vector<int>& columns = one(element).columns;
-  for (int i = 0; i < 3; ++i) {
-    for (int a = 0; a < functions_; ++a) values[i * padded_ + a] = nodal(i, columns[a]);
-    std::fill(values + i * padded_ + functions_, values + (i + 1) * padded_, 0.0);
-  }
+  const PatchElement at = of(element);
+  at.patch.gather(at.element, nodal, values);
 }
 
 std::vector<int> Solid::element_nodes(int element) const {
-  const PlacedBox& box = boxes_[box_of(element)];
-  return element_columns(patch_->space, box.spans, box.read(), spans_of(element));
+  const PatchElement at = of(element);
+  return at.patch.columns_of(at.element);
 }
 
 void Solid::element_force(int element, const double* u, double* f) const {
-  const double* const memory = memory_.data() + element * remembered_;
-  force_kernel(padded_)(*material_, one(element).tables.geometry(), {memory}, u, f);
+  const PatchElement at = of(element);
+  at.patch.element_force(at.element, memory_.data() + element * remembered_, u, f);
 }
 
-const double* Solid::element_mass(int element) const { return one(element).mass.data(); }
+const double* Solid::element_mass(int element) const {
+  const PatchElement at = of(element);
+  return at.patch.element_mass(at.element);
+}
 
 double Solid::smallest_volume_ratio(int element, const double* u) const {
-  return structure::smallest_volume_ratio(one(element).tables.geometry(), u);
+  const PatchElement at = of(element);
+  return at.patch.smallest_volume_ratio(at.element, u);
+}
+
+PointMemory Solid::held(std::size_t patch) const {
+  return {memory_.data() + first_element_[patch] * remembered_};
+}
+
+PointMemory Solid::evolving(std::size_t patch, double dt) {
+  PointMemory memory = held(patch);
+  if (remembered_ > 0) memory = {memory.held, next_memory_.data() + first_element_[patch] * remembered_, dt};
+  return memory;
 }
 
 void Solid::internal_force(const NodalVectors& u, NodalVectors& f) const {
   NURBS_ASSERT(u.cols() == node_count() && f.cols() == node_count(), u.cols(), f.cols(), node_count());
-  integrals_->internal_force({memory_.data()}, u, f);
+  f.setZero();
+  for (std::size_t p = 0; p < patches_.size(); ++p) {
+    const int border = patches_[p]->border_boxes();
+    patches_[p]->integrals().add_forces(0, border, held(p), u, f);
+  }
+  for (std::size_t p = 0; p < patches_.size(); ++p) {
+    const Integrals& integrals = patches_[p]->integrals();
+    integrals.add_forces(patches_[p]->border_boxes(), integrals.box_count(), held(p), u, f);
+  }
 }
 
 void Solid::internal_force_change(const NodalVectors& u, const NodalVectors& w, NodalVectors& f) const {
-  if (material_->is_linear()) return internal_force(w, f);
   NURBS_ASSERT(u.cols() == node_count() && w.cols() == node_count(), u.cols(), w.cols(), node_count());
   f.setZero();
-  integrals_->add_force_changes({memory_.data()}, u, w, f);
+  for (std::size_t p = 0; p < patches_.size(); ++p) {
+    const Integrals& integrals = patches_[p]->integrals();
+    if (patches_[p]->material().is_linear())
+      integrals.add_forces(0, integrals.box_count(), held(p), w, f);
+    else
+      integrals.add_force_changes(held(p), u, w, f);
+  }
 }
 
 void Solid::evolve(const NodalVectors& u, double dt, NodalVectors& f,
                    const std::function<void()>& shares_ready) {
   NURBS_ASSERT(u.cols() == node_count() && f.cols() == node_count(), u.cols(), f.cols(), node_count());
-  PointMemory memory{memory_.data()};
-  if (remembered_ > 0) memory = {memory_.data(), next_memory_.data(), dt};
   f.setZero();
-  integrals_->add_forces(0, border_boxes_, memory, u, f);
+  for (std::size_t p = 0; p < patches_.size(); ++p)
+    patches_[p]->integrals().add_forces(0, patches_[p]->border_boxes(), evolving(p, dt), u, f);
   shares_ready();
-  integrals_->add_forces(border_boxes_, integrals_->box_count(), memory, u, f);
+  for (std::size_t p = 0; p < patches_.size(); ++p) {
+    const Integrals& integrals = patches_[p]->integrals();
+    integrals.add_forces(patches_[p]->border_boxes(), integrals.box_count(), evolving(p, dt), u, f);
+  }
 }
 
 ExactSum Solid::strain_energy_sum(const NodalVectors& u) const {
   ExactSum sum;
-  integrals_->add_energies({memory_.data()}, u, sum);
+  for (std::size_t p = 0; p < patches_.size(); ++p) patches_[p]->integrals().add_energies(held(p), u, sum);
   return sum;
 }
 
@@ -288,24 +219,11 @@ void Solid::set_memory(std::vector<double> memory) {
   memory_ = std::move(memory);
 }
 
-Matrix3 Solid::displacement_gradient(const NodalVectors& u, const nurbs::Parameter<3>& xi) const {
-  nurbs::RationalBasis<3> basis;
-  nurbs::evaluate(patch_->space, xi, 1, basis);
-  return parameter_gradient(basis, u) * parameter_gradient(basis, patch_->control_points).inverse();
-}
-
-/// Where the quadrature point that is nearest in parameters has its memory.
-std::size_t Solid::nearest_memory(const nurbs::Parameter<3>& xi) const {
-  const std::array<int, 3> span = patch_->space.element_indices(patch_->space.element_at(xi));
-  std::size_t b = 0;
-  while (!boxes_[b].spans.holds(span)) ++b;
-  const SpanBox& box = boxes_[b].spans;
-  const std::size_t element = first_element_[b] + box.element(span);
-  return element * remembered_ + std::size_t(tabulate_.nearest_slot(span, xi)) * material_->state_size();
-}
-
-Matrix3 Solid::stress(const NodalVectors& u, const nurbs::Parameter<3>& xi) const {
-  return material_->stress(displacement_gradient(u, xi), memory_.data() + nearest_memory(xi));
+Matrix3 Solid::stress(const NodalVectors& u, const nurbs::Parameter<3>& xi, int patch) const {
+  const SolidPatch& of = *patches_[patch];
+  const int element = of.element_at(xi);
+  const double* const memory = memory_.data() + (first_element_[patch] + element) * remembered_;
+  return of.material().stress(of.displacement_gradient(u, xi), memory + of.nearest_memory(element, xi));
 }
 
 }  // namespace structure

@@ -1,75 +1,64 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A deformable solid: one NURBS volume patch of one material.
+// A deformable solid: NURBS volume patches, welded or not, each of a material.
 // Source: Hughes, Cottrell & Bazilevs (2005); Gao & Feng (2019), eqs. 16-19.
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "nurbs/patch.h"
 #include "structure/body.h"
-#include "structure/material/material.h"
-#include "structure/solid/box_grid.h"
-#include "structure/solid/element_tables.h"
-#include "structure/solid/integrals.h"
-#include "structure/solid/skin_boxes.h"
+#include "structure/solid/solid_patch.h"
 
 namespace structure {
 
-/// How integrals over a solid are worked out.
-enum class IntegrationMethod {
-  automatic,   ///< affine if the map is, else recomputed; elements for degrees that sweeps do not know
-  affine,      ///< sweeps with one Jacobian for all points
-  stored,      ///< sweeps with Jacobians from a table of 80 bytes per point (rational: 104)
-  recomputed,  ///< sweeps that work Jacobians out anew
-  elements     ///< the plain loop over elements, with a table of dR/dX: the reference
-};
-const char* name(IntegrationMethod method);
-/// Throws std::invalid_argument, naming all words, for another one.
-IntegrationMethod integration_method_from_name(const std::string& word);
-
-struct Integration {
-  Quadrature quadrature = Quadrature::full;  ///< of forces and energies; masses are integrated fully
-  IntegrationMethod method = IntegrationMethod::automatic;
+/// A patch and what it is made of.
+struct MaterialPatch {
+  const nurbs::Volume& volume;  ///< the reference configuration X
+  std::shared_ptr<const Material> material;
 };
 
 /// Matrix-free: no stiffness is assembled.  The same sums in the same order in every run.  Elements are
-/// counted box after box (box_grid.h), those of a box with the first direction fastest.
+/// counted patch after patch, box after box (box_grid.h), those of a box with the first direction fastest.
 class Solid final : public Body {
  public:
-  /// The patch gives the reference configuration X.  Throws std::invalid_argument if the patch is not valid,
-  /// if the Jacobian determinant of some element is not positive (a left-handed or folded patch), or if the
+  /// One patch, whose control points are the nodes.  Throws std::invalid_argument if it is not valid, if the
+  /// Jacobian determinant of some element is not positive (a left-handed or folded patch), or if the
   /// integration is not for it.
-  Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration = {});
-  /// A part of it, cut at box_cuts.  The patch itself stays whole on every rank.
-  Solid(nurbs::Volume patch, std::shared_ptr<const Material> material, const Integration& integration,
+  Solid(const nurbs::Volume& patch, std::shared_ptr<const Material> material,
+        const Integration& integration = {});
+  /// A part of it, cut at box_cuts: keeps the knots and weights of the patch, and its own control points.
+  Solid(const nurbs::Volume& patch, std::shared_ptr<const Material> material, const Integration& integration,
+        const Part& part);
+  /// A part, or all, of a body of several patches with these nodes.  Throws as above; also if laws remember
+  /// and the patches' elements do not remember equally much.
+  Solid(const std::vector<MaterialPatch>& patches, const NodeNumbering& nodes, const Integration& integration,
         const Part& part);
 
-  const nurbs::Volume& patch() const { return *patch_; }
-  const Integration& integration() const { return integration_; }  ///< the method that was chosen
-  double table_bytes() const { return integrals_->table_bytes(); }
-  /// H = du/dX [-] at a parameter point.
-  Matrix3 displacement_gradient(const NodalVectors& u, const nurbs::Parameter<3>& xi) const;
+  const SolidPatch& patch(int p) const { return *patches_[p]; }
+  const nurbs::Space<3>& space(int patch = 0) const { return patches_[patch]->space(); }
+  /// The method that was chosen.
+  const Integration& integration(int patch = 0) const { return patches_[patch]->integration(); }
+  double table_bytes() const;
+  /// H = du/dX [-] at a parameter point of a patch.
+  Matrix3 displacement_gradient(const NodalVectors& u, const nurbs::Parameter<3>& xi, int patch = 0) const {
+    return patches_[patch]->displacement_gradient(u, xi);
+  }
   /// First Piola-Kirchhoff stress [stress] at a parameter point; the Cauchy stress while strains are small.
   /// A law with memory takes that of the nearest quadrature point.
-  Matrix3 stress(const NodalVectors& u, const nurbs::Parameter<3>& xi) const;
+  Matrix3 stress(const NodalVectors& u, const nurbs::Parameter<3>& xi, int patch = 0) const;
 
-  int node_count() const override { return columns_; }
-  const NodalVectors& reference() const override {
-    return part_reference_ ? *part_reference_ : patch_->control_points;
-  }
-  const NodalVectors& whole_reference() const override { return patch_->control_points; }
-  PatchSpaces patches() const override { return std::vector{patch_->space}; }
-  /// Throws std::invalid_argument unless it is a face of patch 0.
+  int node_count() const override { return static_cast<int>(reference_.cols()); }
+  const NodalVectors& reference() const override { return reference_; }
+  PatchSpaces patches() const override;
+  /// Throws std::invalid_argument unless there is the patch.
   nurbs::BoundarySurface skin(const SkinPiece& piece) const override;
   std::vector<SkinBox> skin_boxes(const SkinPiece& piece) const override {
-    return structure::skin_boxes(patch_->space, piece.face, boxes_);
+    return patches_[piece.patch]->skin_boxes(piece.face);
   }
   ExactSum volume_sum() const override { return volume_; }
-  const Material& material() const override { return *material_; }
+  std::vector<const Material*> materials() const override;
   std::string discretisation() const override;
   const Eigen::VectorXd& row_sum_mass() const override { return row_sum_mass_; }
 
@@ -84,7 +73,7 @@ class Solid final : public Body {
   ExactSum strain_energy_sum(const NodalVectors& u) const override;
 
   int element_count() const override { return first_element_.back(); }
-  int padded_functions() const override { return padded_; }
+  int padded_functions(int element) const override { return of(element).patch.padded_functions(); }
   void gather(int element, const NodalVectors& nodal, double* values) const override;
   std::vector<int> element_nodes(int element) const override;
   void element_force(int element, const double* u, double* f) const override;
@@ -94,41 +83,26 @@ class Solid final : public Body {
   std::vector<std::array<int, 2>> net_edges() const override;
 
  private:
-  Solid(std::unique_ptr<const nurbs::Volume> patch, std::shared_ptr<const Material> material,
-        const Integration& integration);
-  /// One element, worked out when it is asked for.
-  struct OneElement {
-    int element = -1;
-    std::vector<int> columns;
-    ElementTables tables;
-    std::vector<double> mass;  // [padded]
+  struct PatchElement {
+    const SolidPatch& patch;
+    int element;  // of the patch
   };
-  const OneElement& one(int element) const;
-  std::array<int, 3> spans_of(int element) const;
-  std::size_t box_of(int element) const;
-  void set_up();
-  void choose_method();
-  double element_table_bytes() const;
-  void prepare(int columns, std::size_t elements);
-  void integrate_mass();
-  void integrate_mass_of_elements();
-  std::size_t nearest_memory(const nurbs::Parameter<3>& xi) const;
+  PatchElement of(int element) const;
+  void take_reference(const std::vector<MaterialPatch>& patches, const Part& part);
+  void expect_equal_memories();
+  void expect_memory() const;
+  /// Of the patch's elements.
+  PointMemory held(std::size_t patch) const;
+  PointMemory evolving(std::size_t patch, double dt);
 
-  std::unique_ptr<const nurbs::Volume> patch_;  // tables refer to it
-  std::shared_ptr<const Material> material_;
-  Integration integration_;
-  std::vector<PlacedBox> boxes_;
-  int columns_, border_boxes_ = 0;              // of nodal arrays; boxes with shares for others come first
-  std::optional<NodalVectors> part_reference_;  // of a part
-  std::vector<int> first_element_;              // of each box, and of one beyond
-  int functions_, padded_;                      // per element
-  ElementTabulator tabulate_, tabulate_fully_;
-  std::unique_ptr<const Integrals> integrals_;
-  std::size_t remembered_;                    // numbers per element
+  NodeNumbering nodes_;
+  NodalVectors reference_;
+  std::vector<std::unique_ptr<SolidPatch>> patches_;
+  std::vector<int> first_element_;            // of each patch, and of one beyond
+  std::size_t remembered_ = 0;                // numbers per element
   std::vector<double> memory_, next_memory_;  // as PointMemory
   Eigen::VectorXd row_sum_mass_;
   ExactSum volume_;
-  mutable OneElement one_;
 };
 
 }  // namespace structure

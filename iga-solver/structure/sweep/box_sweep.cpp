@@ -25,8 +25,8 @@ std::array<int, 3> axes_of(const SpanBox& box, int lanes) {
   return {best, (best + 1) % 3, (best + 2) % 3};
 }
 
-SpanRange range_of(const nurbs::Volume& patch, const SpanBox& box, int direction) {
-  return {patch.space.knots(direction), box.begin[direction], box.end[direction]};
+SpanRange range_of(const nurbs::Space<3>& space, const SpanBox& box, int direction) {
+  return {space.knots(direction), box.begin[direction], box.end[direction]};
 }
 
 /// The same numbers with x fastest, then y, then z, from the patch's order.
@@ -63,35 +63,34 @@ void grow(AlignedNumbers& numbers, std::size_t size) {
 
 }  // namespace
 
-BoxSweep::BoxSweep(const nurbs::Volume& patch, const PlacedBox& box, std::size_t first_element,
+BoxSweep::BoxSweep(const nurbs::Space<3>& space, const PlacedBox& box, std::size_t first_element,
                    const SweepPlan& plan)
     : axes_(axes_of(box.spans, line_kernel(kLowestSweptDegree, plan.level).lanes)),
-      rational_(patch.space.rational()),
-      x_(range_of(patch, box.spans, axes_[0]), plan.rules[axes_[0]],
+      rational_(space.rational()),
+      x_(range_of(space, box.spans, axes_[0]), plan.rules[axes_[0]],
          line_kernel(kLowestSweptDegree, plan.level).lanes),
-      y_(range_of(patch, box.spans, axes_[1]), plan.rules[axes_[1]]),
-      z_(range_of(patch, box.spans, axes_[2]), plan.rules[axes_[2]]),
+      y_(range_of(space, box.spans, axes_[1]), plan.rules[axes_[1]]),
+      z_(range_of(space, box.spans, axes_[2]), plan.rules[axes_[2]]),
       row_(x_.row()),
-      kernel_x_(&line_kernel(patch.space.degree(axes_[0]), plan.level)),
-      kernel_y_(&line_kernel(patch.space.degree(axes_[1]), plan.level)),
-      kernel_z_(&line_kernel(patch.space.degree(axes_[2]), plan.level)),
-      loops_(&point_loops(plan.mode, rational_, plan.level)),
+      kernel_x_(&line_kernel(space.degree(axes_[0]), plan.level)),
+      kernel_y_(&line_kernel(space.degree(axes_[1]), plan.level)),
+      kernel_z_(&line_kernel(space.degree(axes_[2]), plan.level)),
+      loops_(&point_loops(plan.geometry.mode, rational_, plan.level)),
       geometry_loops_(&geometry_loops(rational_, plan.level)),
-      mode_(plan.mode),
+      mode_(plan.geometry.mode),
       field_kernel_(&field_kernel(plan.level)),
-      nodes_(rows_of(box.nodes, box_node_counts(patch.space, box.spans), axes_)),
-      read_(rows_of(box.read(), box_node_counts(patch.space, box.spans), axes_)),
-      write_(rows_of(box.write(), box_node_counts(patch.space, box.spans), axes_)) {
-  plane_ = row_ * box_node_counts(patch.space, box.spans)[axes_[1]];
-  field_ = row_ * nodes_.rows();
+      read_(rows_of(box.read(), box_node_counts(space, box.spans), axes_)),
+      write_(rows_of(box.write(), box_node_counts(space, box.spans), axes_)) {
+  plane_ = row_ * box_node_counts(space, box.spans)[axes_[1]];
+  field_ = row_ * read_.rows();
   if (rational_)
-    for (int row = 0; row < nodes_.rows(); ++row)
-      for (int i = 0; i < nodes_.count(); ++i) weights_.push_back(patch.space.weight(nodes_.column(row, i)));
-  if (plan.J && mode_ == GeometryMode::affine) {
-    const Matrix3 K = plan.J->inverse();
+    for (const int node : permuted(box_nodes(space, box.spans), box_node_counts(space, box.spans), axes_))
+      weights_.push_back(space.weight(node));
+  if (plan.geometry.J && mode_ == GeometryMode::affine) {
+    const Matrix3 K = plan.geometry.J->inverse();
     for (int d = 0; d < 3; ++d)
       for (int j = 0; j < 3; ++j) affine_.push_back(K(axes_[d], j));
-    affine_.push_back(plan.J->determinant());
+    affine_.push_back(plan.geometry.J->determinant());
     for (int shift = 0; shift < 3; ++shift)
       if (is_aligned(affine_, shift)) loops_ = &aligned_loops(shift, plan.level);
   }
@@ -134,16 +133,16 @@ void BoxSweep::reserve(SweepSpace& space, int further_fields) const {
   grow(space.scratch, x_.scratch_size(most));
 }
 
-void BoxSweep::read(const NodalVectors& values, const NodalRows& rows, double* fields) const {
-  rows.read(*field_kernel_, values, weights_, fields, field_, row_);
+void BoxSweep::read(const NodalVectors& values, double* fields) const {
+  read_.read(*field_kernel_, values, weights_, fields, field_, row_);
 }
 
 void BoxSweep::read_geometry(const NodalVectors& X, double* fields) const {
-  read(X, nodes_, fields);
+  read(X, fields);
   if (!rational_) return;
   const double* weight = weights_.data();
-  for (double* row = fields + 3 * field_; row < fields + 4 * field_; row += row_, weight += nodes_.count())
-    std::fill(std::copy_n(weight, nodes_.count(), row), row + row_, 0.0);
+  for (double* row = fields + 3 * field_; row < fields + 4 * field_; row += row_, weight += read_.count())
+    std::fill(std::copy_n(weight, read_.count(), row), row + row_, 0.0);
 }
 
 /// place: span and point in y, then in z.
@@ -222,7 +221,7 @@ double BoxSweep::sweep_law(const LawAtPoints& law, const NodalVectors& X,
                            PointLoop loop, SweepSpace& space) const {
   int fields = 0;
   for (const NodalVectors* u : displacements) {
-    read(*u, read_, space.nodes.data() + fields * field_);
+    read(*u, space.nodes.data() + fields * field_);
     fields += 3;
   }
   if (mode_ == GeometryMode::recomputed) {

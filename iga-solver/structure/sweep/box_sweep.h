@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
+#include "structure/material/material.h"
 #include "structure/solid/box_grid.h"
 #include "structure/solid/integrals.h"
-#include "structure/sweep/affine_map.h"
 #include "structure/sweep/aligned_numbers.h"
 #include "structure/sweep/box_bases.h"
 #include "structure/sweep/nodal_rows.h"
@@ -26,11 +26,16 @@ struct SweepSpace {
   AlignedNumbers nodes, forces, planes_in, planes_out, rows_in, rows_out, values, scratch;
 };
 
+/// How the map of a patch is to be taken.
+struct SweepGeometry {
+  GeometryMode mode;
+  std::optional<Matrix3> J = {};  ///< of an affine map (affine_map.h)
+};
+
 /// How the rules of all directions and the geometry are to be taken.
 struct SweepPlan {
   std::vector<nurbs::QuadratureRule> rules[3];  ///< of the patch's directions
-  GeometryMode mode;
-  std::optional<Matrix3> J;  ///< of an affine map
+  SweepGeometry geometry;
   nurbs::SimdLevel level;
   int state_size;  ///< numbers that a point remembers
 };
@@ -38,7 +43,7 @@ struct SweepPlan {
 class BoxSweep {
  public:
   /// `first_element` counts the elements of the boxes before.
-  BoxSweep(const nurbs::Volume& patch, const PlacedBox& box, std::size_t first_element,
+  BoxSweep(const nurbs::Space<3>& space, const PlacedBox& box, std::size_t first_element,
            const SweepPlan& plan);
 
   /// Makes the space large enough for this box, and so many fields more than forces need.
@@ -85,7 +90,7 @@ class BoxSweep {
   void sweep_plane(int z, int z_point, Pass& pass, SweepSpace& space) const;
   void do_points(const std::array<int, 4>& place, Pass& pass, double* values) const;
   void place_memories(const SpanBox& box, std::size_t first_element, const SweepPlan& plan);
-  void read(const NodalVectors& values, const NodalRows& rows, double* fields) const;
+  void read(const NodalVectors& values, double* fields) const;
   void read_geometry(const NodalVectors& X, double* fields) const;
   int geometry_fields() const { return rational_ ? 4 : 3; }
 
@@ -99,10 +104,10 @@ class BoxSweep {
   const GeometryLoops* geometry_loops_;
   GeometryMode mode_;
   const FieldKernel* field_kernel_;
-  NodalRows nodes_, read_, write_;  // [z][y][x]: of the patch's control points, of displacements, of forces
-  std::vector<double> weights_;     // of the control points, if rational
-  AlignedNumbers table_;            // stored geometry, row after row
-  std::vector<double> affine_;      // J^-1 and |J|
+  NodalRows read_, write_;       // [z][y][x]: of positions and displacements, of forces
+  std::vector<double> weights_;  // of the control points, if rational
+  AlignedNumbers table_;         // stored geometry, row after row
+  std::vector<double> affine_;   // J^-1 and |J|
   // Memories: first of the box, strides of elements and points along x, y, z, and offsets within a row.
   std::size_t first_memory_;
   std::array<std::size_t, 3> element_stride_, point_stride_;

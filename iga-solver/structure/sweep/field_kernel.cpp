@@ -2,6 +2,7 @@
 // Compiled once for each instruction set; see line_kernel.cpp for what that forbids.
 #include "structure/sweep/field_kernel.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "nurbs/lanes.h"
@@ -55,18 +56,33 @@ void to_fields(const double* vectors, int count, const double* weights, double* 
     for (std::size_t rest = count; rest < row; ++rest) fields[k * field + rest] = 0.0;
 }
 
+// vectors += fields of kLanes nodes.
+[[gnu::always_inline]] inline void add_word(const double* fields, std::size_t field, const double* weights,
+                                            double* vectors) {
+  Lanes c[3] = {load(fields), load(fields + field), load(fields + 2 * field)};
+  if (weights)
+    for (Lanes& v : c) v *= load(weights);
+  store(load(vectors) + in_order<0>(c), vectors);
+  store(load(vectors + kLanes) + in_order<1>(c), vectors + kLanes);
+  store(load(vectors + 2 * kLanes) + in_order<2>(c), vectors + 2 * kLanes);
+}
+
+// The last nodes of a row, too, are added as words are: product and sum are rounded apart, as they are where
+// a box's share waits in a column of its own.
 void add_fields(const double* fields, std::size_t field, int count, const double* weights, double* vectors) {
   int i = 0;
-  for (; i + kLanes <= count; i += kLanes, vectors += 3 * kLanes) {
-    Lanes c[3] = {load(fields + i), load(fields + field + i), load(fields + 2 * field + i)};
-    if (weights)
-      for (Lanes& v : c) v *= load(weights + i);
-    store(load(vectors) + in_order<0>(c), vectors);
-    store(load(vectors + kLanes) + in_order<1>(c), vectors + kLanes);
-    store(load(vectors + 2 * kLanes) + in_order<2>(c), vectors + 2 * kLanes);
+  for (; i + kLanes <= count; i += kLanes, vectors += 3 * kLanes)
+    add_word(fields + i, field, weights ? weights + i : nullptr, vectors);
+  if (!weights) {
+    for (; i < count; ++i, vectors += 3)
+      for (int k = 0; k < 3; ++k) vectors[k] += fields[k * field + i];
+  } else if (i < count) {
+    double last[3 * kLanes] = {}, last_weights[kLanes] = {};
+    std::copy_n(vectors, 3 * (count - i), last);
+    std::copy_n(weights + i, count - i, last_weights);
+    add_word(fields + i, field, last_weights, last);
+    std::copy_n(last, 3 * (count - i), vectors);
   }
-  for (; i < count; ++i, vectors += 3)
-    for (int k = 0; k < 3; ++k) vectors[k] += fields[k * field + i] * (weights ? weights[i] : 1.0);
 }
 
 constexpr FieldKernel kKernel = {to_fields, add_fields};

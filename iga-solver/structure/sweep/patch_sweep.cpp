@@ -5,7 +5,6 @@
 #include <stdexcept>
 
 #include "nurbs/assert.h"
-#include "structure/sweep/affine_map.h"
 
 namespace structure {
 
@@ -15,26 +14,24 @@ bool PatchSweep::can_sweep(const nurbs::Space<3>& space) {
   return true;
 }
 
-PatchSweep::PatchSweep(const nurbs::Volume& patch, const std::vector<PlacedBox>& boxes,
-                       const Material& material, Quadrature quadrature, GeometryMode mode,
-                       nurbs::SimdLevel level)
-    : X_(patch.control_points), law_{0, nullptr, outside_law(material), {}} {
+PatchSweep::PatchSweep(const nurbs::Space<3>& space, const NodalVectors& X,
+                       const std::vector<PlacedBox>& boxes, const Material& material, Quadrature quadrature,
+                       const SweepGeometry& geometry, nurbs::SimdLevel level)
+    : X_(X), law_{0, nullptr, outside_law(material), {}} {
   const LawCall call = law_call(material);
   law_.loop = call.loop;
   law_.inlined = call.law;
-  SweepPlan plan{{}, mode, {}, level, material.state_size()};
-  for (int d = 0; d < 3; ++d) plan.rules[d] = rules_of(patch.space.knots(d), quadrature);
-  if (mode == GeometryMode::affine) {
-    plan.J = affine_jacobian(patch);
-    if (!plan.J) throw std::invalid_argument("PatchSweep: geometry is 'affine', and the patch's map is not");
-  }
+  SweepPlan plan{{}, geometry, level, material.state_size()};
+  for (int d = 0; d < 3; ++d) plan.rules[d] = rules_of(space.knots(d), quadrature);
+  if (geometry.mode == GeometryMode::affine && !geometry.J)
+    throw std::invalid_argument("PatchSweep: geometry is 'affine', and the patch's map is not");
   std::size_t first_element = 0;
   for (const PlacedBox& box : boxes) {
-    boxes_.emplace_back(patch, box, first_element, plan);
+    boxes_.emplace_back(space, box, first_element, plan);
     first_element += box.spans.element_count();
     boxes_.back().reserve(space_);
   }
-  if (mode == GeometryMode::stored)
+  if (geometry.mode == GeometryMode::stored)
     for (BoxSweep& box : boxes_) box.tabulate(X_, space_);
 }
 

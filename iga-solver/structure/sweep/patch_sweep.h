@@ -20,10 +20,11 @@ class PatchSweep final : public Integrals {
   /// Whether all degrees lie between kLowestSweptDegree and kHighestSweptDegree.
   static bool can_sweep(const nurbs::Space<3>& space);
 
-  /// Keeps references to the patch and the material.  Throws std::invalid_argument if `mode` is affine and
-  /// the map is not.
-  PatchSweep(const nurbs::Volume& patch, const std::vector<PlacedBox>& boxes, const Material& material,
-             Quadrature quadrature, GeometryMode mode, nurbs::SimdLevel level = nurbs::simd_level());
+  /// X: undeformed positions [length], 3 x columns.  Keeps references to X and the material.  Throws
+  /// std::invalid_argument if the geometry is affine and has no Jacobian.
+  PatchSweep(const nurbs::Space<3>& space, const NodalVectors& X, const std::vector<PlacedBox>& boxes,
+             const Material& material, Quadrature quadrature, const SweepGeometry& geometry,
+             nurbs::SimdLevel level = nurbs::simd_level());
 
   int box_count() const override { return static_cast<int>(boxes_.size()); }
   void add_forces(int first, int end, const PointMemory& memory, const NodalVectors& u,

@@ -70,10 +70,11 @@ std::string symptom(const LastStep& step) {
 /// The element that is squeezed most, if it is folded: nothing is said of displacements that are not finite.
 std::string folded_element(const LastStep& step) {
   const Body& body = step.body;
-  std::vector<double> u(3 * body.padded_functions());
+  std::vector<double> u;
   int folded = -1;
   double lowest = 0.0;
   for (int e = 0; e < body.element_count(); ++e) {
+    u.resize(3 * static_cast<std::size_t>(body.padded_functions(e)));
     body.gather(e, step.displacements, u.data());
     const double ratio = body.smallest_volume_ratio(e, u.data());
     if (ratio < lowest) lowest = ratio, folded = e;

@@ -222,9 +222,12 @@ void ExplicitSolver::start_energy_budget() {
   const double strain = strain_energy(), kinetic = kinetic_energy(), kick = 0.125 * dt_ * dt_ * nodal_sum(a_);
   kinetic_start_ = kinetic + work.internal + work.damped - work.loads - work.forces - work.supports;
   if (!strain_start_) strain_start_ = strain - work.internal;
-  budget_.emplace(kinetic + strain + kick, body_->material().youngs_modulus() *
-                                               halo_->total(body_->volume_sum()) * kNegligibleStrain *
-                                               kNegligibleStrain);
+  double stiffness = 0.0;
+  for (const Material* material : body_->materials())
+    stiffness = std::max(stiffness, material->youngs_modulus());
+  const double negligible =
+      stiffness * halo_->total(body_->volume_sum()) * kNegligibleStrain * kNegligibleStrain;
+  budget_.emplace(kinetic + strain + kick, negligible);
 }
 
 // One message of all ranks, and no pass over the nodes: the ledger knows the kinetic energy, and is not
@@ -270,7 +273,7 @@ double ExplicitSolver::find_stable_step(const NodalVectors& u) const {
 
 double ExplicitSolver::stable_time_step() const {
   if (!stable_time_step_) {
-    const bool remembers = body_->material().state_size() > 0;
+    const bool remembers = halo_->any(!body_->memory().empty());
     stable_time_step_ = find_stable_step(remembers ? u_ : NodalVectors(NodalVectors::Zero(3, u_.cols())));
   }
   return *stable_time_step_;
@@ -278,7 +281,7 @@ double ExplicitSolver::stable_time_step() const {
 
 double ExplicitSolver::renew_stable_time_step() {
   const bool is_strained = largest_displacement() > 0.0;
-  if (!is_strained || !is_stiffened_by_strain(body_->material())) return stable_time_step();
+  if (!is_strained || !is_stiffened_by_strain(*body_)) return stable_time_step();
   stable_now_ = find_stable_step(u_);
   return *stable_now_;
 }

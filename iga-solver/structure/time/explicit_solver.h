@@ -140,6 +140,8 @@ class ExplicitSolver {
   void load(const std::vector<double>& state);
   std::size_t state_size() const;  ///< what save() gives, collective
   std::size_t all_nodes() const;   ///< of all parts, collective
+  /// Undeformed positions of nodes of the whole body [length], wherever they are held: 3 x nodes. Collective.
+  NodalVectors reference_of(const std::vector<Id>& nodes) const;
   /// Nodal values of the whole body in the order of node ids, collective; and back to the part's.
   std::vector<double> in_order(const NodalVectors& values) const;
   void from_order(const double* rows, NodalVectors& values) const;

@@ -37,6 +37,28 @@ std::size_t ExplicitSolver::state_size() const {
   return 1 + 9 * all_nodes() + std::llround(halo_->sum(static_cast<double>(body_->memory().size())));
 }
 
+NodalVectors ExplicitSolver::reference_of(const std::vector<Id>& nodes) const {
+  std::vector<Id> asked(nodes), places;  // asked: each once, rising
+  std::sort(asked.begin(), asked.end());
+  asked.erase(std::unique(asked.begin(), asked.end()), asked.end());
+  const auto begin = node_ids_.begin(), end = begin + halo_->owned(u_.cols());
+  std::vector<double> rows;
+  for (std::size_t place = 0; place < asked.size(); ++place) {
+    const auto own = std::lower_bound(begin, end, asked[place]);
+    if (own == end || *own != asked[place]) continue;
+    const Vector3 X = body_->reference().col(own - begin);
+    places.push_back(static_cast<Id>(place));
+    rows.insert(rows.end(), X.begin(), X.end());
+  }
+  rows = halo_->in_order(places, rows);
+  NodalVectors X(3, nodes.size());
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto place = std::lower_bound(asked.begin(), asked.end(), nodes[i]) - asked.begin();
+    X.col(i) = Vector3::Map(&rows[3 * place]);
+  }
+  return X;
+}
+
 std::vector<double> ExplicitSolver::in_order(const NodalVectors& values) const {
   const std::vector<Id> nodes(node_ids_.begin(), node_ids_.begin() + halo_->owned(u_.cols()));
   return halo_->in_order(nodes, {values.data(), values.data() + 3 * nodes.size()});

@@ -52,7 +52,7 @@ constexpr double kChance = 1e-3;
 /// The bound means nothing if they are not.
 void expect_finite(double value, const Body& body, const NodalVectors& u, double element_size) {
   if (std::isfinite(value)) return;
-  const Material& material = body.material();
+  const Material& material = *body.materials().front();
   throw std::runtime_error(fmt::format(
       "stable_time_step: stiffness over mass is no finite number > 0 in the solid; likely cause: {}",
       u.allFinite()

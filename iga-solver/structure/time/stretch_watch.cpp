@@ -71,8 +71,14 @@ StretchLimits stretch_limits(const Material& material, double allowed) {
           high < kMostStretched ? high : std::numeric_limits<double>::infinity()};
 }
 
+bool is_stiffened_by_strain(const Body& body) {
+  const std::vector<const Material*> materials = body.materials();
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const Material* material) { return stretch_limits(*material, 1.0).matter(); });
+}
+
 StretchWatch::StretchWatch(const Body& body, double allowed)
-    : material_(&body.material()), allowed_(allowed) {
+    : materials_(body.materials()), allowed_(allowed) {
   if (!set_limits()) return;
   const NodalVectors& X = body.reference();
   for (const auto& [a, b] : body.net_edges())
@@ -81,7 +87,11 @@ StretchWatch::StretchWatch(const Body& body, double allowed)
 }
 
 bool StretchWatch::set_limits() {
-  const StretchLimits limits = stretch_limits(*material_, allowed_);
+  StretchLimits limits{0.0, std::numeric_limits<double>::infinity()};
+  for (const Material* material : materials_) {
+    const StretchLimits own = stretch_limits(*material, allowed_);
+    limits = {std::max(limits.lowest, own.lowest), std::min(limits.highest, own.highest)};
+  }
   lowest_ = limits.lowest * limits.lowest;
   highest_ = limits.highest * limits.highest;
   return limits.matter();

@@ -29,14 +29,12 @@ struct StretchLimits {
 };
 StretchLimits stretch_limits(const Material& material, double allowed);
 
-inline bool is_stiffened_by_strain(const Material& material) {
-  return stretch_limits(material, 1.0).matter();
-}
+bool is_stiffened_by_strain(const Body& body);
 
 class StretchWatch {
  public:
-  /// Rings beyond `allowed` times the stiffness of the undeformed law.  Keeps nothing for a law that stretch
-  /// does not stiffen.
+  /// Rings beyond `allowed` times the stiffness of the undeformed law, of all laws that for which it rings
+  /// first.  Keeps nothing for laws that stretch does not stiffen.
   StretchWatch(const Body& body, double allowed);
 
   /// Looks at an eighth of the edges, at others in the next step.  True if one of them is beyond what is
@@ -59,7 +57,7 @@ class StretchWatch {
     int nodes[2];
     double per_square;  ///< 1 / squared length [1/length^2]
   };
-  const Material* material_;
+  std::vector<const Material*> materials_;
   double allowed_;
   double lowest_ = 0.0, highest_ = 0.0;  ///< squared stretches within which nothing rings
   std::vector<NetEdge> edges_;

@@ -65,7 +65,7 @@ std::string read_attribute(const std::string& path, const std::string& object, c
   return value.c_str();
 }
 
-structure::ExplicitSolver falling_block(const io::ModelFile& model) {
+structure::ExplicitSolver falling_block(io::ModelFile model) {
   structure::ExplicitSolver solver = io::build_solver(model);
   solver.set_time_step(kStep);
   solver.initialise_forces(structure::NodalVectors::Zero(3, solver.body().node_count()));

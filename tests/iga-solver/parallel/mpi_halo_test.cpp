@@ -69,9 +69,9 @@ TEST(MpiHalo, ForcesAreSummedAsInOnePieceToTheLastBit) {
   };
   for (int step = 0; step < 3; ++step) {  // requests serve again
     NodalVectors f = cut.zero();
-    add(0, cut.part.border_boxes, f);
+    add(0, cut.part.patches.front().border, f);
     cut.halo.begin_sum(f);
-    add(cut.part.border_boxes, static_cast<int>(cut.part.boxes.size()), f);
+    add(cut.part.patches.front().border, static_cast<int>(cut.part.boxes.size()), f);
     cut.halo.finish_sum(f);
     for (int column = 0; column < cut.part.owned; ++column)
       ASSERT_EQ(f.col(column), whole.col(cut.part.nodes[column]));

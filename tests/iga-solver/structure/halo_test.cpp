@@ -185,7 +185,7 @@ Runs run_both(double dt, int steps, const std::vector<double>& state = {}) {
   MeetingPlace place;
   const auto run_part = [&](int part) {
     std::unique_ptr<Solid> half = tower.half(part);
-    structure::Supports supports = part == 0 ? foot(half->patch().space) : structure::Supports();
+    structure::Supports supports = part == 0 ? foot(half->space()) : structure::Supports();
     runs.parts[part] =
         run(ExplicitSolver(std::move(half), std::move(supports), std::make_unique<TwoPartHalo>(place, part)),
             Tower::own(v, part), Tower::own(F, part), dt, steps, state);

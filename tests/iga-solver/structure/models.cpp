@@ -76,7 +76,7 @@ NodalVectors random_vectors(int nodes, unsigned seed) {
   return v;
 }
 
-NodalVectors linear_field(const Matrix3& H, const nurbs::Volume& patch) { return H * patch.control_points; }
+NodalVectors linear_field(const Matrix3& H, const NodalVectors& X) { return H * X; }
 
 Matrix3 some_gradient() {
   Matrix3 H;

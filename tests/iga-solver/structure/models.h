@@ -38,7 +38,7 @@ nurbs::Volume quarter_ring(int degree, int elements);
 /// Pseudo-random entries in [-1, 1].
 NodalVectors random_vectors(int nodes, unsigned seed);
 /// u_A = H X_A.
-NodalVectors linear_field(const Matrix3& H, const nurbs::Volume& patch);
+NodalVectors linear_field(const Matrix3& H, const NodalVectors& X);
 /// A displacement gradient without any symmetry.
 Matrix3 some_gradient();
 

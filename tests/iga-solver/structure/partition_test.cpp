@@ -204,7 +204,7 @@ TEST(Partition, BoxesWithGhostsComeFirst) {
     for (std::size_t b = 0; b < part.boxes.size(); ++b) {
       const bool ghosts = std::any_of(part.gather[b].begin(), part.gather[b].end(),
                                       [&](int column) { return column >= part.owned; });
-      EXPECT_EQ(ghosts, int(b) < part.border_boxes);
+      EXPECT_EQ(ghosts, int(b) < part.patches.front().border);
     }
   }
 }

@@ -36,9 +36,9 @@ TEST(Supports, FixOneFaceInTheGivenDirectionsOnly) {
 TEST(TractionLoad, BalancesTheInternalForceOfConstantStress) {
   const Vector3 size(1, 2, 3);
   const Solid solid(models::block(size, {2, 3, 1}, {2, 3, 1}), models::elastic());
-  const structure::Matrix3 H = models::some_gradient(), P = solid.material().stress(H, nullptr);
+  const structure::Matrix3 H = models::some_gradient(), P = (*solid.materials().front()).stress(H, nullptr);
   NodalVectors f_int(3, solid.node_count()), f_ext = NodalVectors::Zero(3, solid.node_count());
-  solid.internal_force(models::linear_field(H, solid.patch()), f_int);
+  solid.internal_force(models::linear_field(H, solid.reference()), f_int);
   for (int d = 0; d < 3; ++d) {
     f_ext += structure::traction_load(solid, {0, static_cast<Face>(2 * d)}, -P.col(d));
     f_ext += structure::traction_load(solid, {0, static_cast<Face>(2 * d + 1)}, P.col(d));
@@ -60,8 +60,7 @@ TEST(GravityLoad, HasTheForceAndTheMomentOfTheWeightAtTheCentreOfMass) {
   const Vector3 g(1, 2, -9.81), weight = 2.5 * 0.75 * pi * g, centre(x, x, 0.5);
   const NodalVectors f = structure::gravity_load(solid, g);
   Vector3 moment = Vector3::Zero();
-  for (int A = 0; A < f.cols(); ++A)
-    moment += Vector3(solid.patch().control_points.col(A)).cross(Vector3(f.col(A)));
+  for (int A = 0; A < f.cols(); ++A) moment += Vector3(solid.reference().col(A)).cross(Vector3(f.col(A)));
   EXPECT_LT((f.rowwise().sum() - weight).norm(), 1e-7 * weight.norm());
   EXPECT_LT((moment - centre.cross(weight)).norm(), 1e-7 * weight.norm());
 }

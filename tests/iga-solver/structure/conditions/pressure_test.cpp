@@ -22,6 +22,8 @@ using structure::Solid;
 
 const double kPi = std::acos(-1.0);
 
+nurbs::Volume whole_patch(const Solid& solid) { return {solid.space(), solid.reference()}; }
+
 std::vector<Id> ids(const Solid& solid) {
   std::vector<Id> all(solid.node_count());
   std::iota(all.begin(), all.end(), Id(0));
@@ -35,7 +37,8 @@ structure::Field pressure_of(double p) {
 NodalVectors pushed(const Solid& solid, const std::vector<Face>& faces, double p, const NodalVectors& x) {
   NodalVectors f = NodalVectors::Zero(3, x.cols());
   for (const Face face : faces)
-    structure::FollowingPressure(solid, {0, face}, pressure_of(p), {}).add(0.0, x, structure::Halo(), f);
+    structure::FollowingPressure(solid, structure::skin_surface(solid, {0, face}), pressure_of(p), {})
+        .add(0.0, x, structure::Halo(), f);
   return f;
 }
 
@@ -62,7 +65,7 @@ TEST(FollowingPressure, IsTheDerivativeOfTheVolume) {
   const NodalVectors x = solid.reference() + 0.1 * models::random_vectors(solid.node_count(), 5),
                      v = models::random_vectors(solid.node_count(), 6);
   const auto volume = [&](const NodalVectors& places) {
-    return Solid({solid.patch().space, places}, models::elastic()).volume();
+    return Solid(nurbs::Volume{solid.space(), places}, models::elastic()).volume();
   };
   const double h = 1e-5, rate = (volume(x + h * v) - volume(x - h * v)) / (2 * h);
   EXPECT_NEAR(pushed(solid, kAll, 3.0, x).cwiseProduct(v).sum(), -3.0 * rate, 1e-8);
@@ -88,7 +91,7 @@ TEST(FollowingPressure, OfAnUndeformedPlaneIsATraction) {
 TEST(SkinQuadrature, IntegratesFields) {
   const Solid solid(models::block({2, 1, 3}, {2, 1, 2}, 2), models::elastic());
   NodalVectors f = NodalVectors::Zero(3, solid.node_count());
-  structure::SkinQuadrature(solid, {0, Face::xi_plus}, ids(solid))
+  structure::SkinQuadrature(structure::skin_surface(solid, {0, Face::xi_plus}), ids(solid))
       .integrate([](const Vector3& X) { return Vector3(X[2], 0, X[1] * X[2]); }, f);
   EXPECT_LT((f.rowwise().sum() - Vector3(4.5, 0, 2.25)).norm(), 1e-13);
   double moment = 0.0;
@@ -100,7 +103,7 @@ TEST(LineLoad, IsPerLengthOfAnArc) {
   const Solid ring(models::quarter_ring(2, 4), models::elastic());
   NodalVectors f = NodalVectors::Zero(3, ring.node_count());
   structure::add_line_load(
-      ring.patch(), ids(ring), {Face::zeta_plus, Face::xi_plus},
+      whole_patch(ring), ids(ring), {Face::zeta_plus, Face::xi_plus},
       [](const Vector3& X, double) { return Vector3(1.0, X[0], 0.0); }, structure::Columns(ids(ring)), f);
   EXPECT_LT((f.rowwise().sum() - Vector3(kPi, 4.0, 0.0)).norm(), 1e-6);  // radius 2: integral of x is 4
   for (int A = 0; A < f.cols(); ++A)
@@ -112,7 +115,7 @@ TEST(LineLoad, IsPerLengthOfAnArc) {
 TEST(PointLoad, ActsAtItsPoint) {
   const Solid solid(models::block({1, 2, 3}, {3, 2, 2}, 2), models::elastic());
   const structure::Probe point = structure::probe_at(
-      "", solid.patch().space, structure::face_point(solid.patch().space, Face::zeta_plus, {0.3, 0.6}));
+      "", solid.space(), structure::face_point(solid.space(), Face::zeta_plus, {0.3, 0.6}));
   const NodalVectors u = models::random_vectors(solid.node_count(), 7);
   NodalVectors f = NodalVectors::Zero(3, solid.node_count());
   structure::add_point_load(point, {1, -2, 3}, structure::Columns(ids(solid)), f);
@@ -124,7 +127,7 @@ TEST(BodyForce, OfTheDensityIsGravity) {
   const Vector3 g(1, 2, -9.81);
   NodalVectors f = NodalVectors::Zero(3, ring.node_count());
   structure::add_body_force(
-      ring.patch(), ids(ring), [&](const Vector3&, double) { return Vector3(2.5 * g); },
+      whole_patch(ring), ids(ring), [&](const Vector3&, double) { return Vector3(2.5 * g); },
       structure::Columns(ids(ring)), f);
   EXPECT_LT((f - structure::gravity_load(ring, g)).norm(), 1e-5 * f.norm());
 }
@@ -137,9 +140,10 @@ TEST(Loads, OfAPartAreThoseOfTheWhole) {
   const auto loads = [&](const std::vector<Id>& nodes) {
     NodalVectors f = NodalVectors::Zero(3, nodes.size());
     const structure::Columns columns(nodes);
-    structure::add_body_force(solid.patch(), ids(solid), field, columns, f);
-    structure::add_line_load(solid.patch(), ids(solid), {Face::zeta_plus, Face::eta_plus}, field, columns, f);
-    structure::SkinQuadrature(solid, {0, Face::zeta_plus}, nodes)
+    structure::add_body_force(whole_patch(solid), ids(solid), field, columns, f);
+    structure::add_line_load(whole_patch(solid), ids(solid), {Face::zeta_plus, Face::eta_plus}, field,
+                             columns, f);
+    structure::SkinQuadrature(structure::skin_surface(solid, {0, Face::zeta_plus}), nodes)
         .integrate([&](const Vector3& X) { return field(X, 0.0); }, f);
     return f;
   };

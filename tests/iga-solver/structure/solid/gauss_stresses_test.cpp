@@ -71,7 +71,7 @@ TEST(GaussStresses, AreThoseOfTheSolidThere) {
 TEST(GaussStresses, CauchyStressOfAStretchedBlock) {
   const nurbs::Volume patch = models::block({1, 1, 1}, {1, 1, 1}, 2);
   const Matrix3 stretch = Eigen::Vector3d(1.0, 0.0, 0.0).asDiagonal();
-  const NodalVectors u = models::linear_field(stretch, patch);
+  const NodalVectors u = models::linear_field(stretch, patch.control_points);
   const structure::SaintVenantKirchhoff large(2.5, 0.25, 1.0);  // lambda = mu = 1
   EXPECT_NEAR(GaussStresses(patch, large, Quadrature::full).at(0, u, {})[13].cauchy(0, 0), 3.0 * 2.0 * 1.5,
               1e-12);

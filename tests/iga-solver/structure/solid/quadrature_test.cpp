@@ -85,7 +85,7 @@ TEST(Quadrature, LeavesSixZeroModesAloneAndTheStableStep) {
 double patch_test_residual(const nurbs::Volume& patch, Quadrature quadrature) {
   const Solid body = solid(patch, quadrature);
   NodalVectors f(3, body.node_count());
-  body.internal_force(models::linear_field(models::some_gradient(), patch), f);
+  body.internal_force(models::linear_field(models::some_gradient(), patch.control_points), f);
   return f(Eigen::all, models::interior_nodes(patch.space)).cwiseAbs().maxCoeff() / f.cwiseAbs().maxCoeff();
 }
 
@@ -156,7 +156,8 @@ TEST(Quadrature, KeepsTheOrderOfFrequencies) {
 TEST(Quadrature, ConvergesOnCurvedMaps) {
   const auto energy = [](int degree, int elements, Quadrature quadrature) {
     const nurbs::Volume ring = models::quarter_ring(degree, elements);
-    return solid(ring, quadrature).strain_energy(models::linear_field(models::some_gradient(), ring));
+    return solid(ring, quadrature)
+        .strain_energy(models::linear_field(models::some_gradient(), ring.control_points));
   };
   for (const int degree : {2, 3}) {
     const double exact = energy(3, 24, Quadrature::full);

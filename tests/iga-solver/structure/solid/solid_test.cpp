@@ -92,18 +92,18 @@ TEST(InternalForce, IsTheGradientOfTheStrainEnergy) {
 /// Largest residual at interior nodes under u = H X, relative to the largest force on the boundary.
 double patch_test_residual(const Solid& solid) {
   NodalVectors f(3, solid.node_count());
-  solid.internal_force(models::linear_field(models::some_gradient(), solid.patch()), f);
-  const std::vector<int> interior = models::interior_nodes(solid.patch().space);
+  solid.internal_force(models::linear_field(models::some_gradient(), solid.reference()), f);
+  const std::vector<int> interior = models::interior_nodes(solid.space());
   return f(Eigen::all, interior).cwiseAbs().maxCoeff() / f.cwiseAbs().maxCoeff();
 }
 
 /// Largest error of the interior displacements when the boundary is given u = H X, relative to the largest
 /// displacement.
 double patch_test_error(const Solid& solid) {
-  const NodalVectors exact = models::linear_field(models::some_gradient(), solid.patch());
+  const NodalVectors exact = models::linear_field(models::some_gradient(), solid.reference());
   NodalVectors boundary = exact, f(exact);
   std::vector<int> dofs;
-  for (int A : models::interior_nodes(solid.patch().space)) {
+  for (int A : models::interior_nodes(solid.space())) {
     boundary.col(A).setZero();
     for (int i = 0; i < 3; ++i) dofs.push_back(3 * A + i);
   }
@@ -149,7 +149,7 @@ TEST(InternalForce, VanishesInRigidMotion) {
   solid.internal_force(Vector3(1, -2, 3).replicate(1, solid.node_count()), f);
   EXPECT_LT(f.cwiseAbs().maxCoeff(), 1e-12);
   const Matrix3 H = models::some_gradient();
-  solid.internal_force(models::linear_field(H - H.transpose(), solid.patch()), f);
+  solid.internal_force(models::linear_field(H - H.transpose(), solid.reference()), f);
   EXPECT_LT(f.cwiseAbs().maxCoeff(), 1e-12);
 }
 
@@ -170,11 +170,11 @@ TEST(InternalForce, HasASymmetricStiffnessWithExactlySixZeroModes) {
 TEST(Stress, OfALinearFieldIsTheSameEverywhere) {
   const Solid solid(models::quarter_ring(2, 2), models::elastic());
   const Matrix3 H = models::some_gradient();
-  const NodalVectors u = models::linear_field(H, solid.patch());
+  const NodalVectors u = models::linear_field(H, solid.reference());
   for (const nurbs::Parameter<3>& xi :
        {nurbs::Parameter<3>{0.0, 0.0, 0.0}, {0.3, 0.6, 0.9}, {1.0, 0.5, 1.0}}) {
     EXPECT_LT((solid.displacement_gradient(u, xi) - H).norm(), 1e-12);
-    EXPECT_LT((solid.stress(u, xi) - solid.material().stress(H, nullptr)).norm(), 1e-12);
+    EXPECT_LT((solid.stress(u, xi) - (*solid.materials().front()).stress(H, nullptr)).norm(), 1e-12);
   }
 }
 
@@ -184,8 +184,8 @@ TEST(RowSumMass, SumsToDensityTimesVolumeAndIsPositive) {
   EXPECT_NEAR(solid.row_sum_mass().sum(), 7850.0 * solid.volume(), 1e-9);
   // The element masses are the same mass, sorted by element.
   double sum = 0.0;
-  for (int e = 0; e < solid.patch().space.element_count(); ++e)
-    for (int a = 0; a < solid.padded_functions(); ++a) sum += solid.element_mass(e)[a];
+  for (int e = 0; e < solid.space().element_count(); ++e)
+    for (int a = 0; a < solid.padded_functions(e); ++a) sum += solid.element_mass(e)[a];
   EXPECT_NEAR(sum, solid.row_sum_mass().sum(), 1e-9);
 }
 
@@ -198,7 +198,7 @@ TEST(RowSumMass, OverestimatesRotationalInertiaAsKnown) {
   for (const Case& c : {Case{1, 4, 1.125}, Case{2, 2, 1.5}, Case{2, 4, 1.15625}, Case{2, 6, 1.074074},
                         Case{2, 8, 1.042969}, Case{3, 6, 1.089506}, Case{3, 12, 1.025077}}) {
     const Solid solid(models::block({1, 1, 1}, {c.elements, 1, 1}, {c.degree, 1, 1}), models::elastic());
-    const Eigen::ArrayXd x = solid.patch().control_points.row(0).array() - 0.5;
+    const Eigen::ArrayXd x = solid.reference().row(0).array() - 0.5;
     EXPECT_NEAR((solid.row_sum_mass().array() * x * x).sum() * 12.0, c.ratio, 1e-6)
         << c.degree << ' ' << c.elements;
   }
@@ -216,7 +216,7 @@ std::string message_of(const std::function<void()>& action) {
 // Kernels go over whole vectors: what lies beyond an element's functions must be a number, and 0.
 TEST(Solid, GathersZerosBeyondTheFunctions) {
   const Solid solid(models::block({1, 1, 1}, {2, 2, 2}, 2), models::elastic());
-  const int functions = 27, padded = solid.padded_functions();
+  const int functions = 27, padded = solid.padded_functions(0);
   ASSERT_GT(padded, functions);
   std::vector<double> values(3 * padded, std::nan(""));
   solid.gather(3, NodalVectors::Ones(3, solid.node_count()), values.data());
@@ -259,6 +259,32 @@ TEST(Solid, RefusesAPatchWithANegativeJacobianAndSaysWhere) {
   nurbs::Volume folded = models::block({1, 1, 1}, {3, 1, 1}, 1);
   for (int A : {3, 7, 11, 15}) folded.control_points(0, A) = 0.5;  // the last element turns round
   EXPECT_THAT(message_of([&] { Solid(folded, models::elastic()); }), testing::HasSubstr("element 2"));
+}
+
+// A part has the control points of its own elements alone, and says the same of what it holds.
+TEST(Solid, APartIsTheWholeWhereItIs) {
+  const nurbs::Volume patch =
+      models::distorted(models::block({1, 2, 1}, {3, structure::kBoxSpans[1] + 7, 2}, 2), 0.004);
+  const nurbs::Space<3>& space = patch.space;
+  const Solid whole(patch, models::elastic());
+  const NodalVectors u = 0.01 * models::random_vectors(whole.node_count(), 3);
+  const structure::Partition partition(space, structure::box_cuts(space), 2);
+  for (int p = 0; p < 2; ++p) {
+    const structure::Part part = partition.part(p);
+    const Solid own(patch, models::elastic(), {}, part);
+    NodalVectors u_own = NodalVectors::Zero(3, part.columns);
+    for (int column = 0; column < part.held(); ++column) {
+      u_own.col(column) = u.col(part.nodes[column]);
+      EXPECT_EQ(own.reference().col(column), patch.control_points.col(part.nodes[column]));
+    }
+    const nurbs::Parameter<3> xi{0.4, p == 0 ? 0.1 : 0.9, 0.7};
+    EXPECT_EQ(own.stress(u_own, xi), whole.stress(u, xi));
+    for (int e = 0; e < own.element_count(); ++e) {
+      const int id = static_cast<int>(part.elements[e]);
+      EXPECT_EQ(own.describe_element(e), whole.describe_element(id));
+      EXPECT_EQ(own.element_mass(e)[0], whole.element_mass(id)[0]);
+    }
+  }
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Sweeps give what the plain loop over elements gives: every degree, rational or not, every law, quadrature,
 // way to find the Jacobian, and instruction set of this machine.
 #include "structure/sweep/patch_sweep.h"
+#include "structure/sweep/affine_map.h"
 
 #include <gtest/gtest.h>
 
@@ -64,7 +65,7 @@ double largest(const NodalVectors& f) { return f.cwiseAbs().maxCoeff(); }
 void expect_equal(const nurbs::Volume& patch, const Material& material, Quadrature quadrature,
                   GeometryMode mode) {
   const auto boxes = structure::whole_patch(patch.space);
-  const ElementLoop plain(patch, boxes, material, quadrature);
+  const ElementLoop plain(patch.space, patch.control_points, boxes, material, quadrature);
   const NodalVectors u = 0.01 * models::random_vectors(patch.space.control_point_count(), 3);
   const std::size_t remembered = std::size_t(patch.space.element_count()) * material.state_size() *
                                  structure::points_per_element(patch.space, quadrature);
@@ -77,7 +78,8 @@ void expect_equal(const nurbs::Volume& patch, const Material& material, Quadratu
   for (const SimdLevel level : levels()) {
     SCOPED_TRACE(testing::Message() << material.law() << ", " << name(quadrature) << ", mode "
                                     << static_cast<int>(mode) << ", " << nurbs::name(level));
-    const PatchSweep sweep(patch, boxes, material, quadrature, mode, level);
+    const PatchSweep sweep(patch.space, patch.control_points, boxes, material, quadrature,
+                           {mode, structure::affine_jacobian(patch)}, level);
     sweep.internal_force({held.data()}, u, swept);
     EXPECT_LT(largest(swept - f), 1e-12 * largest(f));
     sweep.internal_force({held.data(), next_swept.data(), 0.7}, u, swept);
@@ -158,20 +160,20 @@ TEST(PatchSweep, SumsRowsOfTheMassMatrix) {
   for (const nurbs::Volume& patch :
        {models::distorted(models::block({1, 2, 1.5}, {3, 9, 2}, {2, 3, 4}), 0.02), models::quarter_ring(2, 3),
         models::quarter_ring(3, 2)}) {
-    const structure::ElementTabulator tabulate(patch, Quadrature::full);
+    const structure::ElementTabulator tabulate(patch.space, Quadrature::full);
     const int functions = patch.space.functions_per_element();
     Eigen::VectorXd expected = Eigen::VectorXd::Zero(patch.space.control_point_count());
     std::vector<int> nodes(functions);
     for (int e = 0; e < patch.space.element_count(); ++e) {
       std::vector<double> sums(functions, 0.0);
-      tabulate.add_row_sums(e, sums.data());
       patch.space.element_control_points(e, nodes.data());
+      tabulate.add_row_sums(e, {patch.control_points, nodes}, sums.data());
       for (int a = 0; a < functions; ++a) expected[nodes[a]] += sums[a];
     }
     const structure::LinearElastic material(1.0, 0.3, 1.0);
     for (const SimdLevel level : levels()) {
-      const PatchSweep sweep(patch, structure::whole_patch(patch.space), material, Quadrature::full,
-                             GeometryMode::recomputed, level);
+      const PatchSweep sweep(patch.space, patch.control_points, structure::whole_patch(patch.space), material,
+                             Quadrature::full, {GeometryMode::recomputed}, level);
       Eigen::VectorXd sums = Eigen::VectorXd::Zero(expected.size());
       const PatchSweep::Volume volume = sweep.add_row_sums(sums);
       EXPECT_LT((sums - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.maxCoeff());
@@ -185,8 +187,8 @@ TEST(PatchSweep, SumsRowsOfTheMassMatrix) {
 TEST(PatchSweep, HandsOnWhatIsNoNumber) {
   const nurbs::Volume patch = models::block({1, 2, 1.5}, {5, 3, 4}, 2);
   const structure::LinearElastic material(1.0, 0.3, 1.0);
-  const PatchSweep sweep(patch, structure::whole_patch(patch.space), material, Quadrature::full,
-                         GeometryMode::affine);
+  const PatchSweep sweep(patch.space, patch.control_points, structure::whole_patch(patch.space), material,
+                         Quadrature::full, {GeometryMode::affine, structure::affine_jacobian(patch)});
   NodalVectors u = NodalVectors::Zero(3, patch.space.control_point_count()), f(u);
   for (const Eigen::Index node : {Eigen::Index(0), u.cols() / 2, u.cols() - 1}) {
     u.setZero();

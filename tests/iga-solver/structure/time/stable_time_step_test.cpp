@@ -32,7 +32,7 @@ double stable_step(const Solid& solid, const Supports& supports) {
 
 void fix(Supports& supports, const Solid& solid, std::initializer_list<Face> faces,
          structure::Directions directions) {
-  for (Face face : faces) supports.fix(structure::nodes_on(solid.patch().space, {face}), directions);
+  for (Face face : faces) supports.fix(structure::nodes_on(solid.space(), {face}), directions);
 }
 
 Supports clamped_at_xi_minus(const Solid& solid) {
@@ -185,7 +185,7 @@ TEST(StableTimeStep, OfAStrainedSolidIsThatOfItsTangent) {
     const models::Matrix3 H = 0.2 * models::some_gradient() * (seed % 2 ? 1.0 : -0.5);
     const double exact = dense_eigenvalue(body.patch, {}, body.density, StrainedHooke{body.law, H});
     expect_below(structure::stable_time_step(solid, LumpedMass(solid.row_sum_mass()), {},
-                                             models::linear_field(H, body.patch)),
+                                             models::linear_field(H, body.patch.control_points)),
                  exact, 0.975);
   }
 }
@@ -197,8 +197,8 @@ TEST(StableTimeStep, OfTheLastFreeDofIsExact) {
   for (int A = 1; A < solid.node_count(); ++A) others.push_back(A);
   supports.fix({0}, {true, false, true});
   supports.fix(others, {true, true, true});
-  expect_below(stable_step(solid, supports), dense_eigenvalue(solid.patch(), supports, 1.0, Hooke{1.0, 0.3}),
-               0.9999);
+  expect_below(stable_step(solid, supports),
+               dense_eigenvalue({solid.space(), solid.reference()}, supports, 1.0, Hooke{1.0, 0.3}), 0.9999);
 }
 
 // The stiffness of a linear law does not know of the displacement about which it is taken.
@@ -230,7 +230,7 @@ class CountingSolid final : public structure::Body {
     return solid_.skin_boxes(piece);
   }
   structure::ExactSum volume_sum() const override { return solid_.volume_sum(); }
-  const structure::Material& material() const override { return solid_.material(); }
+  std::vector<const structure::Material*> materials() const override { return solid_.materials(); }
   const Eigen::VectorXd& row_sum_mass() const override { return solid_.row_sum_mass(); }
   void evolve(const NodalVectors&, double, NodalVectors&, const std::function<void()>&) override {}
   void commit() override {}
@@ -240,7 +240,7 @@ class CountingSolid final : public structure::Body {
     return solid_.strain_energy_sum(u);
   }
   int element_count() const override { return solid_.element_count(); }
-  int padded_functions() const override { return solid_.padded_functions(); }
+  int padded_functions(int element) const override { return solid_.padded_functions(element); }
   void gather(int, const NodalVectors&, double*) const override { ADD_FAILURE(); }
   void element_force(int, const double*, double*) const override { ADD_FAILURE(); }
   const double* element_mass(int element) const override { return solid_.element_mass(element); }

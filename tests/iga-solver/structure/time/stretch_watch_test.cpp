@@ -27,7 +27,7 @@ std::shared_ptr<const structure::Material> svk(double nu) {
 }
 
 NodalVectors positions(const Solid& solid, const models::Matrix3& H) {
-  return solid.reference() + models::linear_field(H, solid.patch());
+  return solid.reference() + models::linear_field(H, solid.reference());
 }
 
 models::Matrix3 along(int axis, double stretch) {
@@ -69,7 +69,7 @@ TEST(StretchWatch, IsSilentForRotationsAndForALinearLaw) {
   const Solid solid(models::block({3, 2, 1}, {3, 2, 2}, 2), svk(0.3));
   StretchWatch watch(solid, 1.0001);
   EXPECT_FALSE(rings_in_a_round(watch, positions(solid, R - models::Matrix3::Identity())));
-  const Solid linear(solid.patch(), models::elastic());
+  const Solid linear({solid.space(), solid.reference()}, models::elastic());
   StretchWatch of_linear(linear, 1.0);
   EXPECT_FALSE(rings_in_a_round(of_linear, positions(linear, along(0, 9.0))));
 }

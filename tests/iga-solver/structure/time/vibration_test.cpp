@@ -28,7 +28,7 @@ TEST(Cantilever, HasTheBendingFrequenciesOfAnIndependentCode) {
   for (const Case& c : {Case{{10, 1, 1}, 3.4709, 20.256}, Case{{20, 2, 2}, 3.4852, 20.786}}) {
     const Solid solid(models::block({10, 1, 1}, c.elements, 2), models::elastic(1.0, 0.0, 1.0));
     Supports clamped;
-    clamped.fix(structure::nodes_on(solid.patch().space, {Face::xi_minus}), {true, true, true});
+    clamped.fix(structure::nodes_on(solid.space(), {Face::xi_minus}), {true, true, true});
     const Eigen::VectorXd eigenvalues =
         Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(models::mass_scaled_stiffness(solid, clamped),
                                                        Eigen::EigenvaluesOnly)
@@ -46,13 +46,14 @@ TEST(Cantilever, HasTheBendingFrequenciesOfAnIndependentCode) {
 TEST(BarWave, TravelsAtTheBarSpeedAndKeepsTheImpulse) {
   const double duration = 0.2;
   const int elements = 100;
-  Solid bar(models::block({1, 1, 1}, {elements, 1, 1}, {2, 1, 1}), models::elastic(1.0, 0.0, 1.0));
+  auto bar = std::make_unique<Solid>(models::block({1, 1, 1}, {elements, 1, 1}, {2, 1, 1}),
+                                     models::elastic(1.0, 0.0, 1.0));
   Supports sides;
   for (Face face : {Face::eta_minus, Face::eta_plus, Face::zeta_minus, Face::zeta_plus})
-    sides.fix(structure::nodes_on(bar.patch().space, {face}), {false, true, true});
-  const NodalVectors unit_force = structure::traction_load(bar, {0, Face::xi_minus}, Vector3(1, 0, 0));
-  const nurbs::Space<3> space = bar.patch().space;
-  ExplicitSolver solver(std::make_unique<Solid>(std::move(bar)), sides);
+    sides.fix(structure::nodes_on(bar->space(), {face}), {false, true, true});
+  const NodalVectors unit_force = structure::traction_load(*bar, {0, Face::xi_minus}, Vector3(1, 0, 0));
+  const nurbs::Space<3> space = bar->space();
+  ExplicitSolver solver(std::move(bar), sides);
   solver.set_time_step(0.5 * 0.86206 / elements);
 
   const auto pulse = [&](double t) { return t > 0.0 && t < duration ? std::sin(kPi * t / duration) : 0.0; };

@@ -1,0 +1,76 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Balls on solids of several patches: four welded quarters are the tube of one patch that is closed, and until waves come round
+the tube that is slit on the other side.  Ranks make no difference."""
+
+import unittest
+
+import numpy as np
+
+import ball_on_block as bob
+import decks
+
+STEP = 1e-8
+OUTER = 3e-3
+TUBE = "tube: {{origin: [-3e-3, 0, 0], axis: [1, 0, 0], inner_radius: 2e-3, outer_radius: 3e-3, length: 6e-3, angle: [{}, {}], elements: [{}, 4, 1]}}"
+REST = """material: {{law: saint_venant_kirchhoff, youngs_modulus: 5e9, poissons_ratio: 0.3, density: 1000}}
+surfaces: {{outside: [{faces}]}}
+weld: {weld}
+"""
+
+
+def quarters() -> str:
+    """Angles count from y; the ball comes down on the joint at 90 degrees."""
+    shapes = "\n".join("    - " + TUBE.format(90 * k, 90 * (k + 1), 4) for k in range(4))
+    faces = ", ".join(f"{k} zeta+" for k in range(4))
+    return f"units: si\ngeometry:\n  shapes:\n{shapes}\n" + REST.format(faces=faces, weld="yes")
+
+
+def one_patch(weld: str) -> str:
+    return f"units: si\ngeometry:\n  {TUBE.format(0, 360, 16)}\n" + REST.format(faces="zeta+", weld=weld)
+
+
+def hit(model: str, *, steps: int, velocity=(0.3, 0.5, -2.0), ranks: int = 1) -> dict[str, np.ndarray]:
+    models = "model hertz tangential history"
+    deck = (
+        bob.prelude(balls=((0.2e-3, -0.02e-3, OUTER + bob.RADIUS + 1e-8),), velocity=velocity, friction=0.3, models=models,
+                    timestep=STEP)
+        + bob.wall(models, "structure tube.yaml surface outside") + bob.output((1, 2, 3, 7, 16), every=10) + f"run {steps}\n"
+    )  # fmt: skip
+    return decks.good(deck, files={"tube.yaml": model}, ranks=ranks).table
+
+
+class WeldedSolids(unittest.TestCase):
+    def assert_close(self, found: dict[str, np.ndarray], expected: dict[str, np.ndarray], tolerance: float) -> None:
+        for name in ("x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz", "plate16"):
+            scale = np.abs(expected[name]).max()
+            self.assertLessEqual(np.abs(found[name] - expected[name]).max(), tolerance * scale, name)
+
+    @classmethod
+    def setUpClass(cls):
+        cls.welded = hit(quarters(), steps=1500)
+
+    def test_the_ball_crosses_a_joint(self):
+        foot = self.welded["y"][self.welded["plate7"] > 0]
+        self.assertLess(foot.min(), -1e-5)
+        self.assertGreater(foot.max(), -1.3e-5)
+        self.assertGreater(np.abs(self.welded["fz"]).max(), 1.0)
+
+    def test_a_closed_tube_of_one_patch(self):
+        self.assert_close(self.welded, hit(one_patch("yes"), steps=1500), 1e-9)
+
+    def test_a_slit_tube_away_from_the_slit(self):
+        slit = hit(one_patch("no"), steps=1500)
+        early = slice(0, 15)  # 1.5 us: waves of 2,600 m/s run 3.9 mm, to the slit it is 4.7 mm
+        self.assert_close({k: v[early] for k, v in self.welded.items()}, {k: v[early] for k, v in slit.items()}, 1e-6)
+        self.assertGreater(np.abs(self.welded["plate16"] - slit["plate16"]).max(), 1e-3 * slit["plate16"].max(), "later it opens")
+
+    def test_ranks(self):
+        for ranks in (2, 3):
+            found = hit(quarters(), steps=500, ranks=ranks)
+            for name, values in found.items():
+                if name not in ("CPU",):
+                    self.assertTrue(np.array_equal(values, self.welded[name][: len(values)]), f"{name} on {ranks} ranks")
+
+
+if __name__ == "__main__":
+    unittest.main()
