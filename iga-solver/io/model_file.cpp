@@ -8,6 +8,7 @@
 #include "geometry_io/file_kind.h"
 #include "nurbs/memory.h"
 #include "structure/material/laws.h"
+#include "structure/material/viscous.h"
 
 namespace io {
 
@@ -124,8 +125,11 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   if (document.has("initial")) model.initial_velocity = read_initial_velocity(document.map("initial"));
   if (document.has("damping")) {
     const YamlMap damping = document.map("damping");
-    damping.allow_only({"mass"});
-    model.mass_damping = damping.number("mass", geometry_io::non_negative());
+    damping.allow_only({"mass", "stiffness"});
+    if (damping.has("mass")) model.mass_damping = damping.number("mass", geometry_io::non_negative());
+    if (damping.has("stiffness"))
+      model.material = std::make_shared<structure::Viscous>(
+          model.material, damping.number("stiffness", geometry_io::positive()));
   }
   if (document.has("time")) model.time = read_time(document.map("time"));
   return model;

@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "structure/material/viscous.h"
 #include "structure/time/stable_time_step.h"
 
 namespace structure {
@@ -265,7 +266,8 @@ void ExplicitSolver::look_at_strain() {
 }
 
 double ExplicitSolver::find_stable_step(const NodalVectors& u) const {
-  return structure::stable_time_step(*body_, *mass_, supports_, u, *halo_, springs_);
+  const double undamped = structure::stable_time_step(*body_, *mass_, supports_, u, *halo_, springs_);
+  return damped_stable_step(undamped, viscosity(body_->material()));  // rates are those of half a step before
 }
 
 double ExplicitSolver::stable_time_step() const {
