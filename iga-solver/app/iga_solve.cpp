@@ -15,6 +15,8 @@
 #include "parallel/session.h"
 #include "parallel/shared_fields.h"
 #include "parallel/shared_history.h"
+#include "structure/material/viscous.h"
+#include "structure/time/stable_time_step.h"
 
 namespace {
 
@@ -147,7 +149,12 @@ void run(const Options& options) {
   ExplicitSolver solver = io::build_solver(model, parallel::cut_among(MPI_COMM_WORLD));
   if (!options.quiet) print_model(model, solver);
   const double stable = with_name(model, [&] { return solver.stable_time_step(); });
-  if (!options.quiet) print_on_first("  stable step  {:.6g}\n", stable);
+  const double viscosity = structure::viscosity(*model.materials.front());
+  if (!options.quiet)
+    print_on_first("  stable step  {:.6g}{}\n", stable,
+                   viscosity == 0.0 ? ""
+                                    : fmt::format(", damped; {:.6g} without",
+                                                  structure::undamped_step(stable, viscosity)));
   const double largest_step = time_step(options, model, stable);
   const long steps = with_name(model, [&] { return step_count(end, largest_step); });
   solver.set_time_step(end / steps);  // never longer than asked for, and the last step ends at `end`

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <stdexcept>
 #include <string>
 
 #include "structure/material/laws.h"
+#include "structure/material/viscous.h"
 
 namespace io {
 
@@ -69,6 +71,15 @@ std::vector<std::shared_ptr<const structure::Material>> read_materials(const Yam
                     fmt::format("patch {} has no material, expected one for each of the {} patches", patch,
                                 patch_count));
   return materials;
+}
+
+void add_viscosity(double time, std::vector<std::shared_ptr<const structure::Material>>& materials) {
+  std::map<const structure::Material*, std::shared_ptr<const structure::Material>> viscous;
+  for (std::shared_ptr<const structure::Material>& material : materials) {
+    std::shared_ptr<const structure::Material>& with = viscous[material.get()];
+    if (!with) with = std::make_shared<structure::Viscous>(material, time);
+    material = with;
+  }
 }
 
 }  // namespace io

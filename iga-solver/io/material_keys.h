@@ -15,4 +15,7 @@ namespace io {
 std::vector<std::shared_ptr<const structure::Material>> read_materials(const geometry_io::YamlMap& document,
                                                                        int patch_count);
 
+/// Makes them viscous in proportion to their stiffness: `time` times it.  Those that were one stay one.
+void add_viscosity(double time, std::vector<std::shared_ptr<const structure::Material>>& materials);
+
 }  // namespace io

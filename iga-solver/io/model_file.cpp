@@ -114,8 +114,10 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   if (document.has("initial")) model.initial_velocity = read_initial_velocity(document.map("initial"));
   if (document.has("damping")) {
     const YamlMap damping = document.map("damping");
-    damping.allow_only({"mass"});
-    model.mass_damping = damping.number("mass", geometry_io::non_negative());
+    damping.allow_only({"mass", "stiffness"});
+    if (damping.has("mass")) model.mass_damping = damping.number("mass", geometry_io::non_negative());
+    if (damping.has("stiffness"))
+      add_viscosity(damping.number("stiffness", geometry_io::positive()), model.materials);
   }
   if (document.has("time")) model.time = read_time(document.map("time"));
   return model;

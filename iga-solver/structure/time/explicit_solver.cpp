@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "structure/material/viscous.h"
 #include "structure/time/stable_time_step.h"
 
 namespace structure {
@@ -268,7 +269,11 @@ void ExplicitSolver::look_at_strain() {
 }
 
 double ExplicitSolver::find_stable_step(const NodalVectors& u) const {
-  return structure::stable_time_step(*body_, *mass_, supports_, u, *halo_, springs_);
+  const double undamped = structure::stable_time_step(*body_, *mass_, supports_, u, *halo_, springs_);
+  double most_viscous = 0.0;
+  for (const Material* material : body_->materials())
+    most_viscous = std::max(most_viscous, viscosity(*material));
+  return damped_stable_step(undamped, most_viscous);  // rates are those of half a step before
 }
 
 double ExplicitSolver::stable_time_step() const {

@@ -243,7 +243,8 @@ struct BadFile {
 TEST(GeometryFile, SaysWhatWasGivenAndWhatWasExpected) {
   const std::vector<BadFile> table = {
       {kBox, "units: si\n", "", "wall.yaml:1: ", "units is missing"},
-      {kBox, "units: si", "units: inch", "wall.yaml:1: ", "units is inch, expected one of: si, cgs, mm-g-ms, mm-t-s"},
+      {kBox, "units: si", "units: inch",
+       "wall.yaml:1: ", "units is inch, expected one of: si, cgs, mm-g-ms, mm-t-s"},
       {kBox, "geometry:", "geometri:", "wall.yaml:2: ", "unknown key 'geometri', did you mean 'geometry'?"},
       {kBox, "box:", "bix:", "wall.yaml:3: ", "unknown key 'bix' in geometry, did you mean 'box'?"},
       {kBox, "size:", "sise:", "wall.yaml:3: ", "unknown key 'sise' in geometry.box, did you mean 'size'?"},

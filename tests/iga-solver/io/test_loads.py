@@ -2,11 +2,15 @@
 """Loads of iga-solve in space and time: forces in closed form are the change of momentum in each step, a shaken base is a
 moving frame, a foundation carries a weight, damping, initial velocities; the ledger with all of them; ranks; mistakes."""
 
+import re
+import subprocess
+import tempfile
 import unittest
+from pathlib import Path
 
 import numpy as np
 
-from test_supports import run
+from test_supports import PROGRAM, run
 
 BLOCK = """units: si
 geometry: {{box: {{origin: {origin}, size: [2, 1, 0.5], elements: {elements}, degree: 2}}}}
@@ -136,6 +140,25 @@ class Loads(unittest.TestCase):
         self.assertAlmostEqual(seen["kinetic_energy"][0] / (0.5 * exact * 1.15625 * w**2), 1, delta=1e-9)
         self.assertLess(np.abs(seen["linear_momentum"][0]).max(), 1e-12)
 
+    def test_viscosity(self):
+        """The stable step that is printed is the damped one, and a step above it is refused; a body that is drawn comes to rest
+        where it does without."""
+        more = "boundary: [{fix: [x, y, z], faces: [xi-]}]\nloads: {gravity: [0, 0, -9.81]}\nprobes: {tip: {face: xi+, at: [0.5, 0.5]}}\n"
+        lines = {}
+        for name, damping in (("without", ""), ("with", "damping: {stiffness: 1e-3}\n")):
+            with tempfile.TemporaryDirectory() as folder:
+                (Path(folder) / "model.yaml").write_text(block(more + damping))
+                done = subprocess.run([PROGRAM, "model.yaml", "--end", "1e-6"], cwd=folder, capture_output=True, text=True, check=False)
+            lines[name] = [float(word) for word in re.findall(r"[-+.e0-9]{4,}", re.search("stable step (.*)", done.stdout)[1])]
+        (undamped,), (damped, also) = lines["without"], lines["with"]
+        self.assertAlmostEqual(damped / ((undamped**2 + 1e-6) ** 0.5 - 1e-3), 1, delta=2e-3)
+        self.assertAlmostEqual(also / undamped, 1, delta=2e-3)
+        done, _ = run(block(more + "damping: {stiffness: 1e-3}"), 1e-2, 1.01 * damped)
+        self.assertIn("above the stable step", done.stderr)
+        rest = self.solve(block(more + "damping: {mass: 24, stiffness: 1e-3}"), 1.6, 0.9 * damped)["probes/tip"][-1]
+        slow = self.solve(block(more + "damping: {mass: 24}"), 1.6, 0.9 * damped)["probes/tip"][-1]
+        np.testing.assert_allclose(rest, slow, rtol=0, atol=1e-6 * np.abs(slow).max())
+
     def test_everything_at_once(self):
         seen = self.solve(block(EVERYTHING), 0.02, STEP)
         self.check_balance(seen)
@@ -172,6 +195,7 @@ class Loads(unittest.TestCase):
             ("boundary: [{spring: {stiffness: 1, per: area}, edge: [xi-, eta-]}]", "per is area, expected 'faces'"),
             ("boundary: [{spring: {stiffness: -1}, faces: [xi-]}]", "stiffness is -1, expected a number > 0"),
             ("boundary: [{spring: {stiffness: 1}, fix: [x], faces: [xi-]}]", "2 of 'fix', 'move', 'spring', 'symmetry'"),
+            ("damping: {stiffness: 0}", "stiffness is 0, expected a number > 0"),
             ("damping: {mass: -1}", "mass is -1, expected a number >= 0"),
             ("initial: {velocity: [0, 0, t]}", "expected a number or an expression of x, y, z"),
         ):  # fmt: skip

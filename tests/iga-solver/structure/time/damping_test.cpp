@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Damping in proportion to the mass.
+// Damping in proportion to the mass, and to the stiffness.
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <string>
 
 #include "models.h"
+#include "structure/material/viscous.h"
 #include "structure/time/explicit_solver.h"
+#include "structure/time/stable_time_step.h"
 
 namespace {
 
@@ -71,6 +75,105 @@ TEST(MassDamping, TakesEnergyAtItsRate) {
 
 TEST(MassDamping, GoesOnFromASavedStateToTheLastBit) {
   ExplicitSolver one = block(0.2, true), other = block(0.2, true);
+  const NodalVectors F = 1e-3 * models::random_vectors(one.body().node_count(), 8);
+  one.initialise_forces(F);
+  for (int n = 0; n < 20; ++n) step(one, F);
+  other.load(one.save());
+  other.initialise_forces(F);
+  for (int n = 0; n < 20; ++n) step(one, F), step(other, F);
+  EXPECT_EQ(one.save(), other.save());
+}
+
+std::shared_ptr<const structure::Material> viscous(std::shared_ptr<const structure::Material> law, double b) {
+  return std::make_shared<structure::Viscous>(std::move(law), b);
+}
+
+// S = b C : dE/dt of a law whose C is constant, and none under a rotation, of any law.
+TEST(Viscosity, IsOfTheStrainAlone) {
+  const structure::Matrix3 H = models::some_gradient(), I = structure::Matrix3::Identity(),
+                           next = 1.1 * H + 0.01 * H.transpose();
+  const structure::Matrix3 turn = Eigen::AngleAxisd(0.3, Vector3(1, -2, 2).normalized()).toRotationMatrix();
+  const double b = 0.3, dt = 0.02;
+  for (const auto& law : models::large_strain_laws()) {
+    const auto damped = viscous(law, b);
+    std::vector<double> old(18), now(18);
+    damped->evolve(H, dt, std::vector<double>(18).data(), old.data());
+    damped->evolve(turn * (I + H) - I, dt, old.data(), now.data());
+    EXPECT_LT(structure::Matrix3::Map(now.data() + 9).norm(), 1e-9 * b / dt) << law->law();
+    damped->evolve(next, dt, old.data(), now.data());
+    const auto S = [&](const structure::Matrix3& G) {
+      return structure::Matrix3((I + G).inverse() * law->stress(G, nullptr));
+    };
+    const structure::Matrix3 part = structure::Matrix3::Map(now.data() + 9);
+    EXPECT_LT((part - part.transpose()).norm(), 1e-7 * part.norm()) << law->law();
+    if (std::string(law->law()) != "neo_hooke") {
+      EXPECT_LT((part - b / dt * (S(next) - S(H))).norm(), 1e-7 * part.norm()) << law->law();
+    }
+    EXPECT_LT((damped->stress(next, now.data()) - law->stress(next, nullptr) - (I + next) * part).norm(),
+              1e-12);
+  }
+}
+
+// The first longitudinal mode of a bar, omega = pi/2 c/L: its energy falls as exp(-b omega^2 t).
+TEST(Viscosity, DampsAModeInProportionToItsFrequency) {
+  const double pi = std::acos(-1.0), b = 0.02, omega = pi / 2;
+  for (const std::shared_ptr<const structure::Material>& law :
+       {models::elastic(1.0, 0.0), std::shared_ptr<const structure::Material>(
+                                       std::make_shared<structure::SaintVenantKirchhoff>(1.0, 0.0, 1.0))}) {
+    const nurbs::Volume patch = models::block({1, 0.1, 0.1}, {20, 1, 1}, {2, 1, 1});
+    structure::Supports supports;
+    supports.fix(structure::nodes_on(patch.space, {Face::xi_minus}), {true, false, false});
+    structure::NodeSet all = structure::nodes_on(patch.space, {});
+    supports.fix(all, {false, true, true});
+    ExplicitSolver body(std::make_unique<structure::Solid>(patch, viscous(law, b)), supports);
+    const double stable = body.stable_time_step(),
+                 undamped = structure::stable_time_step(structure::Solid(patch, law), body.mass(), supports,
+                                                        NodalVectors::Zero(3, body.body().node_count()));
+    EXPECT_NEAR(stable, std::sqrt(undamped * undamped + b * b) - b, 1e-6 * stable);
+    body.set_time_step(0.5 * stable);
+    NodalVectors none = NodalVectors::Zero(3, body.body().node_count()), v = none;
+    for (Eigen::Index A = 0; A < v.cols(); ++A) v(0, A) = 1e-5 * std::sin(omega * patch.control_points(0, A));
+    body.set_velocities(v);
+    body.initialise_forces(none);
+    const double start = body.kinetic_energy();
+    while (body.time() < 20.0) step(body, none);
+    const double energy = body.kinetic_energy() + body.strain_energy();
+    EXPECT_NEAR(std::log(start / energy) / body.time(), b * omega * omega, 0.02 * b * omega * omega);
+    EXPECT_NEAR(body.truncation(body.strain_energy()), start - energy, 0.02 * start) << "what is lost";
+  }
+}
+
+// A free block that spins: when it has come to rest in itself nothing is lost any more.
+TEST(Viscosity, LetsABlockSpin) {
+  const nurbs::Volume patch = models::block({2, 1, 1}, {2, 2, 2}, 2);
+  ExplicitSolver body(
+      std::make_unique<structure::Solid>(patch, viscous(models::large_strain_laws().front(), 0.5)), {});
+  body.set_time_step(0.5 * body.stable_time_step());
+  NodalVectors none = NodalVectors::Zero(3, body.body().node_count()), v = none;
+  const Vector3 centre(1, 0.5, 0.5);
+  for (Eigen::Index A = 0; A < v.cols(); ++A)
+    v.col(A) = Vector3(0, 0, 0.05).cross(Vector3(patch.control_points.col(A)) - centre);
+  body.set_velocities(v);
+  body.initialise_forces(none);
+  const double spin = body.angular_momentum(centre)[2];
+  const auto energy = [&] { return body.kinetic_energy() + body.strain_energy(); };
+  while (body.time() < 60.0) step(body, none);
+  const double middle = energy();
+  while (body.time() < 120.0) step(body, none);
+  EXPECT_NEAR(energy() / middle, 1.0, 1e-5);
+  EXPECT_NEAR(body.angular_momentum(centre)[2] / spin, 1.0, 1e-11);
+  EXPECT_GT(body.displacements().norm(), 1.0) << "it has turned";
+}
+
+TEST(Viscosity, GoesOnFromASavedStateToTheLastBit) {
+  const auto make = [] {
+    ExplicitSolver body(std::make_unique<structure::Solid>(models::block({2, 1, 1}, {4, 2, 2}, 2),
+                                                           viscous(models::large_strain_laws().front(), 0.1)),
+                        {});
+    body.set_time_step(0.5 * body.stable_time_step());
+    return body;
+  };
+  ExplicitSolver one = make(), other = make();
   const NodalVectors F = 1e-3 * models::random_vectors(one.body().node_count(), 8);
   one.initialise_forces(F);
   for (int n = 0; n < 20; ++n) step(one, F);
