@@ -32,7 +32,7 @@ def one_patch(weld: str) -> str:
 def hit(model: str, *, steps: int, velocity=(0.3, 0.5, -2.0), ranks: int = 1) -> dict[str, np.ndarray]:
     models = "model hertz tangential history"
     deck = (
-        bob.prelude(balls=((0.2e-3, -0.02e-3, OUTER + bob.RADIUS + 1e-8),), velocity=velocity, friction=0.3, models=models,
+        bob.prelude(balls=((0.2e-3, -3e-6, OUTER + bob.RADIUS + 1e-8),), velocity=velocity, friction=0.3, models=models,
                     timestep=STEP)
         + bob.wall(models, "structure tube.yaml surface outside") + bob.output((1, 2, 3, 7, 16), every=10) + f"run {steps}\n"
     )  # fmt: skip
@@ -47,26 +47,26 @@ class WeldedSolids(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
-        cls.welded = hit(quarters(), steps=1500)
+        cls.welded = hit(quarters(), steps=1200)
 
     def test_the_ball_crosses_a_joint(self):
         foot = self.welded["y"][self.welded["plate7"] > 0]
-        self.assertLess(foot.min(), -1e-5)
-        self.assertGreater(foot.max(), -1.3e-5)
+        self.assertLess(foot.min(), -2e-6)
+        self.assertGreater(foot.max(), 2e-6)
         self.assertGreater(np.abs(self.welded["fz"]).max(), 1.0)
 
     def test_a_closed_tube_of_one_patch(self):
-        self.assert_close(self.welded, hit(one_patch("yes"), steps=1500), 1e-9)
+        self.assert_close(self.welded, hit(one_patch("yes"), steps=1200), 1e-9)
 
     def test_a_slit_tube_away_from_the_slit(self):
-        slit = hit(one_patch("no"), steps=1500)
-        early = slice(0, 15)  # 1.5 us: waves of 2,600 m/s run 3.9 mm, to the slit it is 4.7 mm
+        slit = hit(one_patch("no"), steps=1200)
+        early = slice(0, 10)  # 1 us: waves of 2,600 m/s run 2.6 mm, to the slit it is 4.7 mm
         self.assert_close({k: v[early] for k, v in self.welded.items()}, {k: v[early] for k, v in slit.items()}, 1e-6)
         self.assertGreater(np.abs(self.welded["plate16"] - slit["plate16"]).max(), 1e-3 * slit["plate16"].max(), "later it opens")
 
     def test_ranks(self):
-        for ranks in (2, 3):
-            found = hit(quarters(), steps=500, ranks=ranks)
+        for ranks in (2,):
+            found = hit(quarters(), steps=300, ranks=ranks)
             for name, values in found.items():
                 if name not in ("CPU",):
                     self.assertTrue(np.array_equal(values, self.welded[name][: len(values)]), f"{name} on {ranks} ranks")
