@@ -35,7 +35,7 @@
 // round `axis` by the right hand; the reference may be left out (x for an axis along z, and so on in cyclic
 // order), so may the angles (the whole turn), a sphere's axis (z) and the degree (2).  An angle is cut into
 // arcs of at most 90 degrees, and `elements` of that direction is a multiple of their number.  In one whole
-// turn the first and the last edge touch, but are not joined: a whole `tube` is slit.
+// turn the first and the last edge touch; the model of a solid welds them (io/README.md).
 #pragma once
 
 #include <functional>

@@ -79,7 +79,7 @@ Surface sphere(const Frame& frame, double radius, const Curve& longitude, const 
 Surface torus(const Frame& frame, double radius, double tube_radius, const Curve& azimuth,
               const Curve& tube_angle);
 /// A solid: eta runs along the axis over `length` from the origin, zeta from the inner to the outer radius. A
-/// full ring is slit: its faces xi- and xi+ touch, and nothing joins them.
+/// full ring is slit: its faces xi- and xi+ touch; who makes a body of it joins them.
 Volume tube(const Frame& frame, double inner_radius, double outer_radius, double length, const Curve& azimuth,
             const std::array<KnotVector, 2>& along_and_through);
 
