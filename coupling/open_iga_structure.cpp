@@ -21,12 +21,26 @@ std::optional<Vector3> gravity_of(const io::ModelFile& model) {
   return model.loads.gravity->value;
 }
 
+/// The contact law takes one material of the wall.
+void expect_one_material(const io::ModelFile& model, const std::vector<structure::SkinPiece>& skin,
+                         const std::string& surface) {
+  const structure::Material& first = *model.materials[skin.front().patch];
+  for (const structure::SkinPiece& piece : skin)
+    if (const structure::Material& other = *model.materials[piece.patch];
+        other.youngs_modulus() != first.youngs_modulus() || other.poissons_ratio() != first.poissons_ratio())
+      throw geometry_io::InputError(fmt::format(
+          "{}: surface '{}' lies on patches of two materials ({} and {}), expected one: contact laws have one "
+          "material of the wall",
+          model.file, surface, skin.front().patch, piece.patch));
+}
+
 OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface) {
   io::ModelFile model = io::read_model_file(path, reader_on_all_ranks(comm));
   geometry_io::named_surface(model.geometry, surface, path);  // complains about a name that is not there
   std::vector<structure::SkinPiece> skin;
   for (const geometry_io::SurfacePiece& piece : model.geometry.surfaces.at(surface))
     skin.push_back({piece.patch, *piece.face});
+  expect_one_material(model, skin, surface);
   std::optional<parallel::SharedFields> fields;
   if (model.output && model.output->fields) fields.emplace(comm, model);
   const io::Cut cut = parallel::cut_among(comm);
