@@ -27,13 +27,13 @@ INPUTS = {
     "step": Input(75.0, "ns", "a step per dof, degree 2, Jacobians recomputed", "`large_solid auto distorted 100`, measured"),
     "contact": Input(164.0, "ns", "a contact per step, its model included", "wavy wall, 2,624 contacts, measured"),
     "particle": Input(300.0, "ns", "a particle per step without walls", "stock LIGGGHTS, 50,000 particles, measured"),
-    "own": Input(235.0, "B", "memory per owned node, solid and solver", "`large_solid`, measured"),
-    "everywhere": Input(450.0, "B", "memory per node of the body on every rank", "`ranks.py`, peak, plate of ten nodes with its skin, measured"),
+    "own": Input(393.0, "B", "memory per owned node, at its peak", "`ranks.py`, as below"),
+    "everywhere": Input(79.0, "B", "memory per node of the body on every rank", "`ranks.py`, large plate: twice the peak on 2 ranks less that on 1"),
     "box": Input(8192.0, "1", "elements of a box, the least that a rank works on", "`box_grid.h`"),
     "latency": Input(2.0, "us", "a message, both ends", "assumed: InfiniBand"),
     "bandwidth": Input(5.0, "GB/s", "of a rank's messages, when all send", "assumed"),
-    "sums": Input(5.0, "1", "reductions over all ranks in a step, for the body", "`ranks.py`, measured"),
-    "sum_bytes": Input(2800.0, "B", "of each at most, five exact sums", "`exact_sum.h`, counted"),
+    "sums": Input(14.0, "1", "reductions over all ranks in a step, the deck's included", "`ranks.py`, plate on 2 ranks, measured"),
+    "sum_bytes": Input(3920.0, "B", "of each at most, seven exact sums", "`exact_sum.h`, counted"),
 }
 
 
