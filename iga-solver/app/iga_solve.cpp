@@ -9,6 +9,7 @@
 #include <new>
 #include <stdexcept>
 
+#include "analyses.h"
 #include "command.h"
 #include "io/model_file.h"
 #include "parallel/all_or_none.h"
@@ -138,11 +139,23 @@ io::ModelFile read(const Options& options) {
                                  [&] { return io::read_model_file(options.model); });
 }
 
+void analyse(io::ModelFile& model, bool quiet) {
+  if (parallel::Ranks(MPI_COMM_WORLD).count > 1)
+    throw std::runtime_error(
+        fmt::format("{}: an 'analysis' runs on one rank, expected iga-solve without mpiexec", model.file));
+  std::optional<io::FieldSeries> fields;  // while the control points are there
+  if (model.output && model.output->fields) fields.emplace(model);
+  ExplicitSolver solver = io::build_solver(model);
+  if (!quiet) print_model(model, solver);
+  with_name(model, [&] { app::run_analysis(model, fields, solver, quiet); });
+}
+
 void run(const Options& options) {
   io::ModelFile model = read(options);
   if (model.loads.gravity && model.loads.gravity->of_the_deck)
     throw std::runtime_error(
         fmt::format("{}: loads.gravity is deck, expected a vector: there is no deck here", model.file));
+  if (model.analysis) return analyse(model, options.quiet);
   const double end = end_time(options, model);
   std::optional<parallel::SharedFields> fields;
   if (model.output && model.output->fields) fields.emplace(MPI_COMM_WORLD, model);

@@ -31,8 +31,8 @@ struct Hdf5Object {
 using Hdf5Contents = std::map<std::string, Hdf5Object>;
 
 /// HDF5's library, in this process.  Reads what may belong to the schema: the attributes of "/", and all
-/// under /patches and /surfaces.  No value takes more memory than its bytes in the file can have been packed
-/// from. Throws std::runtime_error.
+/// under /patches, /surfaces and /state (io/state_file.h).  No value takes more memory than its bytes in the
+/// file can have been packed from. Throws std::runtime_error.
 Hdf5Contents unpack_hdf5(const std::string& bytes);
 
 /// As bytes of this program, on this machine; and back, from whatever bytes.  Throws std::runtime_error.

@@ -112,7 +112,7 @@ class Unpacker {
     Hdf5Object& root = contents_["/"];
     add_attributes("/", root);
     for (const std::string& name : members("/"))
-      if (name == "patches" || name == "surfaces") add("/" + name, 1);
+      if (name == "patches" || name == "surfaces" || name == "state") add("/" + name, 1);
     return std::move(contents_);
   }
 

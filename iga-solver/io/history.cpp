@@ -29,7 +29,8 @@ std::string full_name(const std::string& path) {
       .string();
 }
 
-// The path of the file to write.
+}  // namespace
+
 std::string checked_path(const HistoryOutput& output) {
   const std::string path = output.file + ".h5";
   for (const std::string& input : output.inputs)
@@ -45,8 +46,6 @@ std::string checked_path(const HistoryOutput& output) {
                     output.place, geometry_io::shown(output.file), path));
   return path;
 }
-
-}  // namespace
 
 struct History::Writer {
   SeriesFile file;

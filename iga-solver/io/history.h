@@ -42,6 +42,9 @@ struct HistoryRow {
 HistoryRow measure(const structure::ExplicitSolver& solver, const std::vector<structure::Probe>& probes,
                    const std::vector<structure::NamedSupport>& supports = {});
 
+/// The path of the file of `output`, NAME.h5.  Throws geometry_io::InputError as History.
+std::string checked_path(const HistoryOutput& output);
+
 class History {
  public:
   /// Creates `<output.file>.h5`, replacing an older one.  Throws std::runtime_error, naming the file, if that

@@ -100,7 +100,7 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   };
   const YamlMap document = YamlMap::parse(text, file);
   document.allow_only({"units", "geometry", "material", "boundary", "surfaces", "probes", "output", "loads",
-                       "initial", "time", "integration", "damping", "weld"});
+                       "initial", "time", "integration", "damping", "weld", "analysis", "state"});
   ModelFile model = read_required(document, read_and_note);
   if (document.has("integration")) model.integration = read_integration(document.map("integration"));
   if (document.has("boundary"))
@@ -109,7 +109,8 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
     const YamlMap probes = document.map("probes");
     for (const std::string& name : probes.keys()) model.probes.push_back(read_probe(probes, name, model));
   }
-  if (document.has("output")) model.output = read_output(document.map("output"), model.geometry, inputs);
+  if (document.has("output"))
+    model.output = read_output(document.map("output"), model.geometry, inputs, document.has("analysis"));
   if (document.has("loads")) model.loads = read_loads(document.map("loads"), model.geometry, model.nodes);
   if (document.has("initial")) model.initial_velocity = read_initial_velocity(document.map("initial"));
   if (document.has("damping")) {
@@ -120,6 +121,8 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
       add_viscosity(damping.number("stiffness", geometry_io::positive()), model.materials);
   }
   if (document.has("time")) model.time = read_time(document.map("time"));
+  if (document.has("state")) model.state = read_state(document, model.geometry.units, read_and_note);
+  if (document.has("analysis")) model.analysis = read_analysis(document, inputs);
   return model;
 }
 
@@ -203,6 +206,7 @@ structure::ExplicitSolver build_solver(ModelFile& model, const Cut& cut) {
   apply_loads(model.loads, model.geometry, model.nodes, solver);
   if (model.initial_velocity) solver.set_velocities(velocities_of(*model.initial_velocity, solver));
   if (!model.named_supports().empty()) solver.keep_reactions();
+  if (model.state) start_from(*model.state, solver);
   model.drop_control_points();
   return solver;
 }

@@ -12,9 +12,11 @@
 #include <vector>
 
 #include "geometry_io/geometry_io.h"
+#include "io/analysis_keys.h"
 #include "io/boundary_keys.h"
 #include "io/load_keys.h"
 #include "io/output_keys.h"
+#include "io/state_file.h"
 #include "structure/conditions/probe.h"
 #include "structure/node_numbering.h"
 #include "structure/partition.h"
@@ -44,6 +46,8 @@ struct ModelFile {
   std::optional<FieldKey> initial_velocity = {};
   double mass_damping = 0.0;  ///< rate [1/time]
   std::optional<TimeSpan> time = {};
+  std::optional<Analysis> analysis = {};  ///< absent: a motion in time
+  std::optional<SavedState> state = {};   ///< what it starts from
 
   /// Those of `boundary` that have names.
   std::vector<structure::NamedSupport> named_supports() const { return io::named_supports(boundary); }

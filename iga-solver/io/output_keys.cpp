@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "io/field_places.h"
 #include "io/solid_fields.h"
@@ -33,18 +34,23 @@ std::vector<std::string> words_of(const YamlMap& map, const std::string& key,
   return words;
 }
 
+double interval(const YamlMap& map, bool without_time) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  return without_time && !map.has("every") ? kNever : map.number("every", geometry_io::positive());
+}
+
 /// `fields: [displacement, stress]` comes with the histories, `fields: {of: [...], every: T, on: [...]}` at
 /// times and places of its own.
-FieldOutput read_fields(const YamlMap& output, const geometry_io::GeometryFile& geometry) {
+FieldOutput read_fields(const YamlMap& output, const geometry_io::GeometryFile& geometry, bool without_time) {
   if (output.is_list("fields"))
-    return {words_of(output, "fields", field_words()), output.number("every", geometry_io::positive())};
+    return {words_of(output, "fields", field_words()), interval(output, without_time)};
   const YamlMap map = output.map("fields");
   map.allow_only({"of", "every", "steps", "on"});
   FieldOutput fields{words_of(map, "of", field_words())};
-  if (map.has("every") == map.has("steps"))
+  if (map.has("every") == map.has("steps") && !(without_time && !map.has("every")))
     output.fail("fields", "fields has 'every' and 'steps' both or neither, expected one of them");
-  if (map.has("every"))
-    fields.every = map.number("every", geometry_io::positive());
+  if (map.has("every") || without_time)
+    fields.every = interval(map, without_time);
   else
     fields.steps = map.integer("steps", 1, 1000000000);
   if (map.has("on")) fields.on = words_of(map, "on", field_places(geometry));
@@ -54,11 +60,11 @@ FieldOutput read_fields(const YamlMap& output, const geometry_io::GeometryFile& 
 }  // namespace
 
 HistoryOutput read_output(const YamlMap& output, const geometry_io::GeometryFile& geometry,
-                          const std::vector<std::string>& inputs) {
+                          const std::vector<std::string>& inputs, bool without_time) {
   output.allow_only({"every", "file", "fields"});
-  HistoryOutput result{output.number("every", geometry_io::positive()), output.word("file"),
+  HistoryOutput result{interval(output, without_time), output.word("file"),
                        fmt::format("{}:{}", output.file(), output.line_of("file")), inputs};
-  if (output.has("fields")) result.fields = read_fields(output, geometry);
+  if (output.has("fields")) result.fields = read_fields(output, geometry, without_time);
   return result;
 }
 

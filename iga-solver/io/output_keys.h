@@ -27,8 +27,9 @@ struct HistoryOutput {
   std::optional<FieldOutput> fields = {};
 };
 
-/// Throws geometry_io::InputError as all readers of model files.
+/// `without_time`: of an analysis whose every result is written, so that there is no `every`.  Throws
+/// geometry_io::InputError as all readers of model files.
 HistoryOutput read_output(const geometry_io::YamlMap& output, const geometry_io::GeometryFile& geometry,
-                          const std::vector<std::string>& inputs);
+                          const std::vector<std::string>& inputs, bool without_time = false);
 
 }  // namespace io

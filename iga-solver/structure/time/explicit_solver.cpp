@@ -83,6 +83,13 @@ void ExplicitSolver::set_time_step(double dt) {
   is_too_strained_ = false;
 }
 
+void ExplicitSolver::external_forces(const NodalVectors& u, double t, NodalVectors& f) const {
+  f = load();
+  if (loads_.empty()) return;
+  const NodalVectors x = body_->reference() + u;
+  for (const std::unique_ptr<const ChangingLoad>& load : loads_) load->add(t, x, *halo_, f);
+}
+
 void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   check_size(F, "forces");
   motion_.place(time_, body_->reference(), u_, x_);

@@ -82,6 +82,9 @@ class ExplicitSolver {
   const NodalVectors& inverse_mass() const { return inverse_mass_; }
   const Halo& halo() const { return *halo_; }
 
+  const Springs& springs() const { return springs_; }
+  /// All loads [force] at displacements u and the time t, 3 x n.  Collective.
+  void external_forces(const NodalVectors& u, double t, NodalVectors& f) const;
   const Body& body() const { return *body_; }
   const Supports& supports() const { return supports_; }
   const MassOperator& mass() const { return *mass_; }

@@ -19,6 +19,7 @@ from study.run.usage import UsageError, one_of
 INPUTS = Path(__file__).resolve().parents[2]
 ROOT = INPUTS.parent
 SOLVER = ROOT / "build/release/liggghts-pkg/liggghts-nurbs"
+IGA_SOLVE = ROOT / "build/release/iga-solver/app/iga-solve"
 
 EXIT_PASS, EXIT_FAIL, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
@@ -60,7 +61,7 @@ def positive(word: str) -> int:
 def decks() -> dict[str, str]:
     """Name and one line of each deck: the heading of its README."""
     found = {}
-    for study in sorted(INPUTS.glob("*/study.py")):
+    for study in sorted([*INPUTS.glob("*/study.py"), *INPUTS.glob("*/benchmarks.py")]):
         heading = (study.parent / "README.md").read_text(encoding="utf-8").splitlines()
         found[study.parent.name] = next(line[2:] for line in heading if line.startswith("# "))
     return found
@@ -68,7 +69,7 @@ def decks() -> dict[str, str]:
 
 def list_decks() -> None:
     for name, line in decks().items():
-        print(f"{name:14s}{line}")
+        print(f"{name:22s}{line}")
 
 
 def chosen(cases: Sequence, wanted: Sequence[str]) -> list:
@@ -130,6 +131,8 @@ def dispatch(args: argparse.Namespace) -> int:
         raise UsageError(f"--solver {args.solver} is no executable file")
     if not args.solver:
         set_up("--packages")
+    if (folder / "benchmarks.py").exists():
+        return run_benchmarks(args, folder)
 
     from study.run.batch import Batch  # these need the packages
     from study.run.case import load
@@ -146,6 +149,18 @@ def dispatch(args: argparse.Namespace) -> int:
     solver = Solver((args.solver or SOLVER).resolve(), args.ranks or study.ranks)
     out = args.out or ROOT / "out" / args.deck
     return EXIT_PASS if batch.run(solver, args.jobs, args.keep_going, out) else EXIT_FAIL
+
+
+def run_benchmarks(args: argparse.Namespace, folder: Path) -> int:
+    from study.run.benchmarks import load, run_all
+
+    if args.list:
+        print("\n".join(dict.fromkeys(benchmark.name for benchmark in load(folder).BENCHMARKS)))
+        return EXIT_PASS
+    if not args.solver:
+        set_up("iga-solve")
+    out = args.out or ROOT / "out" / args.deck
+    return EXIT_PASS if run_all(folder, args.case, args.solver or IGA_SOLVE, out) else EXIT_FAIL
 
 
 if __name__ == "__main__":

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "analyses.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "io/frequencies.h"
+#include "io/history.h"
+#include "io/unit_names.h"
+#include "structure/analysis/static_equilibrium.h"
+
+namespace app {
+
+namespace {
+
+using structure::ExplicitSolver;
+using structure::NodalVectors;
+using Fields = std::optional<io::FieldSeries>;
+
+/// Histories and fields, a row and a state for each result.
+class Output {
+ public:
+  Output(const io::ModelFile& model, Fields& fields) : model_(model), fields_(fields) {
+    if (!model.output) return;
+    history_.emplace(*model.output, model.geometry.units, model.probes, model.named_supports());
+  }
+  void write(const ExplicitSolver& solver) {
+    if (history_) history_->record(io::measure(solver, model_.probes, model_.named_supports()));
+    if (fields_)
+      fields_->write({solver.time(), solver.displacements(), solver.velocities(), solver.memory_in_order()});
+  }
+  void print_names() const {
+    if (history_) fmt::print("  histories    {}\n", history_->path());
+    if (!fields_) return;
+    for (const std::string& place : model_.output->fields->on)
+      fmt::print("  fields       {}_{}.pvd\n", model_.output->file, place);
+  }
+
+ private:
+  const io::ModelFile& model_;
+  std::optional<io::History> history_;
+  Fields& fields_;
+};
+
+void print_result(const io::ModelFile& model, const ExplicitSolver& solver) {
+  fmt::print("  strain energy {:.8g}, work of the loads {:.8g}, largest displacement {:.8g}\n",
+             solver.strain_energy(), solver.load_work(), solver.largest_displacement());
+  for (const structure::Probe& probe : model.probes) {
+    const structure::Vector3 u = solver.displacement(probe);
+    fmt::print("  probe {}: {:.8g} {:.8g} {:.8g}\n", probe.name, u[0], u[1], u[2]);
+  }
+  for (const structure::NamedSupport& support : model.named_supports()) {
+    const structure::Vector3 f = solver.reaction(support);
+    fmt::print("  reaction {}: {:.8g} {:.8g} {:.8g}\n", support.name, f[0], f[1], f[2]);
+  }
+}
+
+void save(const std::optional<std::string>& path, const io::ModelFile& model, const ExplicitSolver& solver,
+          bool quiet) {
+  if (!path) return;
+  io::write_state(*path, model.geometry.units, io::state_of(solver));
+  if (!quiet) fmt::print("  state        {}\n", *path);
+}
+
+constexpr double kFullTime = 1.0;  // loads of that time are the full ones
+
+/// The state under a part of the loads, with their accelerations, which are none, and reactions.
+void take(ExplicitSolver& solver, const NodalVectors& u, double load_factor) {
+  NodalVectors full, now;
+  solver.external_forces(u, kFullTime, full);
+  solver.external_forces(u, load_factor, now);
+  io::put_at_rest(solver, u, load_factor);
+  solver.initialise_forces(load_factor * full - now);
+}
+
+void run(const io::StaticAnalysis& analysis, const io::ModelFile& model, Fields& fields,
+         ExplicitSolver& solver, bool quiet) {
+  Output output(model, fields);
+  const auto loads = [&](const NodalVectors& u, NodalVectors& f) { solver.external_forces(u, kFullTime, f); };
+  structure::StaticEquilibrium statics(solver.body(), solver.supports(), loads, analysis.options,
+                                       solver.springs());
+  if (!quiet) fmt::print("  static       preconditioner {}\n", statics.preconditioner());
+  const auto tell = [&](const structure::NewtonIteration& done) {
+    fmt::print("  load {:.6g}, iteration {}: out of balance {:.2e}, {} products{}\n", done.load_factor,
+               done.iteration, done.residual, done.products,
+               done.step_length == 1.0 ? "" : fmt::format(", step {:.3g}", done.step_length));
+    std::fflush(stdout);
+  };
+  statics.solve(quiet ? structure::StaticEquilibrium::OnIteration() : tell, [&](double load_factor) {
+    take(solver, statics.displacements(), load_factor);
+    output.write(solver);
+  });
+  if (!quiet) print_result(model, solver);
+  save(analysis.save, model, solver, quiet);
+  if (!quiet) output.print_names();
+}
+
+void run(const io::RelaxAnalysis& analysis, const io::ModelFile& model, Fields& fields,
+         ExplicitSolver& solver, bool quiet) {
+  Output output(model, fields);
+  constexpr double kStepFactor = 0.9;  // of the stable step
+  const double stable = solver.stable_time_step();
+  solver.set_time_step(model.time && model.time->step ? *model.time->step : kStepFactor * stable);
+  if (!quiet) fmt::print("  relax        time step {:.6g}\n", solver.time_step());
+  long peaks = 0;
+  const auto tell = [&](const structure::RelaxPeak& peak) {
+    constexpr int kPeaksPerLine = 20;
+    if (!quiet && ++peaks % kPeaksPerLine == 0)
+      fmt::print("  step {}: out of balance {:.2e}\n", peak.step, peak.residual);
+  };
+  const structure::RelaxPeak last = structure::relax(solver, analysis.options, tell);
+  if (!quiet) fmt::print("  at rest after {} steps: out of balance {:.2e}\n", last.step, last.residual);
+  output.write(solver);
+  if (!quiet) print_result(model, solver);
+  save(analysis.save, model, solver, quiet);
+  if (!quiet) output.print_names();
+}
+
+/// Shapes as states 1, 2, ...: the largest displacement is a hundredth of the body.
+void write_shapes(const std::vector<structure::Mode>& modes, Fields& fields, const ExplicitSolver& solver) {
+  constexpr double kDrawn = 0.01;
+  if (!fields) return;
+  const NodalVectors& X = solver.body().reference();
+  const double size = (X.rowwise().maxCoeff() - X.rowwise().minCoeff()).maxCoeff();
+  for (std::size_t k = 0; k < modes.size(); ++k) {
+    const NodalVectors u = (kDrawn * size / modes[k].shape.colwise().norm().maxCoeff()) * modes[k].shape;
+    fields->write({k + 1.0, u, NodalVectors::Zero(3, u.cols()), solver.memory_in_order()});
+  }
+}
+
+void run(const io::ModeAnalysis& analysis, const io::ModelFile& model, Fields& fields, ExplicitSolver& solver,
+         bool quiet) {
+  const std::vector<structure::Mode> modes = structure::lowest_modes(
+      solver.body(), solver.supports(), solver.displacements(), analysis.options, solver.springs());
+  if (model.output)
+    io::write_frequencies(*model.output, model.geometry.units, modes, solver.mass().nodal_mass());
+  write_shapes(modes, fields, solver);
+  if (quiet) return;
+  for (std::size_t k = 0; k < modes.size(); ++k)
+    fmt::print("  mode {:<4} frequency {:.8g} 1/{}\n", k + 1, modes[k].frequency(),
+               io::unit_names(model.geometry.units).time);
+  if (!model.output) return;
+  fmt::print("  frequencies  {}.h5\n", model.output->file);
+  if (model.output->fields)
+    for (const std::string& place : model.output->fields->on)
+      fmt::print("  shapes       {}_{}.pvd\n", model.output->file, place);
+}
+
+}  // namespace
+
+void run_analysis(const io::ModelFile& model, Fields& fields, ExplicitSolver& solver, bool quiet) {
+  std::visit([&](const auto& analysis) { run(analysis, model, fields, solver, quiet); }, *model.analysis);
+}
+
+}  // namespace app

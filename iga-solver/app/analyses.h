@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What iga-solve does with `analysis` of a model file; on one rank.
+#pragma once
+
+#include <optional>
+
+#include "io/field_series.h"
+#include "io/model_file.h"
+
+namespace app {
+
+/// `fields` are those of `output`, if it has some.  `solver` is the model's, and is left in the state that
+/// was found.  Writes what `output` and the analysis ask for, and prints it unless `quiet`.  Throws
+/// std::runtime_error.
+void run_analysis(const io::ModelFile& model, std::optional<io::FieldSeries>& fields,
+                  structure::ExplicitSolver& solver, bool quiet);
+
+}  // namespace app

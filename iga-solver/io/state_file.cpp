@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/state_file.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <ostream>
+#include <stdexcept>
+
+#include "geometry_io/hdf5_file.h"
+#include "geometry_io/regular_file.h"
+
+namespace io {
+
+namespace {
+
+using geometry_io::Hdf5Input;
+using geometry_io::InputError;
+using nurbs::NodalVectors;
+
+constexpr const char* kFormat = "iga-solver state";
+constexpr int kVersion = 1;
+
+NodalVectors nodal_vectors(const std::vector<double>& rows) {
+  return Eigen::Map<const NodalVectors>(rows.data(), 3, static_cast<Eigen::Index>(rows.size() / 3));
+}
+
+void append(const NodalVectors& values, std::vector<double>& numbers) {
+  numbers.insert(numbers.end(), values.data(), values.data() + values.size());
+}
+
+NodalVectors read_vectors(const Hdf5Input& file, const std::string& path) {
+  const geometry_io::Hdf5Value& values = file.numbers(path);
+  if (values.shape.size() != 2 || values.shape[1] != 3)
+    file.fail(path, fmt::format("has shape {}, expected [nodes][3]", geometry_io::shape_text(values.shape)));
+  return nodal_vectors(values.numbers);
+}
+
+}  // namespace
+
+void write_state(const std::string& path, geometry_io::Units units, const SavedState& state) {
+  geometry_io::Hdf5Output file;
+  file.set_text("/", "format", kFormat);
+  file.set_integers("/", "version", {kVersion});
+  file.set_text("/", "units", geometry_io::units_name(units));
+  file.add_group("/state");
+  const auto add = [&](const char* name, const NodalVectors& values) {
+    file.add_numbers(std::string("/state/") + name, {static_cast<hsize_t>(values.cols()), 3}, values.data());
+  };
+  add("reference", state.reference);
+  add("displacement", state.displacement);
+  add("velocity", state.velocity);
+  if (!state.memory.empty()) file.add_numbers("/state/memory", {state.memory.size()}, state.memory.data());
+  const std::string problem = geometry_io::write_file(path, [&](std::ostream& out) { out << file.bytes(); });
+  if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
+}
+
+SavedState read_state(const std::string& path, geometry_io::Units units, const geometry_io::ReadFile& read) {
+  const Hdf5Input file(read(path), path);
+  if (file.text("/", "format") != kFormat || !file.has("/state"))
+    file.fail("/",
+              fmt::format("format is '{}', expected '{}': a state that 'save' of an analysis has written",
+                          file.text("/", "format"), kFormat));
+  if (file.text("/", "units") != geometry_io::units_name(units))
+    file.fail("/", fmt::format("units are {}, expected {} as in the model", file.text("/", "units"),
+                               geometry_io::units_name(units)));
+  SavedState state{path,
+                   read_vectors(file, "/state/reference"),
+                   read_vectors(file, "/state/displacement"),
+                   read_vectors(file, "/state/velocity"),
+                   {}};
+  for (const NodalVectors* values : {&state.displacement, &state.velocity})
+    if (values->cols() != state.reference.cols())
+      file.fail("/state", fmt::format("has {} and {} nodes, expected the same number in all data sets",
+                                      state.reference.cols(), values->cols()));
+  if (file.has("/state/memory")) state.memory = file.numbers("/state/memory").numbers;
+  return state;
+}
+
+SavedState read_state(const geometry_io::YamlMap& document, geometry_io::Units units,
+                      const geometry_io::ReadFile& read) {
+  const std::filesystem::path folder = std::filesystem::path(document.file()).parent_path();
+  return read_state((folder / document.word("state")).string(), units, read);
+}
+
+void put_at_rest(structure::ExplicitSolver& solver, const NodalVectors& u, double time) {
+  std::vector<double> numbers{time};
+  append(u, numbers);
+  numbers.resize(numbers.size() + 2 * static_cast<std::size_t>(u.size()), 0.0);
+  const std::vector<double> memory = solver.memory_in_order();
+  numbers.insert(numbers.end(), memory.begin(), memory.end());
+  solver.load(numbers);
+}
+
+SavedState state_of(const structure::ExplicitSolver& solver) {
+  return {"", nodal_vectors(solver.in_order(solver.body().reference())),
+          nodal_vectors(solver.in_order(solver.displacements())),
+          nodal_vectors(solver.in_order(solver.velocities())), solver.memory_in_order()};
+}
+
+void start_from(const SavedState& state, structure::ExplicitSolver& solver) {
+  constexpr double kSame = 1e-9;  // of the size
+  const NodalVectors reference = nodal_vectors(solver.in_order(solver.body().reference()));
+  const std::size_t expected = solver.state_size();
+  if (reference.cols() != state.reference.cols() ||
+      (reference - state.reference).lpNorm<Eigen::Infinity>() > kSame * reference.lpNorm<Eigen::Infinity>())
+    throw InputError(
+        fmt::format("{}: is a state of {} control points, expected one of the same {} undeformed ones as in "
+                    "the model: mesh "
+                    "and geometry are others",
+                    state.file, state.reference.cols(), reference.cols()));
+  std::vector<double> numbers{0.0};
+  append(state.displacement, numbers);
+  append(state.velocity, numbers);
+  append(NodalVectors::Zero(3, reference.cols()), numbers);  // accelerations: found from the forces
+  numbers.insert(numbers.end(), state.memory.begin(), state.memory.end());
+  if (numbers.size() != expected)
+    throw InputError(fmt::format("{}: has a memory of {} numbers, expected {}: the material is another",
+                                 state.file, state.memory.size(),
+                                 state.memory.size() + expected - numbers.size()));
+  solver.load(numbers);
+}
+
+}  // namespace io

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The state of a solid as a file (HDF5): what an analysis has found, and what a run or a deck starts from.
+//   /                    attributes `format` ("iga-solver state"), `version` (1), `units`
+//   /state/reference     [nodes][3] undeformed positions of the control points: a state belongs to one mesh
+//   /state/displacement  [nodes][3],  /state/velocity [nodes][3],  /state/memory [numbers], if any
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "geometry_io/geometry_io.h"
+#include "geometry_io/yaml_map.h"
+#include "structure/time/explicit_solver.h"
+
+namespace io {
+
+/// Of a whole solid, in the order of ids.
+struct SavedState {
+  std::string file;  ///< for messages
+  nurbs::NodalVectors reference, displacement, velocity;
+  std::vector<double> memory;
+};
+
+/// Throws std::runtime_error, naming the file, if it cannot be written.
+void write_state(const std::string& path, geometry_io::Units units, const SavedState& state);
+/// Throws geometry_io::InputError, naming the file, if it is no such file or its units are others.
+SavedState read_state(const std::string& path, geometry_io::Units units, const geometry_io::ReadFile& read);
+/// The file that the key `state` of a model file names, relative to that.
+SavedState read_state(const geometry_io::YamlMap& document, geometry_io::Units units,
+                      const geometry_io::ReadFile& read);
+
+/// Displacements u of a solver's nodes, at rest; the solver is of a whole body.
+void put_at_rest(structure::ExplicitSolver& solver, const nurbs::NodalVectors& u, double time);
+
+/// The solver's own.  Collective.
+SavedState state_of(const structure::ExplicitSolver& solver);
+/// The solver goes on from there, at time 0; loads and supports are its own.  Throws geometry_io::InputError
+/// if the state is of another mesh.  Collective.
+void start_from(const SavedState& state, structure::ExplicitSolver& solver);
+
+}  // namespace io

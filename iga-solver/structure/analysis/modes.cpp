@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/analysis/modes.h"
+
+#include <fmt/format.h>
+
+#include <Spectra/SymGEigsShiftSolver.h>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "structure/analysis/coloured_products.h"
+#include "structure/analysis/conjugate_gradients.h"
+#include "structure/analysis/rigid_motions.h"
+
+namespace structure {
+
+namespace {
+
+/// Free degrees of freedom of nodal arrays, one after the other.
+class FreeDofs {
+ public:
+  FreeDofs(const Supports& supports, int node_count)
+      : numbers_(numbers_of_free(supports, node_count)),
+        count_(static_cast<Eigen::Index>(numbers_.size() - supports.fixed_dofs().size())) {}
+  Eigen::Index count() const { return count_; }
+  void spread(const double* values, NodalVectors& q) const {
+    for (std::size_t dof = 0; dof < numbers_.size(); ++dof)
+      q.data()[dof] = numbers_[dof] < 0 ? 0.0 : values[numbers_[dof]];
+  }
+  void gather(const NodalVectors& q, double* values) const {
+    for (std::size_t dof = 0; dof < numbers_.size(); ++dof)
+      if (numbers_[dof] >= 0) values[numbers_[dof]] = q.data()[dof];
+  }
+
+ private:
+  std::vector<int> numbers_;
+  Eigen::Index count_;
+};
+
+/// y = M x, as Spectra asks for it.
+struct MassProduct {
+  using Scalar = double;
+  Eigen::VectorXd mass;  // of each free degree of freedom
+  Eigen::Index rows() const { return mass.size(); }
+  void perform_op(const double* x, double* y) const {
+    for (Eigen::Index k = 0; k < mass.size(); ++k) y[k] = mass[k] * x[k];
+  }
+};
+
+/// Shapes with sum of m_A |q_A|^2 = 1, each at right angles to the others in this sense.
+class OrthonormalShapes {
+ public:
+  explicit OrthonormalShapes(const Eigen::VectorXd& nodal_mass) : mass_(nodal_mass) {}
+  double product(const NodalVectors& a, const NodalVectors& b) const {
+    return a.cwiseProduct(b).colwise().sum().dot(mass_.transpose());
+  }
+  /// Takes from q what is along them; twice, for round-off.
+  void remove_from(NodalVectors& q) const {
+    for (int twice = 0; twice < 2; ++twice)
+      for (const NodalVectors& shape : shapes_) q -= product(shape, q) * shape;
+  }
+  /// The same from forces b: then M^-1 b is free of them.
+  void remove_from_forces(NodalVectors& b) const {
+    for (const NodalVectors& shape : shapes_) b -= (shape * mass_.asDiagonal()) * shape.cwiseProduct(b).sum();
+  }
+  void add(NodalVectors q) {
+    remove_from(q);
+    shapes_.push_back(q / std::sqrt(product(q, q)));
+  }
+  const std::vector<NodalVectors>& all() const { return shapes_; }
+
+ private:
+  const Eigen::VectorXd& mass_;
+  std::vector<NodalVectors> shapes_;
+};
+
+/// y = (K + s M)^-1 x, likewise, without what is along shapes that are known.
+class InverseProduct {
+ public:
+  using Scalar = double;
+  InverseProduct(const Tangent& tangent, const FreeDofs& free, const OrthonormalShapes& known,
+                 const ModeOptions& options)
+      : tangent_(tangent),
+        free_(free),
+        known_(known),
+        preconditioner_(make_preconditioner(tangent, options.preconditioner)),
+        limits_{0.01 * options.tolerance},
+        b_(3, tangent.body().node_count()) {}
+  Eigen::Index rows() const { return free_.count(); }
+  int node_count() const { return tangent_.body().node_count(); }
+  void set_shift(double /*sigma*/) {}  // the tangent has it
+  void perform_op(const double* x, double* y) const {
+    free_.spread(x, b_);
+    known_.remove_from_forces(b_);
+    const CgResult result = conjugate_gradients(tangent_.product(), *preconditioner_, b_, x_, limits_);
+    if (!result.is_positive)
+      throw std::runtime_error("modes: the stiffness is not positive: the body has buckled");
+    if (!result.converged)
+      throw std::runtime_error(
+          fmt::format("modes: conjugate gradients are at {:.2e} after {} products, expected {:.1e}",
+                      result.residual, result.products, limits_.tolerance));
+    known_.remove_from(x_);
+    free_.gather(x_, y);
+  }
+
+ private:
+  const Tangent& tangent_;
+  const FreeDofs& free_;
+  const OrthonormalShapes& known_;
+  std::unique_ptr<Preconditioner> preconditioner_;
+  CgLimits limits_;
+  mutable NodalVectors b_, x_;
+};
+
+/// A shift where the body can move as a whole: about the least omega^2 of displacements that are quadratic in
+/// one coordinate, less what rigid motions have of them.
+double shift_of_free_body(const Tangent& tangent, const OrthonormalShapes& rigid) {
+  const NodalVectors& X = tangent.body().reference();
+  double least = std::numeric_limits<double>::infinity();
+  NodalVectors f(3, X.cols());
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      NodalVectors bent = NodalVectors::Zero(3, X.cols());
+      bent.row(i) = X.row(j).cwiseAbs2();
+      rigid.remove_from(bent);
+      tangent.supports().apply(bent);
+      tangent.multiply(bent, f);
+      const double quotient = bent.cwiseProduct(f).sum() / rigid.product(bent, bent);
+      if (quotient > 0.0) least = std::min(least, quotient);
+    }
+  return least;
+}
+
+/// The lowest `count` that are not among the known.
+std::vector<Mode> further_modes(InverseProduct& inverse, MassProduct& mass, const FreeDofs& free, int count,
+                                double shift, double tolerance) {
+  const Eigen::Index basis = std::min<Eigen::Index>(free.count(), 2 * count + 10);
+  Spectra::SymGEigsShiftSolver<InverseProduct, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(
+      inverse, mass, count, basis, -shift);
+  solver.init();
+  solver.compute(Spectra::SortRule::LargestMagn, 1000, tolerance, Spectra::SortRule::SmallestAlge);
+  if (solver.info() != Spectra::CompInfo::Successful)
+    throw std::runtime_error(fmt::format("modes: {} of {} modes found", solver.eigenvalues().size(), count));
+  std::vector<Mode> modes;
+  const Eigen::MatrixXd shapes = solver.eigenvectors();
+  for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
+    Mode mode{solver.eigenvalues()[k], NodalVectors(3, inverse.node_count())};
+    free.spread(shapes.col(k).data(), mode.shape);
+    modes.push_back(std::move(mode));
+  }
+  return modes;
+}
+
+}  // namespace
+
+double Mode::frequency() const {
+  constexpr double kTwoPi = 6.283185307179586;
+  return std::sqrt(std::max(0.0, eigenvalue)) / kTwoPi;
+}
+
+// Lanczos' method from one start sees one mode of several that have the same frequency, as a square plate
+// has: so it is asked again, without what is known, until nothing lower comes.
+std::vector<Mode> lowest_modes(const Body& body, const Supports& supports, const NodalVectors& u,
+                               const ModeOptions& options, const Springs& springs) {
+  const FreeDofs free(supports, body.node_count());
+  if (options.count >= free.count())
+    throw std::invalid_argument(
+        fmt::format("modes: count is {}, expected less than the {} free degrees of freedom", options.count,
+                    free.count()));
+  OrthonormalShapes known(body.row_sum_mass());
+  if (springs.empty())
+    for (NodalVectors& motion : free_rigid_motions(body.reference() + u, supports))
+      known.add(std::move(motion));
+  std::vector<Mode> modes;
+  for (const NodalVectors& shape : known.all()) modes.push_back({0.0, shape});
+  const double shift = modes.empty() ? 0.0 : shift_of_free_body(Tangent(body, supports, u), known);
+  const Tangent tangent(body, supports, u, shift, springs);
+  InverseProduct inverse(tangent, free, known, options);
+  MassProduct mass{Eigen::VectorXd(free.count())};
+  free.gather(Vector3::Ones() * body.row_sum_mass().transpose(), mass.mass.data());
+  const auto is_lower = [](const Mode& a, const Mode& b) { return a.eigenvalue < b.eigenvalue; };
+  for (int wanted = options.count - static_cast<int>(modes.size()); wanted > 0; wanted = 1) {
+    const std::vector<Mode> found = further_modes(inverse, mass, free, wanted, shift, options.tolerance);
+    const bool is_all =
+        static_cast<int>(modes.size()) >= options.count && !is_lower(found.front(), modes[options.count - 1]);
+    if (is_all) break;
+    for (const Mode& mode : found) known.add(mode.shape);
+    modes.insert(modes.end(), found.begin(), found.end());
+    std::stable_sort(modes.begin(), modes.end(), is_lower);
+  }
+  modes.resize(std::min<std::size_t>(modes.size(), options.count));
+  return modes;
+}
+
+}  // namespace structure

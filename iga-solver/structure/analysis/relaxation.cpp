@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/analysis/relaxation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace structure {
+
+namespace {
+
+double relative_residual(const ExplicitSolver& solver, NodalVectors& f) {
+  NodalVectors loads;
+  solver.external_forces(solver.displacements(), solver.time(), loads);
+  solver.body().internal_force(solver.displacements(), f);
+  solver.springs().add_forces(solver.displacements(), f);
+  const double size = std::max({loads.norm(), f.norm(), std::numeric_limits<double>::min()});
+  f = loads - f;
+  solver.supports().apply(f);
+  return f.norm() / size;
+}
+
+}  // namespace
+
+RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
+                const std::function<void(const RelaxPeak&)>& on_peak) {
+  const NodalVectors none = NodalVectors::Zero(3, solver.body().node_count());
+  NodalVectors f = none;
+  RelaxPeak peak{0, relative_residual(solver, f)};
+  double kinetic = 0.0;
+  solver.set_velocities(none);
+  solver.initialise_forces(none);
+  for (long step = 1; peak.residual > options.tolerance; ++step) {
+    if (step > options.most_steps)
+      throw std::runtime_error(
+          fmt::format("relax: forces out of balance are {:.3g} of loads and reactions after {} steps, "
+                      "expected {:.1e}: try more "
+                      "'steps', or 'analysis: static'",
+                      peak.residual, options.most_steps, options.tolerance));
+    solver.begin_step();
+    solver.end_step(none);
+    const double now = solver.kinetic_energy();
+    if (now >= kinetic) {
+      kinetic = now;
+      continue;
+    }
+    peak = {step, relative_residual(solver, f)};
+    if (on_peak) on_peak(peak);
+    kinetic = 0.0;
+    solver.set_velocities(none);
+    solver.initialise_forces(none);
+  }
+  return peak;
+}
+
+}  // namespace structure

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// To rest in time: where the kinetic energy has passed a peak, all velocities are set to zero; so it drains,
+// whatever the body and its law.
+// Source: Cundall (1976); Day (1965), Engineer 219, 218-221; Underwood (1983), "Dynamic relaxation", in
+// Belytschko & Hughes (eds.), Computational Methods for Transient Analysis.
+#pragma once
+
+#include <functional>
+#include <stdexcept>
+
+#include "structure/time/explicit_solver.h"
+
+namespace structure {
+
+struct RelaxOptions {
+  double tolerance = 1e-6;       ///< of the forces out of balance, relative to loads and reactions
+  long most_steps = 10'000'000;  ///< time steps
+};
+
+/// How it stands at a peak of the kinetic energy.
+struct RelaxPeak {
+  long step;
+  double residual;  ///< forces out of balance, relative
+};
+
+/// From the solver's state to rest under its loads, with its time step, which is set.  Gives the last peak.
+/// Throws std::runtime_error if it takes more steps, Diverged as the solver.
+RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
+                const std::function<void(const RelaxPeak&)>& on_peak = {});
+
+}  // namespace structure

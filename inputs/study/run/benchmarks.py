@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Folders of inputs/ whose runs are model files alone: benchmarks.py has BENCHMARKS, and run(benchmark, iga_solve) -> Row."""
+
+from __future__ import annotations
+
+import importlib.util
+import sys
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Sequence
+
+from study.run.summary import Row, table, write_json
+from study.run.usage import one_of
+
+
+def load(folder: Path):
+    spec = importlib.util.spec_from_file_location(folder.name, folder / "benchmarks.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[folder.name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def run_all(folder: Path, wanted: Sequence[str], solver: Path, out: Path) -> bool:
+    """Runs those that are wanted, all without any; prints them, and writes summary.json.  Whether all pass."""
+    module = load(folder)
+    names = [benchmark.name for benchmark in module.BENCHMARKS]
+    for pattern in wanted:
+        if not any(fnmatchcase(name, pattern) for name in names):
+            one_of("case", pattern, names)
+    out.mkdir(parents=True, exist_ok=True)
+    rows: list[Row] = []
+    for benchmark in module.BENCHMARKS:
+        if wanted and not any(fnmatchcase(benchmark.name, pattern) for pattern in wanted):
+            continue
+        rows.append(module.run(benchmark, solver.resolve()))
+        print(table(rows[-1:]).splitlines()[1], flush=True)
+        if rows[-1].note:
+            print(f"  {rows[-1].note}", flush=True)
+    write_json(out / "summary.json", folder.name, rows)
+    print("\n" + table(rows))
+    return all(row.passes for row in rows)

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`analysis` of iga-solve: equilibrium by static and by relax beside Hooke's bar and each other, what they write, a motion that
+starts from it and stays there; frequencies beside a bar's; what is refused."""
+
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+PROGRAM = os.environ["IGA_SOLVE"]
+MPIEXEC = os.environ["MPIEXEC"]
+E, RHO, LENGTH, STRESS = 2e9, 1000.0, 1.0, 1e6
+MODEL = """units: si
+geometry: {{box: {{origin: [0, 0, 0], size: [1, 0.1, 0.1], elements: [20, 2, 2], degree: 2}}}}
+material: {{law: {law}, youngs_modulus: 2e9, poissons_ratio: 0, density: 1000}}
+boundary: [{{name: wall, fix: [x, y, z], faces: [xi-]}}, {{fix: [y, z], faces: [eta-, eta+, zeta-, zeta+]}}]
+probes: {{end: {{face: xi+, at: [0.5, 0.5]}}}}
+loads: {{tractions: [{{face: xi+, value: [1e6, 0, 0]}}]}}
+output: {{file: out, fields: [displacement, stress]}}
+{more}
+"""
+
+
+class Analyses(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def run_model(self, more: str, law: str = "linear_elastic", ranks: int = 1, text: str = MODEL, code: int = 0) -> str:
+        (self.folder / "model.yaml").write_text(text.format(law=law, more=more))
+        launcher = [MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
+        done = subprocess.run(
+            [*launcher, PROGRAM, "model.yaml"], cwd=self.folder, capture_output=True, text=True, timeout=60, check=False
+        )
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout if code == 0 else done.stderr
+
+    def rows(self, name: str) -> np.ndarray:
+        with h5py.File(self.folder / "out.h5") as file:
+            return file[name][...]
+
+    def test_static_is_hookes_bar(self):
+        printed = self.run_model("analysis: {kind: static, load_steps: 4, save: sagged.h5}")
+        self.assertIn("preconditioner sparse", printed)
+        np.testing.assert_allclose(self.rows("time"), [0.25, 0.5, 0.75, 1.0])
+        stretch = STRESS / E * LENGTH
+        np.testing.assert_allclose(self.rows("probes/end")[:, 0], stretch * self.rows("time"), rtol=1e-8)
+        np.testing.assert_allclose(self.rows("reactions/wall")[:, 0], -0.01 * STRESS * self.rows("time"), rtol=1e-7)
+        np.testing.assert_allclose(self.rows("strain_energy")[-1], 0.5 * 0.01 * STRESS * stretch, rtol=1e-7)
+        self.assertEqual(len(list(self.folder.glob("out_volume_*.vtu"))), 4)
+        with h5py.File(self.folder / "sagged.h5") as file:
+            np.testing.assert_allclose(file["state/displacement"][:, 0], STRESS / E * file["state/reference"][:, 0], atol=1e-11)
+            self.assertTrue((file["state/velocity"][...] == 0).all())
+
+    def test_a_motion_that_starts_from_it_stays_there(self):
+        for kind in ("static, save: rest.h5", "relax, tolerance: 1e-9, save: rest.h5"):
+            with self.subTest(kind):
+                self.run_model(f"analysis: {{kind: {kind}}}", law="neo_hooke")
+                moving = MODEL.replace("file: out, fields: [displacement, stress]", "file: out, every: 1e-4")
+                self.run_model("state: rest.h5\ntime: {end: 2e-3}", law="neo_hooke", text=moving)
+                self.assertGreater(len(self.rows("time")), 15)
+                end = self.rows("probes/end")[:, 0]
+                self.assertGreater(end[0], 4.9e-4)
+                np.testing.assert_allclose(end, end[0], rtol=1e-6)
+                self.assertLess(self.rows("kinetic_energy").max(), 1e-10 * self.rows("strain_energy")[0])
+
+    def test_relax_is_static(self):
+        self.run_model("analysis: static", law="saint_venant_kirchhoff")
+        expected = self.rows("probes/end")[-1]
+        printed = self.run_model("analysis: {kind: relax, tolerance: 1e-7}", law="saint_venant_kirchhoff")
+        self.assertIn("at rest after", printed)
+        np.testing.assert_allclose(self.rows("probes/end")[-1], expected, rtol=1e-5, atol=1e-12)
+
+    def test_modes_are_those_of_a_bar(self):
+        finer = MODEL.replace("[20, 2, 2]", "[20, 4, 4]")  # lumped masses of fewer across make waves of others too slow
+        printed = self.run_model("analysis: {kind: modes, count: 3}", text=finer)
+        k = np.arange(3)
+        exact = (2 * k + 1) / (4 * LENGTH) * (E / RHO) ** 0.5
+        found = self.rows("frequency")
+        np.testing.assert_allclose(found[:1], exact[:1], rtol=2e-3)  # lumped masses: below
+        self.assertTrue((found < exact).all() and (found > 0.95 * exact).all())
+        self.assertIn(f"{found[0]:.8g} 1/s", printed)
+        np.testing.assert_allclose(self.rows("angular_frequency"), 2 * np.pi * found, rtol=1e-12)
+        shares = self.rows("effective_mass")[:, 0] / (RHO * 0.01)
+        np.testing.assert_allclose(shares, 8 / (np.pi * (2 * k + 1)) ** 2, rtol=0.05)
+        self.assertEqual(len(list(self.folder.glob("out_volume_*.vtu"))), 3)
+
+    def test_refusals(self):
+        for more, expected in (
+            ("analysis: statics", "model.yaml:8: analysis is statics, expected one of: static, relax, modes"),
+            ("analysis: {kind: static, load_step: 3}", "did you mean 'load_steps'?"),
+            ("analysis: {kind: static, load_steps: 0}", "model.yaml:8: analysis.load_steps is 0, expected a whole number from 1"),
+            ("analysis: {kind: static, preconditioner: multigrid}", "expected one of: auto, sparse, tensor, nodes"),
+            ("analysis: {kind: relax, steps: 5}", "after 5 steps, expected 1.0e-06"),
+            ("analysis: {kind: static, save: model.yaml}", "save is model.yaml, from which the model is read"),
+            ("analysis: static\nstate: none.h5", "none.h5: cannot read this file"),
+        ):
+            with self.subTest(more):
+                self.assertIn(expected, self.run_model(more, code=1))
+        free = MODEL.replace("boundary: [{{name: wall, fix: [x, y, z], faces: [xi-]}}, ", "boundary: [")
+        self.assertIn("free in 1 of its 6 rigid motions", self.run_model("analysis: static", text=free, code=1))
+        self.assertIn("runs on one rank", self.run_model("analysis: static", ranks=2, code=1))
+
+    def test_a_state_of_another_mesh_is_refused(self):
+        self.run_model("analysis: {kind: static, save: rest.h5}")
+        finer = MODEL.replace("[20, 2, 2]", "[21, 2, 2]").replace("file: out, fields: [displacement, stress]", "file: out, every: 1")
+        self.assertIn("mesh and geometry are others", self.run_model("state: rest.h5\ntime: {end: 1e-5}", text=finer, code=1))
+
+
+if __name__ == "__main__":
+    unittest.main()

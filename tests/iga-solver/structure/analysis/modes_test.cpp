@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Free vibrations, beside closed forms and the eigenvalues of the dense matrix.
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "models.h"
+#include "structure/analysis/modes.h"
+#include "structure/analysis/static_equilibrium.h"
+#include "structure/conditions/loads.h"
+
+namespace {
+
+using models::NodalVectors;
+using models::Vector3;
+using nurbs::Face;
+using structure::Mode;
+using structure::PreconditionerKind;
+using structure::Solid;
+using structure::Supports;
+
+NodalVectors undeformed(const Solid& solid) { return NodalVectors::Zero(3, solid.node_count()); }
+
+TEST(Modes, AreTheEigenvaluesOfTheDenseMatrix) {
+  const Solid solid(models::distorted(models::block({3, 2, 1}, {3, 2, 2}, 2), 0.02), models::elastic());
+  Supports supports;
+  supports.fix(structure::nodes_on(solid.patch(0).space(), {Face::xi_minus}), {true, true, true});
+  const Eigen::VectorXd expected =
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(models::mass_scaled_stiffness(solid, supports))
+          .eigenvalues();
+  for (const PreconditionerKind kind :
+       {PreconditionerKind::sparse, PreconditionerKind::tensor, PreconditionerKind::nodes}) {
+    const std::vector<Mode> modes =
+        structure::lowest_modes(solid, supports, undeformed(solid), {8, 1e-10, kind});
+    ASSERT_EQ(modes.size(), 8U);
+    for (int k = 0; k < 8; ++k) EXPECT_NEAR(modes[k].eigenvalue, expected[k], 1e-9 * expected[k]) << k;
+  }
+}
+
+TEST(Modes, OfAFreeBlockSixAreRigid) {
+  const Solid solid(models::block({3, 2, 1}, {4, 3, 2}, 2), models::elastic());
+  const Eigen::VectorXd& m = solid.row_sum_mass();
+  for (const PreconditionerKind kind : {PreconditionerKind::sparse, PreconditionerKind::tensor}) {
+    const std::vector<Mode> modes = structure::lowest_modes(solid, {}, undeformed(solid), {9, 1e-9, kind});
+    const double elastic = modes[6].eigenvalue;
+    EXPECT_GT(elastic, 1e-3);
+    for (int k = 0; k < 6; ++k) EXPECT_LT(std::abs(modes[k].eigenvalue), 1e-7 * elastic);
+    for (int j = 0; j < 9; ++j)
+      for (int k = 0; k <= j; ++k)
+        EXPECT_NEAR((modes[j].shape.cwiseProduct(modes[k].shape).colwise().sum() * m).value(),
+                    j == k ? 1.0 : 0.0, 1e-8);
+  }
+}
+
+double cantilever(const std::array<int, 3>& elements, int mode) {
+  const Solid solid(models::block({10, 1, 1}, elements, 2), models::elastic(1.0, 0.0));
+  Supports supports;  // bends in the plane x, z
+  supports.fix(structure::nodes_on(solid.patch(0).space(), {Face::xi_minus}), {true, true, true});
+  supports.fix(structure::nodes_on(solid.patch(0).space(), {Face::eta_minus}), {false, true, false});
+  supports.fix(structure::nodes_on(solid.patch(0).space(), {Face::eta_plus}), {false, true, false});
+  const std::vector<Mode> modes = structure::lowest_modes(solid, supports, undeformed(solid), {4});
+  return std::sqrt(modes[mode].eigenvalue * 12.0) * 100.0;  // omega L^2 sqrt(rho A / (E I))
+}
+
+// Independent code, lumped masses; Timoshenko's beam: 3.49303, 21.0915; second order in the mesh.
+TEST(Modes, OfACantileverAreThoseOfTimoshenkosBeam) {
+  const double coarse = cantilever({10, 1, 1}, 0), fine = cantilever({20, 2, 2}, 0);
+  EXPECT_NEAR(coarse, 3.4709, 1e-3);
+  EXPECT_NEAR(cantilever({10, 1, 1}, 1), 20.256, 1e-2);
+  EXPECT_NEAR(fine, 3.4852, 1e-3);
+  EXPECT_NEAR(cantilever({20, 2, 2}, 1), 20.786, 1e-2);
+  const double limit = 3.4932;
+  EXPECT_NEAR(std::log2((limit - coarse) / (limit - fine)), 1.5, 0.5);
+}
+
+// A stretched St. Venant-Kirchhoff bar is stiffer along its axis by (3 s^2 - 1) / 2.
+TEST(Modes, AreThoseAboutADeformedState) {
+  for (const structure::MaterialLaw& law : structure::material_laws()) {
+    if (law.word != std::string("saint_venant_kirchhoff")) continue;
+    const Solid solid(models::block({1, 0.1, 0.1}, {8, 1, 1}, 2), law.make({1.0, 0.0, 1.0}));
+    Supports supports;
+    for (const Face face : {Face::eta_minus, Face::eta_plus, Face::zeta_minus, Face::zeta_plus})
+      supports.fix(structure::nodes_on(solid.patch(0).space(), {face}), {false, true, true});
+    supports.fix(structure::nodes_on(solid.patch(0).space(), {Face::xi_minus}), {true, true, true});
+    NodalVectors stretched = undeformed(solid);
+    stretched.row(0) = 0.1 * solid.reference().row(0);
+    const double before = structure::lowest_modes(solid, supports, undeformed(solid), {1}).front().eigenvalue,
+                 after = structure::lowest_modes(solid, supports, stretched, {1}).front().eigenvalue;
+    EXPECT_NEAR(after / before, (3.0 * 1.1 * 1.1 - 1.0) / 2.0, 1e-7);
+    EXPECT_NEAR(std::sqrt(before), 1.5707963, 0.02);  // pi/2 c/L, lumped
+  }
+}
+
+TEST(Modes, MoreThanThereAreIsRefused) {
+  const Solid solid(models::block({1, 1, 1}, {1, 1, 1}, 1), models::elastic());
+  EXPECT_THROW(structure::lowest_modes(solid, {}, undeformed(solid), {24}), std::invalid_argument);
+}
+
+}  // namespace
