@@ -28,10 +28,11 @@ void expect_one_material(const io::ModelFile& model, const std::vector<structure
   for (const structure::SkinPiece& piece : skin)
     if (const structure::Material& other = *model.materials[piece.patch];
         other.youngs_modulus() != first.youngs_modulus() || other.poissons_ratio() != first.poissons_ratio())
-      throw geometry_io::InputError(fmt::format(
-          "{}: surface '{}' lies on patches of two materials ({} and {}), expected one: contact laws have one "
-          "material of the wall",
-          model.file, surface, skin.front().patch, piece.patch));
+      throw geometry_io::InputError(
+          fmt::format("{}: surface '{}' lies on patches of two materials ({} and {}), expected one: contact "
+                      "laws have one "
+                      "material of the wall",
+                      model.file, surface, skin.front().patch, piece.patch));
 }
 
 OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface) {

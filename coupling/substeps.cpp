@@ -6,11 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 
 #include "coupling/two_masses.h"
-#include "structure/material/linear_elastic.h"
 #include "structure/time/stable_time_step.h"
 
 namespace coupling {
@@ -30,13 +28,6 @@ constexpr double kDamping = 0.02;
 
 /// How much later the displacements are that internal forces belong to, with a fast structure.
 double lead(double dt) { return 2.0 * kDamping / kPi * dt; }
-
-bool is_linear(const structure::Body& body) {
-  const std::vector<const structure::Material*> materials = body.materials();
-  return std::all_of(materials.begin(), materials.end(), [](const structure::Material* material) {
-    return material->law() == std::string_view(structure::LinearElasticLaw::kWord);
-  });
-}
 
 /// Columns of the nodes that the surface hangs on.
 std::vector<Eigen::Index> surface_nodes(const StructureSolver& body) {
@@ -100,7 +91,7 @@ bool Substeps::needs_spread(double dt) {
   const double damped = grows(count_, false);
   if (damped <= kMostGrowth) return false;
   const int most = options_.count ? count_ : std::min(count_ + 4, kMostSubsteps);
-  for (int count = count_; is_linear(solver_.body()) && count <= most; ++count) {
+  for (int count = count_; structure::is_linear(solver_.body()) && count <= most; ++count) {
     if (grows(count, true) > kMostGrowth) continue;
     count_ = count;
     return true;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace structure {
 
 void Body::internal_force_change(const NodalVectors& u, const NodalVectors& w, NodalVectors& f) const {
@@ -27,6 +29,11 @@ std::vector<int> Body::element_nodes(int element) const {
   for (int a = 0; a < padded; ++a)
     if (values[a] > 0.0) nodes.push_back(static_cast<int>(values[a]) - 1);
   return nodes;
+}
+
+bool is_linear(const Body& body) {
+  const std::vector<const Material*> materials = body.materials();
+  return std::all_of(materials.begin(), materials.end(), [](const Material* m) { return m->is_linear(); });
 }
 
 std::string text(const Vector3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", x[0], x[1], x[2]); }

@@ -102,6 +102,9 @@ class Body {
   virtual std::vector<std::array<int, 2>> net_edges() const { return {}; }
 };
 
+/// Whether the laws of all patches are.
+bool is_linear(const Body& body);
+
 /// "(1, 2.5, 3)", for messages.
 std::string text(const Vector3& x);
 

@@ -16,12 +16,6 @@ namespace structure {
 /// y = A x of a symmetric A, both 3 x node_count.
 using Product = std::function<void(const NodalVectors& x, NodalVectors& y)>;
 
-/// Whether K(u) is the same at all u.
-inline bool is_linear(const Body& body) {
-  const std::vector<const Material*> materials = body.materials();
-  return std::all_of(materials.begin(), materials.end(), [](const Material* m) { return m->is_linear(); });
-}
-
 /// (K(u) + springs + shift M) x, 0 at fixed degrees of freedom, where x is 0, too.  Keeps references to body,
 /// supports and springs, and to u, which may move on between products.
 class Tangent {
