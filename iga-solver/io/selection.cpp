@@ -35,8 +35,7 @@ std::vector<nurbs::Face> read_faces(const YamlMap& map, const std::string& key) 
 NodeSet points_of_patch(const Selection& selection, const nurbs::Volume& patch) {
   if (selection.box)
     return structure::nodes_within(patch.control_points, (*selection.box)[0], (*selection.box)[1]);
-  if (selection.on_all_of_them || selection.faces.empty())
-    return structure::nodes_on(patch.space, selection.faces);
+  if (selection.on_all_of_them) return structure::nodes_on(patch.space, selection.faces);
   NodeSet all;
   for (const nurbs::Face face : selection.faces) {
     const NodeSet one = structure::nodes_on(patch.space, {face}), before = std::exchange(all, {});
@@ -106,7 +105,7 @@ Selection read_selection(const YamlMap& map, const GeometryFile& geometry,
   if (key == "faces" || key == "edge" || key == "corner") selection.faces = read_faces(map, key);
   if (key == "edge") expect_faces(map, key, selection.faces, 2);
   if (key == "corner") expect_faces(map, key, selection.faces, 3);
-  selection.on_all_of_them = key == "edge" || key == "corner";
+  selection.on_all_of_them = key == "edge" || key == "corner" || key == "patch";
   if (key != "faces" && nodes_of(selection, geometry, nodes).empty())
     map.fail(key, fmt::format("{} has no control points, expected some", key));
   return selection;

@@ -22,7 +22,7 @@ using nurbs::Vector3;
 struct Selection {
   std::vector<int> patches = {0};
   std::vector<nurbs::Face> faces = {};
-  bool on_all_of_them = false;                     ///< an edge or a corner
+  bool on_all_of_them = false;                     ///< an edge, a corner, or, without faces, all of the patch
   std::optional<std::array<Vector3, 2>> box = {};  ///< lowest and highest corner [length]
 };
 

@@ -25,6 +25,23 @@ output: {{file: out, fields: [displacement, stress]}}
 """
 
 
+# two welded bars of different stiffness, one on the other, bent by a force along the edge of the upper one
+SANDWICH = """units: mm-t-s
+geometry:
+  shapes:
+    - box: {{origin: [0, 0, 0], size: [100, 20, 4], elements: [20, 4, 2], degree: 2}}
+    - box: {{origin: [0, 0, 4], size: [100, 20, 4], elements: [20, 4, 2], degree: 2}}
+material:
+  - {{patches: [0], law: {law}, youngs_modulus: 2.1e5, poissons_ratio: 0, density: 7.85e-9}}
+  - {{patches: [1], law: {law}, youngs_modulus: 7e4, poissons_ratio: 0, density: 2.7e-9}}
+boundary: [{{name: clamp, fix: [x, y, z], faces: [xi-], patch: [0, 1]}}]
+loads: {{lines: [{{edge: [xi+, zeta+], patch: 1, value: [0, 0, -1]}}]}}
+probes: {{end: {{face: xi+, patch: 1, at: [0.5, 0]}}}}
+output: {{file: out, fields: [displacement, stress]}}
+{more}
+"""
+
+
 class Analyses(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -75,6 +92,20 @@ class Analyses(unittest.TestCase):
         printed = self.run_model("analysis: {kind: relax, tolerance: 1e-7}", law="saint_venant_kirchhoff")
         self.assertIn("at rest after", printed)
         np.testing.assert_allclose(self.rows("probes/end")[-1], expected, rtol=1e-5, atol=1e-12)
+
+    def test_welded_patches_of_two_materials(self):
+        """Timoshenko's beam of two materials without Poisson's ratio; relax gives what static does."""
+        E1, E2, width, height, length, force = 2.1e5, 7e4, 20.0, 4.0, 100.0, 20.0
+        axis = (E1 * 2 + E2 * 6) / (E1 + E2)
+        bending = width * height * (E1 * (height**2 / 12 + (2 - axis) ** 2) + E2 * (height**2 / 12 + (6 - axis) ** 2))
+        shear = 5 / 6 * width * height * (E1 + E2) / 2
+        expected = -force * (length**3 / (3 * bending) + length / shear)
+        self.run_model("analysis: static", text=SANDWICH)
+        found = self.rows("probes/end")[-1]
+        self.assertLess(abs(found[2] / expected - 1), 2e-3)
+        np.testing.assert_allclose(self.rows("reactions/clamp")[-1], [0, 0, force], atol=1e-6)
+        self.run_model("analysis: {kind: relax, tolerance: 1e-7}", text=SANDWICH)
+        np.testing.assert_allclose(self.rows("probes/end")[-1], found, rtol=1e-4, atol=1e-9)
 
     def test_modes_are_those_of_a_bar(self):
         finer = MODEL.replace("[20, 2, 2]", "[20, 4, 4]")  # lumped masses of fewer across make waves of others too slow
