@@ -7,13 +7,13 @@
 
 namespace structure {
 
-NodeNumbering::NodeNumbering(std::vector<int> control_points) : begin_{0} {
+NodeNumbering::NodeNumbering(const std::vector<int>& control_points) : begin_{0} {
   for (const int count : control_points) begin_.push_back(begin_.back() + count);
   node_count_ = begin_.back();
 }
 
-NodeNumbering::NodeNumbering(std::vector<int> control_points, const std::vector<int>& first)
-    : NodeNumbering(std::move(control_points)) {
+NodeNumbering::NodeNumbering(const std::vector<int>& control_points, const std::vector<int>& first)
+    : NodeNumbering(control_points) {
   NURBS_ASSERT(static_cast<Id>(first.size()) == node_count_, first.size(), node_count_);
   std::vector<std::pair<Id, Id>> again;  // nodes, and places that are not their first
   nodes_.resize(first.size());

@@ -19,10 +19,10 @@ class NodeNumbering {
   };
 
   /// Every control point is a node of its own.
-  explicit NodeNumbering(std::vector<int> control_points);
+  explicit NodeNumbering(const std::vector<int>& control_points);
   /// `first`: per patch and control point, the earliest one of all patches at its place (or itself), counted
   /// patch after patch.
-  NodeNumbering(std::vector<int> control_points, const std::vector<int>& first);
+  NodeNumbering(const std::vector<int>& control_points, const std::vector<int>& first);
 
   int patch_count() const { return static_cast<int>(begin_.size()) - 1; }
   int control_point_count(int patch) const { return static_cast<int>(begin_[patch + 1] - begin_[patch]); }

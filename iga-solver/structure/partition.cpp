@@ -126,15 +126,15 @@ void Partition::divide(int patch, const Range& boxes, const Shares& shares) {
     return;
   }
   const auto [begin, end] = boxes[d];
-  const double middle = (first + last + 1) / 2;
+  const int middle = (first + last + 1) / 2;  // a whole number of parts
   const double wanted = spans(d, begin, end) * (middle - shares.begin) / (shares.end - shares.begin);
   int cut = begin;
   while (cut < end && std::abs(spans(d, begin, cut + 1) - wanted) < std::abs(spans(d, begin, cut) - wanted))
     ++cut;
   Range lower = boxes, upper = boxes;
   lower[d][1] = upper[d][0] = cut;
-  if (cut > begin) divide(patch, lower, {shares.begin, middle});
-  if (cut < end) divide(patch, upper, {middle, shares.end});
+  if (cut > begin) divide(patch, lower, {shares.begin, double(middle)});
+  if (cut < end) divide(patch, upper, {double(middle), shares.end});
 }
 
 void Partition::weld_boxes() {
