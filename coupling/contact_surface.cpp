@@ -87,6 +87,15 @@ void SurfaceMap::add_to_nodes(const NodalVectors& surface, NodalVectors& nodal) 
   add_to_nodes(all(), surface, nodal);
 }
 
+std::vector<Eigen::Index> SurfaceMap::columns_of(const std::vector<NodeId>& nodes) const {
+  NodalVectors marks = NodalVectors::Zero(3, node_count());
+  add_to_nodes(NodalVectors::Ones(3, control_point_count()), marks);
+  std::vector<Eigen::Index> columns;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    if (nodes[i] >= 0 && marks(0, nodes[i]) != 0.0) columns.push_back(static_cast<Eigen::Index>(i));
+  return columns;
+}
+
 void SurfaceMap::nodes_of(const std::vector<int>& control_points, std::vector<Eigen::Index>& nodes) const {
   nodes.clear();
   for (const int row : control_points)

@@ -35,10 +35,17 @@ class SurfaceMap {
   SurfaceMap on(const std::vector<NodeId>& nodes, Eigen::Index owned) const;
   /// The same where all are owned; also throws if the surface hangs on a node that is not among them.
   SurfaceMap on(const std::vector<NodeId>& nodes) const;
+  /// Which of nodal arrays' columns, which belong to these ids (-1: to none), the surface hangs on.
+  std::vector<Eigen::Index> columns_of(const std::vector<NodeId>& nodes) const;
   bool hangs(int control_point) const {
     return S_.outerIndexPtr()[control_point + 1] > S_.outerIndexPtr()[control_point];
   }
 
+  /// visit(node, share) for each node that a control point hangs on.
+  template <class Visit>
+  void for_each_share(int control_point, Visit visit) const {
+    for (Matrix::InnerIterator entry(S_, control_point); entry; ++entry) visit(entry.col(), entry.value());
+  }
   /// The value at a control point where `nodal` (3 x n_nodes) are those of the nodes.
   Vector3 at(int control_point, const NodalVectors& nodal) const {
     Vector3 sum = Vector3::Zero();

@@ -74,37 +74,33 @@ class NumberReader {
 
 }  // namespace
 
-namespace {
-
-/// checksum() of numbers that come one by one.
-class Checksum {
- public:
-  void add(double value) {
-    constexpr double kGoldenRatio = 0.61803398874989485;  // its multiples modulo 1 are all different
-    const double place = kGoldenRatio * static_cast<double>(count_++);
-    const double c = 0.5 + 0.5 * (place - std::floor(place));
-    sum_ += 2.0 * std::abs(value) + c * value;
-  }
-  double sum() const { return sum_; }
-
- private:
-  std::size_t count_ = 0;
-  double sum_ = 0.0;
-};
-
-}  // namespace
+double checksum_term(std::size_t i, double x) {
+  constexpr double kGoldenRatio = 0.61803398874989485;  // its multiples modulo 1 are all different
+  const double place = kGoldenRatio * static_cast<double>(i);
+  const double c = 0.5 + 0.5 * (place - std::floor(place));
+  return 2.0 * std::abs(x) + c * x;
+}
 
 double checksum(const std::vector<double>& values) {
-  Checksum checksum;
-  for (const double value : values) checksum.add(value);
-  return checksum.sum();
+  double sum = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) sum += checksum_term(i, values[i]);
+  return sum;
+}
+
+ControlPointDigest digest(const nurbs::NodalVectors& control_points) {
+  ControlPointDigest digest{static_cast<std::size_t>(control_points.size()), 0.0,
+                            control_points.rowwise().minCoeff(), control_points.rowwise().maxCoeff()};
+  for (std::size_t i = 0; i < digest.numbers; ++i)
+    digest.checksum += checksum_term(i, control_points.data()[i]);
+  return digest;
 }
 
 template <int Dim>
 FingerprintPart geometry_part(const std::vector<nurbs::Space<Dim>>& patches,
-                              const nurbs::NodalVectors& control_points) {
+                              const ControlPointDigest& control_points) {
   std::vector<double> knots, numbers{Dim, static_cast<double>(patches.size())};
-  Checksum weights, coordinates;
+  std::size_t weight_count = 0;
+  double weights = 0.0;
   int elements = 0;
   for (const nurbs::Space<Dim>& patch : patches) {
     elements += patch.element_count();
@@ -113,24 +109,23 @@ FingerprintPart geometry_part(const std::vector<nurbs::Space<Dim>>& patches,
       numbers.push_back(direction.degree());
       numbers.push_back(direction.element_count());
     }
-    for (int A = 0; A < patch.control_point_count(); ++A) weights.add(patch.weight(A));
+    for (int A = 0; A < patch.control_point_count(); ++A)
+      weights += checksum_term(weight_count++, patch.weight(A));
   }
-  for (Eigen::Index i = 0; i < control_points.size(); ++i) coordinates.add(control_points.data()[i]);
-  numbers.insert(numbers.end(), {static_cast<double>(control_points.size()), coordinates.sum(),
-                                 checksum(knots), weights.sum()});
+  numbers.insert(numbers.end(), {static_cast<double>(control_points.numbers), control_points.checksum,
+                                 checksum(knots), weights});
 
   std::ostringstream text;
   if (patches.size() == 1)
     text << text_of(patches.front());
   else
     text << patches.size() << " patches of " << elements << " elements";
-  text << " from " << text_of(nurbs::Vector3(control_points.rowwise().minCoeff())) << " to "
-       << text_of(nurbs::Vector3(control_points.rowwise().maxCoeff()));
+  text << " from " << text_of(control_points.lower) << " to " << text_of(control_points.upper);
   return {"geometry", text.str(), std::move(numbers)};
 }
 
-template FingerprintPart geometry_part(const std::vector<nurbs::Space<2>>&, const nurbs::NodalVectors&);
-template FingerprintPart geometry_part(const std::vector<nurbs::Space<3>>&, const nurbs::NodalVectors&);
+template FingerprintPart geometry_part(const std::vector<nurbs::Space<2>>&, const ControlPointDigest&);
+template FingerprintPart geometry_part(const std::vector<nurbs::Space<3>>&, const ControlPointDigest&);
 
 FingerprintPart word_part(const std::string& name, const std::string& word) {
   return {name, word, {word.begin(), word.end()}};

@@ -24,12 +24,21 @@ constexpr double kFingerprintTolerance = 1e-12;
 /// One number for many: sum of 2 |x_i| + c_i x_i with 1/2 <= c_i < 1, each term of which is positive, so a
 /// change of any x_i shows in proportion.
 double checksum(const std::vector<double>& values);
+/// What x_i adds to it: terms may be added in any order, by any rank.
+double checksum_term(std::size_t i, double x);
 
-/// Part "geometry" of patches (dimension 2 or 3) that are given as spaces with all control points, patch
-/// after patch, in 3 x n [length].
+/// Of control points [length], what is compared.
+struct ControlPointDigest {
+  std::size_t numbers;          ///< 3 per point
+  double checksum;              ///< of x, y, z of the first, then of the second
+  nurbs::Vector3 lower, upper;  ///< corners of the box around them
+};
+ControlPointDigest digest(const nurbs::NodalVectors& control_points);
+
+/// Part "geometry" of patches (dimension 2 or 3) that are given as spaces, with all their control points.
 template <int Dim>
 FingerprintPart geometry_part(const std::vector<nurbs::Space<Dim>>& patches,
-                              const nurbs::NodalVectors& control_points);
+                              const ControlPointDigest& control_points);
 
 /// A part that is one word, which must agree.
 FingerprintPart word_part(const std::string& name, const std::string& word);

@@ -84,6 +84,22 @@ void add_materials(const structure::Body& body, Fingerprint& fingerprint) {
   }
 }
 
+/// Of the whole body; each part looks at its own.
+ControlPointDigest digest(const structure::Halo& halo, const NodalVectors& reference) {
+  const auto X = halo.own(reference);
+  structure::ExactSum checksum;
+  for (Eigen::Index i = 0; i < X.cols(); ++i)
+    for (int c = 0; c < 3; ++c) checksum.add(checksum_term(3 * halo.node_id(i) + c, X(c, i)));
+  ControlPointDigest digest{static_cast<std::size_t>(halo.sum(static_cast<double>(X.size()))),
+                            halo.total(checksum), Vector3::Zero(), Vector3::Zero()};
+  for (int c = 0; c < 3; ++c) {
+    constexpr double kNone = -std::numeric_limits<double>::infinity();
+    digest.lower[c] = -halo.largest(X.cols() > 0 ? -X.row(c).minCoeff() : kNone);
+    digest.upper[c] = halo.largest(X.cols() > 0 ? X.row(c).maxCoeff() : kNone);
+  }
+  return digest;
+}
+
 FingerprintPart supports_part(const std::vector<structure::Id>& fixed) {
   return {"supports",
           fmt::format("{} fixed degrees of freedom", fixed.size()),
@@ -121,6 +137,14 @@ void IgaStructure::end_step(const NodalForces& forces) {
 void IgaStructure::write_output() {
   if (history_) history_->record_if_due(solver_);
   if (fields_) fields_->write_if_due(solver_);
+}
+
+void IgaStructure::write_output(double time, double step, const std::function<void()>& place,
+                                const std::function<void(io::HistoryRow& row)>& amend) {
+  const bool row = history_ && history_->is_due(time, step), state = fields_ && fields_->is_due(time, step);
+  if (row || state) place();
+  if (row) history_->record(solver_, amend);
+  if (state) fields_->write(solver_);
 }
 
 void IgaStructure::load(const std::vector<double>& state) {
@@ -176,10 +200,8 @@ Fingerprint IgaStructure::fingerprint() const {
   const structure::Body& body = solver_.body();
   std::vector<std::string> faces;
   for (const structure::SkinPiece& piece : skin_) faces.emplace_back(name_of(piece));
-  const std::vector<double> X = solver_.in_order(body.reference());
-  const auto geometry = [&](const auto& patches) {
-    return geometry_part(patches, NodalVectors::Map(X.data(), 3, static_cast<Eigen::Index>(X.size() / 3)));
-  };
+  const ControlPointDigest points = digest(solver_.halo(), body.reference());
+  const auto geometry = [&](const auto& patches) { return geometry_part(patches, points); };
   Fingerprint fingerprint{std::visit(geometry, body.patches()),
                           word_part("surface", fmt::format("{}", fmt::join(faces, ", ")))};
   add_materials(body, fingerprint);

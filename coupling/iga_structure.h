@@ -2,6 +2,7 @@
 // iga-solver's explicit solid behind the port.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,6 +32,12 @@ class IgaStructure final : public StructureSolver {
   void write_fields(parallel::SharedFields fields) { fields_.emplace(std::move(fields)); }
 
   structure::ExplicitSolver& solver() { return solver_; }
+  const std::vector<structure::Probe>& watched_points() const { return probes_; }
+  const std::vector<structure::NamedSupport>& watched_supports() const { return named_supports_; }
+  /// Of a body that somebody else moves (modal_structure.h): writes what is due at a time, of the solver as
+  /// `place` leaves it, a row of the histories as `amend` does.
+  void write_output(double time, double step, const std::function<void()>& place,
+                    const std::function<void(io::HistoryRow& row)>& amend);
 
   const ContactSurface& surface() const override { return surface_; }
   const std::vector<NodeId>& nodes() const override { return nodes_; }
@@ -48,6 +55,7 @@ class IgaStructure final : public StructureSolver {
   void set_time_step(double dt) override;
   double stable_time_step() const override { return solver_.stable_time_step(); }
   double stable_time_step_with_contacts() const override { return solver_.stable_time_step_now(); }
+  std::string take_warning() override { return solver_.take_warning(); }
 
   bool moves() const override { return true; }
   NodalVectors inverse_node_mass() const override { return solver_.inverse_mass(); }

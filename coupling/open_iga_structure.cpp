@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "coupling/iga_structure.h"
+#include "coupling/modal_setup.h"
 #include "coupling/model_text.h"
 #include "coupling/open_structure.h"
 #include "io/model_file.h"
@@ -35,16 +35,31 @@ void expect_one_material(const io::ModelFile& model, const std::vector<structure
                       model.file, surface, skin.front().patch, piece.patch));
 }
 
-OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface) {
+std::optional<ModalDamping> expect_no_modal_damping(const io::ModelFile& model) {
+  if (model.modal_damping.empty()) return std::nullopt;
+  throw geometry_io::InputError(
+      fmt::format("{}: damping.modal is of modes, expected 'body modal N' after the file, or damping by mass "
+                  "or stiffness",
+                  model.file));
+}
+
+OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface,
+                                   const SolidOptions& options) {
   io::ModelFile model = io::read_model_file(path, reader_on_all_ranks(comm));
+  if (!options.state.empty())
+    model.state = io::read_state(options.state, model.geometry.units, reader_on_all_ranks(comm));
   geometry_io::named_surface(model.geometry, surface, path);  // complains about a name that is not there
   std::vector<structure::SkinPiece> skin;
   for (const geometry_io::SurfacePiece& piece : model.geometry.surfaces.at(surface))
     skin.push_back({piece.patch, *piece.face});
   expect_one_material(model, skin, surface);
+  const std::optional<ModalDamping> damping =
+      options.modes ? std::optional(take_damping(model)) : expect_no_modal_damping(model);
   std::optional<parallel::SharedFields> fields;
   if (model.output && model.output->fields) fields.emplace(comm, model);
   const io::Cut cut = parallel::cut_among(comm);
+  std::optional<io::ModelFile> whole;
+  if (damping && cut.parts > 1 && cut.part == 0) whole = model;
   auto solver = std::make_unique<IgaStructure>(io::build_solver(model, cut), std::move(skin), model.probes,
                                                gravity_of(model), cut.parts > 1);
   if (model.loads.gravity && model.loads.gravity->of_the_deck) solver->take_gravity_of_deck();
@@ -53,13 +68,17 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
     solver->write_history(parallel::SharedHistory(comm, *model.output, model.geometry.units, model.probes,
                                                   model.named_supports()));
   if (fields) solver->write_fields(std::move(*fields));
-  return {std::move(solver), model.geometry.units};
+  if (!damping) return {std::move(solver), model.geometry.units};
+  return {make_modal(comm, std::move(solver), std::move(whole), *options.modes, *damping),
+          model.geometry.units};
 }
 
 }  // namespace
 
-OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface) {
-  return parallel::on_every_rank(comm, path, [&] { return read_iga_structure(comm, path, surface); });
+OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface,
+                                   const SolidOptions& options) {
+  return parallel::on_every_rank(comm, path,
+                                 [&] { return read_iga_structure(comm, path, surface, options); });
 }
 
 }  // namespace coupling

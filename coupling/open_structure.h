@@ -9,6 +9,7 @@
 #include <string>
 
 #include "coupling/rigid/rigid_surface.h"
+#include "coupling/solid_options.h"
 #include "coupling/structure_solver.h"
 #include "geometry_io/geometry_file.h"
 
@@ -28,6 +29,13 @@ OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const
 /// Deforming solid of iga-solver: the named surface of a model file.  Collective; throws
 /// geometry_io::InputError on every rank.  Lives in the library coupling_iga, so that a rigid wall links no
 /// structural code.
-OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface);
+OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface,
+                                   const SolidOptions& options = {});
+
+/// A body of an outside code: `library` exports what plugin/structure_plugin.h asks for, `model` and
+/// `surface` are its business.  Collective; throws std::invalid_argument or geometry_io::InputError on every
+/// rank. Lives in the library coupling_plugin.
+OpenedStructure open_plugin_structure(MPI_Comm comm, const std::string& library, const std::string& model,
+                                      const std::string& surface);
 
 }  // namespace coupling

@@ -9,6 +9,7 @@
 
 #include <limits>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,13 @@ struct Work {
   double damped = 0.0;    ///< taken by damping
 };
 
+/// What only this rank knows of: the others may be waiting for it already, and the run is to be ended on all.
+struct FailedOnThisRank : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct SubstepOptions;
+
 class StructureSolver {
  public:
   virtual ~StructureSolver() = default;
@@ -84,15 +92,22 @@ class StructureSolver {
 
   /// dt [time]; throws std::invalid_argument unless it is positive and below the stable step.
   virtual void set_time_step(double dt) = 0;
+  /// Whether it takes the steps that a deck asks for by itself, from the next set_time_step on; throws
+  /// std::invalid_argument if these are not for it.
+  virtual bool take_substeps(const SubstepOptions& /*options*/) { return false; }
   /// Largest stable dt [time]; infinity for a body that is not integrated.
   virtual double stable_time_step() const = 0;
   /// The same [time], as far as known now, of what happens in a step together with contacts; infinity for a
   /// body that has steps of its own.
   virtual double stable_time_step_with_contacts() const { return std::numeric_limits<double>::infinity(); }
+  /// Contacts that last less than that [time] are felt otherwise than by the whole body.
+  virtual double shortest_contact() const { return 0.0; }
   /// For the log, after set_time_step: how it takes the step, if not as one.
   virtual std::string describe_step() const { return ""; }
   /// For the log: how it takes steps from now on, if the last one has changed that; asked for once.
   virtual std::string take_change() { return ""; }
+  /// For the user: what is doubtful about the last step, in one line; each asked for once.
+  virtual std::string take_warning() { return ""; }
 
   virtual bool moves() const = 0;  ///< whether begin_step and end_step do anything
   /// Whether positions() change; if not, what moves is the frame.
@@ -108,7 +123,7 @@ class StructureSolver {
   virtual double strain_energy() const = 0;   ///< [energy]; may cost as much as a step
   virtual Work work() const { return {}; }    ///< zero for a body that is not integrated
   /// Internal work - the change of strain energy: the error of the time step, and what is dissipated
-  /// [energy].
+  /// by a memory of another kind than damping [energy].
   virtual double truncation() const { return 0.0; }
   virtual Vector3 linear_momentum() const = 0;                       ///< sum m_A v_A
   virtual Vector3 angular_momentum(const Vector3& about) const = 0;  ///< sum (x_A - about) x m_A v_A

@@ -23,7 +23,7 @@ struct SubstepOptions {
   std::function<double()> heaviest_particle = [] { return 0.0; };
 };
 
-/// Throws std::invalid_argument unless the solver is one of ours that deforms.
+/// Throws std::invalid_argument unless the solver is one of ours that deforms, or takes them by itself.
 std::unique_ptr<StructureSolver> with_substeps(std::unique_ptr<StructureSolver> solver,
                                                SubstepOptions options);
 

@@ -29,25 +29,13 @@ constexpr double kDamping = 0.02;
 /// How much later the displacements are that internal forces belong to, with a fast structure.
 double lead(double dt) { return 2.0 * kDamping / kPi * dt; }
 
-/// Columns of the nodes that the surface hangs on.
-std::vector<Eigen::Index> surface_nodes(const StructureSolver& body) {
-  const SurfaceMap& map = body.surface().map;
-  NodalVectors marks = NodalVectors::Zero(3, map.node_count());
-  map.add_to_nodes(NodalVectors::Ones(3, map.control_point_count()), marks);
-  std::vector<Eigen::Index> columns;
-  for (std::size_t i = 0; i < body.nodes().size(); ++i)
-    if (body.nodes()[i] >= 0 && marks(0, body.nodes()[i]) != 0.0)
-      columns.push_back(static_cast<Eigen::Index>(i));
-  return columns;
-}
-
 }  // namespace
 
 Substeps::Substeps(std::unique_ptr<IgaStructure> body, SubstepOptions options)
     : body_(std::move(body)),
       solver_(body_->solver()),
       options_(std::move(options)),
-      surface_nodes_(surface_nodes(*body_)),
+      surface_nodes_(body_->surface().map.columns_of(body_->nodes())),
       spread_(solver_),
       F_(NodalVectors::Zero(3, solver_.positions().cols())),
       no_forces_(F_),
@@ -281,6 +269,7 @@ void Substeps::load(const std::vector<double>& state) {
 
 std::unique_ptr<StructureSolver> with_substeps(std::unique_ptr<StructureSolver> solver,
                                                SubstepOptions options) {
+  if (solver->take_substeps(options)) return solver;
   auto* const body = dynamic_cast<IgaStructure*>(solver.get());
   if (!body)
     throw std::invalid_argument("'substeps' are those of a deforming wall, expected 'structure FILE'");

@@ -53,6 +53,7 @@ class Substeps final : public StructureSolver {
   std::string describe_step() const override;
   /// With `auto`, where strain has brought the body's stable step down to its own: another number.
   std::string take_change() override { return std::exchange(change_, {}); }
+  std::string take_warning() override { return body_->take_warning(); }
 
   bool moves() const override { return true; }
   NodalVectors inverse_node_mass() const override { return body_->inverse_node_mass(); }

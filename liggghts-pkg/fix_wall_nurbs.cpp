@@ -35,9 +35,12 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
       structure_(*opened_.solver),
       exchange_(world, structure_),
       loop_(structure_, exchange_, {options_.search, options_.curvature_radius}),
-      model_(*this, *impl, *atom, options_.curvature_radius),
+      model_(
+          *this, *impl, *atom,
+          liggghts_pkg::TangentialSprings(liggghts_pkg::tangential_spring_place(lmp, options_.model_words)),
+          options_.curvature_radius),
       memory_(*modify, id, options_.slots, store_force_),
-      columns_(structure_, loop_, world),
+      columns_(structure_, loop_, model_.springs(), world),
       restart_(lmp, id, options_.file, structure_),
       no_forces_(coupling::NodalVectors::Zero(3, structure_.nodes().size())) {
   delete primitiveWall_;
@@ -69,6 +72,8 @@ void FixWallNurbs::or_fail(Action action) const {
     action();
   } catch (const std::bad_alloc&) {
     messages_.fail_on_this_rank("out of memory");  // the others may have more
+  } catch (const coupling::FailedOnThisRank& problem) {
+    messages_.fail_on_this_rank(problem.what());
   } catch (const std::exception& problem) {
     messages_.fail(problem.what());
   }
@@ -77,14 +82,18 @@ void FixWallNurbs::or_fail(Action action) const {
 // What the structure complains of on the way.
 template <class Action>
 void FixWallNurbs::in_step(Action action) const {
+  const auto in_words = [this](const std::exception& problem) {
+    return fmt::format("'{}': step {}: {}", options_.file, update->ntimestep, problem.what());
+  };
   or_fail([&] {
     try {
       action();
     } catch (const std::bad_alloc&) {
       throw;
+    } catch (const coupling::FailedOnThisRank& problem) {
+      throw coupling::FailedOnThisRank(in_words(problem));
     } catch (const std::exception& problem) {
-      throw std::runtime_error(
-          fmt::format("'{}': step {}: {}", options_.file, update->ntimestep, problem.what()));
+      throw std::runtime_error(in_words(problem));
     }
   });
 }
@@ -210,8 +219,11 @@ void FixWallNurbs::post_force_primitive(int) {
   // Other fixes may change radii as late as in pre_force.
   if (loop_.has_outgrown_list(view)) build_list();
   try {
-    loop_.step(view, {update->ntimestep, dt_, neighbor->contactDistanceFactor, update->setupflag != 0},
-               model_, observer_.get());
+    const bool setup = update->setupflag != 0;
+    model_.begin_step();
+    loop_.step(view, {update->ntimestep, dt_, neighbor->contactDistanceFactor, setup}, model_,
+               observer_.get());
+    model_.end_step(setup);
   } catch (const contact::TooManyContacts& problem) {
     messages_.fail_on_this_rank(fmt::format("{}; use 'contacts N' with a larger N", problem.what()));
   } catch (const std::exception& problem) {
@@ -230,6 +242,8 @@ void FixWallNurbs::final_integrate() {
   in_step([&] { structure_.end_step(*nodal_forces_); });
   const std::string change = structure_.take_change();
   if (!change.empty()) messages_.print(fmt::format("step {}: {}", update->ntimestep, change));
+  const std::string warning = structure_.take_warning();
+  if (!warning.empty()) messages_.warn(fmt::format("step {}: {}", update->ntimestep, warning));
 }
 
 void FixWallNurbs::end_of_step() {
@@ -250,7 +264,11 @@ void FixWallNurbs::post_run() {
 
 /* ---------------------------------------------------------------------- */
 
-double FixWallNurbs::compute_vector(int column) { return columns_[column]; }
+double FixWallNurbs::compute_vector(int column) {
+  double value = 0.0;
+  or_fail([&] { value = columns_[column]; });
+  return value;
+}
 
 liggghts_pkg::WallState::Origin FixWallNurbs::origin() const {
   coupling::Fingerprint fingerprint = structure_.fingerprint();

@@ -15,7 +15,7 @@ void LiggghtsContactModel::evaluate(Contact* contacts, int count) {
     const Vector3 f_before = f, torque_before = torque;
     f.setZero();
     torque.setZero();
-    compute(*contact);
+    compute_with_spring(*contact);
     contact->force = f;
     contact->torque = torque;
     f = f_before;
@@ -23,8 +23,15 @@ void LiggghtsContactModel::evaluate(Contact* contacts, int count) {
   }
 }
 
-void LiggghtsContactModel::compute(Contact& contact) {
+void LiggghtsContactModel::compute_with_spring(Contact& contact) {
   LCM::SurfacesIntersectData data;
+  if (!springs_.exist() || !contact.touches) return compute(contact, data);
+  const Vector3 before = springs_.stretch(contact.history);
+  compute(contact, data);
+  springs_.add(data.kt, before, springs_.stretch(contact.history));
+}
+
+void LiggghtsContactModel::compute(Contact& contact, LCM::SurfacesIntersectData& data) {
   data.is_wall = true;
   data.i = contact.particle;
   data.deltan = contact.overlap;

@@ -5,26 +5,33 @@
 
 #include "coupling/contact/contact_model.h"
 #include "fix_wall_gran.h"
+#include "tangential_spring.h"
 
 namespace liggghts_pkg {
 
 class LiggghtsContactModel final : public contact::ContactModel {
  public:
-  /// `models`: those that LIGGGHTS' factory made for `wall`.  `curvature_radius`: contacts have an effective
-  /// radius of their own.
+  /// `models`: those that LIGGGHTS' factory made for `wall`.  `springs`: where they keep tangential ones.
+  /// `curvature_radius`: contacts have an effective radius of their own.
   LiggghtsContactModel(LAMMPS_NS::FixWallGran& wall, LIGGGHTS::Walls::IGranularWall& models,
-                       LAMMPS_NS::Atom& atom, bool curvature_radius)
-      : wall_(wall), models_(models), atom_(atom), curvature_radius_(curvature_radius) {}
+                       LAMMPS_NS::Atom& atom, const TangentialSprings& springs, bool curvature_radius)
+      : wall_(wall), models_(models), atom_(atom), springs_(springs), curvature_radius_(curvature_radius) {}
 
+  void begin_step() { springs_.begin_step(); }
   void evaluate(contact::Contact* contacts, int count) override;
+  void end_step(bool setup) { springs_.end_step(setup); }
+
+  const TangentialSprings& springs() const { return springs_; }
 
  private:
-  void compute(contact::Contact& contact);
+  void compute(contact::Contact& contact, LCM::SurfacesIntersectData& data);
+  void compute_with_spring(contact::Contact& contact);
   void compute_with_effective_radius(contact::Contact& contact, LCM::SurfacesIntersectData& data);
 
   LAMMPS_NS::FixWallGran& wall_;
   LIGGGHTS::Walls::IGranularWall& models_;
   LAMMPS_NS::Atom& atom_;
+  TangentialSprings springs_;
   bool curvature_radius_;
 };
 

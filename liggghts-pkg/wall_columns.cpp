@@ -11,7 +11,7 @@ using contact::WallContact;
 namespace {
 
 // In this order: the first of ContactTotals, the structure, its probes (three each), power, work, truncation,
-// reactions of supports (three each), work of supports, energy damped.
+// reactions of supports (three each), work of supports, energy damped, gained by tangential springs.
 constexpr int kTotalColumns = offsetof(ContactTotals, power) / sizeof(double);
 constexpr int kStructureColumns = 9;
 constexpr int kWorkColumns = 3;
@@ -20,7 +20,7 @@ static_assert(offsetof(WallContact, torque) == WallColumns::kLocalColumns * size
 
 }  // namespace
 
-int WallColumns::count() const { return power_column() + 1 + kWorkColumns + 1 + 3 * supports_ + 2; }
+int WallColumns::count() const { return power_column() + 1 + kWorkColumns + 1 + 3 * supports_ + 3; }
 
 int WallColumns::power_column() const { return kTotalColumns + kStructureColumns + 3 * probes_; }
 
@@ -30,6 +30,7 @@ double WallColumns::operator[](int column) {
   if (after_work == 0) return structure_.truncation();
   if (after_work == 3 * supports_ + 1) return structure_.work().supports;
   if (after_work == 3 * supports_ + 2) return structure_.work().damped;
+  if (after_work == 3 * supports_ + 3) return gained_by_springs();
   if (after_work > 0) return structure_.reactions()[(after_work - 1) / 3].force[(after_work - 1) % 3];
   if (column > power) {
     const coupling::Work work = structure_.work();
@@ -53,6 +54,12 @@ double WallColumns::of_structure(int column) const {
   if (column == 8) return structure_.stable_time_step();
   const int probe = (column - kStructureColumns) / 3, direction = (column - kStructureColumns) % 3;
   return structure_.probes()[probe].displacement[direction];
+}
+
+double WallColumns::gained_by_springs() const {
+  double gained = springs_.gained();
+  MPI_Allreduce(MPI_IN_PLACE, &gained, 1, MPI_DOUBLE, MPI_SUM, comm_);
+  return gained;
 }
 
 // dump local reads the array without asking for it.

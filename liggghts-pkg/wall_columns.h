@@ -10,6 +10,7 @@
 
 #include "coupling/contact/contact_totals.h"
 #include "coupling/structure_solver.h"
+#include "tangential_spring.h"
 
 namespace liggghts_pkg {
 
@@ -17,9 +18,11 @@ class WallColumns {
  public:
   static constexpr int kLocalColumns = 11;
 
-  WallColumns(const coupling::StructureSolver& structure, const contact::ContactLoop& loop, MPI_Comm comm)
+  WallColumns(const coupling::StructureSolver& structure, const contact::ContactLoop& loop,
+              const TangentialSprings& springs, MPI_Comm comm)
       : structure_(structure),
         loop_(loop),
+        springs_(springs),
         comm_(comm),
         probes_(static_cast<int>(structure.probes().size())),
         supports_(static_cast<int>(structure.reactions().size())) {}
@@ -37,10 +40,12 @@ class WallColumns {
  private:
   const contact::ContactTotals& totals();
   double of_structure(int column) const;
+  double gained_by_springs() const;
   int power_column() const;
 
   const coupling::StructureSolver& structure_;
   const contact::ContactLoop& loop_;
+  const TangentialSprings& springs_;
   MPI_Comm comm_;
   int probes_, supports_;
   contact::ContactSums sums_;

@@ -147,7 +147,7 @@ std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::Str
 std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, MPI_Comm world) {
   const contact::RunAlarm inside = loop.inside().of_all_ranks(world),
                           crossing = loop.crossing().of_all_ranks(world),
-                          stiff = loop.stiff().of_all_ranks(world);
+                          stiff = loop.stiff().of_all_ranks(world), brief = loop.brief().of_all_ranks(world);
   std::vector<std::string> alarms;
   if (inside.count > 0)
     alarms.push_back(fmt::format(
@@ -167,6 +167,12 @@ std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, MPI_Com
                     "kind in this run): "
                     "they are not with a timestep of at most {:.3g}",
                     stiff.tag, stiff.count, 2.0 / stiff.speed));
+  if (brief.count > 0)
+    alarms.push_back(
+        fmt::format("the contact of particle {} lasts about {:.3g} ({} cases of this kind in this run), too "
+                    "short for the "
+                    "modes that the solid keeps, which it finds too stiff: keep more of them",
+                    brief.tag, 1.0 / brief.speed, brief.count));
   return alarms;
 }
 

@@ -10,6 +10,7 @@
 #include "keyword_table.h"
 #include "model_words.h"
 #include "motion_words.h"
+#include "structure_words.h"
 
 namespace liggghts_pkg {
 
@@ -36,7 +37,16 @@ struct Reading {
 void read_body(const Reading& in, WallNurbsOptions::Body body) {
   if (!in.options.file.empty()) fail("both 'structure' and 'geometry' are given, expected one of them");
   in.options.body = body;
+  if (body == WallNurbsOptions::Body::iga) {
+    if (const std::optional<PluginWords> plugin = read_plugin(in.words)) {
+      in.options.body = WallNurbsOptions::Body::plugin;
+      in.options.plugin = plugin->library;
+      in.options.file = plugin->model;
+      return;
+    }
+  }
   in.options.file = in.words.value("a file");
+  if (body == WallNurbsOptions::Body::iga) in.options.solid = read_solid(in.words);
 }
 
 void read_search(const Reading& in) {
@@ -134,8 +144,12 @@ void check_complete(const WallNurbsOptions& options) {
     fail(
         "keyword 'surface' is missing, expected 'surface NAME' after the file, a name under 'surfaces' in "
         "that file");
-  if (options.substeps && options.body != WallNurbsOptions::Body::iga)
+  if (options.substeps && options.body == WallNurbsOptions::Body::rigid)
     fail("'substeps' are those of a deforming wall, given 'geometry', expected 'structure FILE'");
+  if (options.substeps && options.solid.modes)
+    fail(
+        "'substeps' are those of a solid with a stable step, given 'body modal', expected one of them: modes "
+        "take any timestep");
   const std::string drive = drive_name(options.drive);
   if (!drive.empty() && options.body != WallNurbsOptions::Body::rigid)
     fail(fmt::format("'{}' drives a rigid wall, given 'structure', expected 'geometry FILE'", drive));
@@ -143,7 +157,11 @@ void check_complete(const WallNurbsOptions& options) {
 
 }  // namespace
 
-std::vector<std::string> wall_nurbs_syntax() { return syntax_of(kKeywords); }
+std::vector<std::string> wall_nurbs_syntax() {
+  std::vector<std::string> lines = syntax_of(kKeywords);
+  for (const std::string& line : solid_syntax()) lines.push_back(line);
+  return lines;
+}
 
 WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const VariableLookup& variable) {
   WallNurbsOptions options;

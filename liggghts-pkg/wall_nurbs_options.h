@@ -8,6 +8,7 @@
 
 #include "coupling/contact/local_search.h"
 #include "coupling/rigid/rigid_surface.h"
+#include "coupling/solid_options.h"
 #include "coupling/substep_options.h"
 #include "output_words.h"
 #include "word_reader.h"
@@ -15,14 +16,16 @@
 namespace liggghts_pkg {
 
 struct WallNurbsOptions {
-  enum class Body { rigid, iga };
+  enum class Body { rigid, iga, plugin };
 
   std::vector<std::string> model_words;    ///< `model ... surface ...`, for LIGGGHTS' contact model factory
   std::vector<std::string> setting_words;  ///< on/off settings of these models, for LIGGGHTS
   int atom_type = 0;                       ///< the wall's material, 1-based
   Body body = Body::rigid;
-  std::string file;                   ///< model file (iga) or geometry file (rigid)
+  std::string file;                   ///< model file (iga), geometry file (rigid), a plug-in's model
+  std::string plugin;                 ///< its shared library
   std::string surface;                ///< name of the surface in that file
+  coupling::SolidOptions solid;       ///< of a deforming wall
   bool material_independent = false;  ///< the deck's E and nu may differ from the model file's
   bool store_force = false;
   contact::SearchMethod search = contact::SearchMethod::newton;
@@ -38,7 +41,7 @@ struct WallNurbsOptions {
 /// Parses the words after `wall/nurbs`.  Throws std::invalid_argument: what was given, what was expected.
 WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const VariableLookup& variable);
 
-/// The keywords with their values, as the manual shows them: "contacts N".
+/// The keywords with their values, as the manual shows them: "contacts N"; and the words after `structure`.
 std::vector<std::string> wall_nurbs_syntax();
 
 }  // namespace liggghts_pkg

@@ -60,6 +60,18 @@ liggghts_pkg::VariableLookup variables_of(LAMMPS* lmp, const std::string& fix_id
   return [=](const std::string& name) { return liggghts_pkg::deck_variable(lmp, fix_id, name); };
 }
 
+coupling::OpenedStructure open(MPI_Comm world, const WallNurbsOptions& options) {
+  switch (options.body) {
+    case WallNurbsOptions::Body::iga:
+      return coupling::open_iga_structure(world, options.file, options.surface, options.solid);
+    case WallNurbsOptions::Body::plugin:
+      return coupling::open_plugin_structure(world, options.plugin, options.file, options.surface);
+    case WallNurbsOptions::Body::rigid:
+      break;
+  }
+  return coupling::open_rigid_surface(world, options.file, options.surface, options.drive);
+}
+
 /// Of the particles of all ranks; infinite if there are none.
 double smallest_radius(const LAMMPS& lmp) {
   double mine = std::numeric_limits<double>::infinity(), smallest;
@@ -109,9 +121,7 @@ WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
                                               variables_of(lmp, arg[0]));
     if (options_.drive.servo) complete_servo(lmp, *options_.drive.servo);
     check_type(options_.atom_type, lmp->atom->ntypes);
-    opened_ = options_.body == WallNurbsOptions::Body::iga
-                  ? coupling::open_iga_structure(lmp->world, options_.file, options_.surface)
-                  : coupling::open_rigid_surface(lmp->world, options_.file, options_.surface, options_.drive);
+    opened_ = open(lmp->world, options_);
     if (options_.substeps) {
       options_.substeps->heaviest_particle = [lmp] { return heaviest_particle(*lmp); };
       opened_.solver = coupling::with_substeps(std::move(opened_.solver), *options_.substeps);

@@ -34,7 +34,7 @@ MAY_LINK = {
     "liggghts-pkg": [*SOLVER, "coupling"],
 }
 # targets that a rigid wall needs, and what they must not have
-RIGID = ("coupling", "coupling_contact")
+RIGID = ("coupling", "coupling_contact", "coupling_plugin")
 STRUCTURAL = ("iga-solver/structure", "iga-solver/io")
 # header of a library -> what links it
 LIBRARIES = {

@@ -21,7 +21,7 @@ ContactLoop::ContactLoop(const coupling::StructureSolver& structure, coupling::S
 
 void ContactLoop::forget_reports() {
   search_.reset();
-  inside_ = crossing_ = stiff_ = RunAlarm();
+  inside_ = crossing_ = stiff_ = brief_ = RunAlarm();
 }
 
 /* ---------------------------------------------------------------------- the list of candidates */
@@ -269,6 +269,7 @@ void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& s
   const double depth = std::max(contact.overlap, step.dt * std::abs(n.dot(v)));
   const double stiffness = n.dot(contact.force) / depth, limit = 4.0 / (step.dt * step.dt);
   const double of_particle = particles.mass ? 1.0 / particles.mass[i] : 0.0;
+  expect_long(particles, step, contact, stiffness * of_particle, n.dot(v));
   const double of_body = body_squared_frequency_;
   if (!(stiffness * (wall_.largest_inverse_mass() + of_particle) + of_body > limit)) return;
   const double of_wall = coupling::FootBasis(wall_.surface(), contact.foot).sum_of_squares(n, inverse_masses);
@@ -285,6 +286,17 @@ void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& s
                   "at most {:.2g}",
                   particles.tag[i], step.dt, step.number, stiffness, 1.0 / of_particle, 1.0 / of_wall, stable,
                   0.5 * stable));
+}
+
+// Where a contact is deepest its damping is out of it.  A sphere's after Hertz lasts 2.943 delta / V, and the
+// secant there has sqrt(k/m) = sqrt(5/4) V / delta (Johnson 1985, sec. 11.4).
+inline void ContactLoop::expect_long(const ParticleView& particles, const StepInfo& step,
+                                     const Contact& contact, double squared_frequency, double speed) {
+  constexpr double kDeep = 10.0, kTurn = 2.943 * 1.118;
+  const double shortest = wall_.shortest_contact(), turn = kTurn / shortest;
+  if (!(squared_frequency > turn * turn) || contact.overlap < kDeep * step.dt * std::abs(speed)) return;
+  const int i = contact.particle;
+  brief_.raise(particles.tag[i], particles.radius[i], std::sqrt(squared_frequency) / kTurn);
 }
 
 void ContactLoop::fail_as_not_finite(const ParticleView& particles, const StepInfo& step,

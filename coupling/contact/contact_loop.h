@@ -105,6 +105,8 @@ class ContactLoop {
   /// Contacts that together with the body's vibrations may be too stiff for the step, which either alone is
   /// not.  No frequency of the two is above that of the alarm.
   const RunAlarm& stiff() const { return stiff_; }
+  /// Contacts that are too short for the body (StructureSolver::shortest_contact); 1 over how long they last.
+  const RunAlarm& brief() const { return brief_; }
 
  private:
   void expect_images_to_stay(const std::vector<Vector3>& images) const;
@@ -123,6 +125,9 @@ class ContactLoop {
   void answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,
               ContactObserver* observer);
   void expect_stable(const ParticleView& particles, const StepInfo& step, const Contact& contact);
+  /// `squared_frequency` of the particle on the spring of the contact; `speed` along the normal.
+  void expect_long(const ParticleView& particles, const StepInfo& step, const Contact& contact,
+                   double squared_frequency, double speed);
   [[noreturn]] static void fail_as_not_finite(const ParticleView& particles, const StepInfo& step,
                                               const Contact& contact);
 
@@ -140,7 +145,7 @@ class ContactLoop {
   std::vector<Contact> batch_;
   std::vector<WallContact> contacts_;
   std::vector<coupling::ContactForce> forces_on_body_;
-  RunAlarm inside_, crossing_, stiff_;
+  RunAlarm inside_, crossing_, stiff_, brief_;
   double body_squared_frequency_ = 0.0;  // in this step [1/time^2]
 };
 

@@ -48,6 +48,7 @@ class Wall {
     const double stable = structure_.stable_time_step_with_contacts();
     return 4.0 / (stable * stable);
   }
+  double shortest_contact() const { return structure_.shortest_contact(); }  ///< that it knows [time]
   search::MultiPatchProjector& projector() { return projector_; }
 
   bool deforms() const { return deforms_; }

@@ -116,7 +116,7 @@ void RigidSurface::load(const std::vector<double>& state) {
 Fingerprint RigidSurface::fingerprint() const {
   std::vector<nurbs::Space<2>> patches;
   for (int p = 0; p < surface_.topology.patch_count(); ++p) patches.push_back(surface_.topology.patch(p));
-  return {geometry_part(patches, positions_)};
+  return {geometry_part(patches, digest(positions_))};
 }
 
 }  // namespace coupling

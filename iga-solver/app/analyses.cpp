@@ -8,6 +8,7 @@
 #include "io/frequencies.h"
 #include "io/history.h"
 #include "io/unit_names.h"
+#include "model_report.h"
 #include "structure/analysis/static_equilibrium.h"
 
 namespace app {
@@ -17,6 +18,8 @@ namespace {
 using structure::ExplicitSolver;
 using structure::NodalVectors;
 using Fields = std::optional<io::FieldSeries>;
+
+bool prints(Talk talk) { return talk != Talk::errors_only; }
 
 /// Histories and fields, a row and a state for each result.
 class Output {
@@ -57,10 +60,16 @@ void print_result(const io::ModelFile& model, const ExplicitSolver& solver) {
 }
 
 void save(const std::optional<std::string>& path, const io::ModelFile& model, const ExplicitSolver& solver,
-          bool quiet) {
+          Talk talk) {
   if (!path) return;
   io::write_state(*path, model.geometry.units, io::state_of(solver));
-  if (!quiet) fmt::print("  state        {}\n", *path);
+  if (prints(talk)) fmt::print("  state        {}\n", *path);
+}
+
+/// Whether the laws are for what was found.
+void look(const io::ModelFile& model, ExplicitSolver& solver) {
+  solver.look_at_elements();
+  print_warning(model, solver);
 }
 
 constexpr double kFullTime = 1.0;  // loads of that time are the full ones
@@ -75,46 +84,48 @@ void take(ExplicitSolver& solver, const NodalVectors& u, double load_factor) {
 }
 
 void run(const io::StaticAnalysis& analysis, const io::ModelFile& model, Fields& fields,
-         ExplicitSolver& solver, bool quiet) {
+         ExplicitSolver& solver, Talk talk) {
   Output output(model, fields);
   const auto loads = [&](const NodalVectors& u, NodalVectors& f) { solver.external_forces(u, kFullTime, f); };
   structure::StaticEquilibrium statics(solver.body(), solver.supports(), loads, analysis.options,
                                        solver.springs());
-  if (!quiet) fmt::print("  static       preconditioner {}\n", statics.preconditioner());
+  if (prints(talk)) fmt::print("  static       preconditioner {}\n", statics.preconditioner());
   const auto tell = [&](const structure::NewtonIteration& done) {
     fmt::print("  load {:.6g}, iteration {}: out of balance {:.2e}, {} products{}\n", done.load_factor,
                done.iteration, done.residual, done.products,
                done.step_length == 1.0 ? "" : fmt::format(", step {:.3g}", done.step_length));
     std::fflush(stdout);
   };
-  statics.solve(quiet ? structure::StaticEquilibrium::OnIteration() : tell, [&](double load_factor) {
+  statics.solve(prints(talk) ? tell : structure::StaticEquilibrium::OnIteration(), [&](double load_factor) {
     take(solver, statics.displacements(), load_factor);
     output.write(solver);
   });
-  if (!quiet) print_result(model, solver);
-  save(analysis.save, model, solver, quiet);
-  if (!quiet) output.print_names();
+  look(model, solver);
+  if (prints(talk)) print_result(model, solver);
+  save(analysis.save, model, solver, talk);
+  if (prints(talk)) output.print_names();
 }
 
 void run(const io::RelaxAnalysis& analysis, const io::ModelFile& model, Fields& fields,
-         ExplicitSolver& solver, bool quiet) {
+         ExplicitSolver& solver, Talk talk) {
   Output output(model, fields);
   constexpr double kStepFactor = 0.9;  // of the stable step
   const double stable = solver.stable_time_step();
   solver.set_time_step(model.time && model.time->step ? *model.time->step : kStepFactor * stable);
-  if (!quiet) fmt::print("  relax        time step {:.6g}\n", solver.time_step());
+  if (prints(talk)) fmt::print("  relax        time step {:.6g}\n", solver.time_step());
   long peaks = 0;
   const auto tell = [&](const structure::RelaxPeak& peak) {
-    constexpr int kPeaksPerLine = 20;
-    if (!quiet && ++peaks % kPeaksPerLine == 0)
+    const int peaks_per_line = talk == Talk::more ? 1 : 20;
+    if (prints(talk) && ++peaks % peaks_per_line == 0)
       fmt::print("  step {}: out of balance {:.2e}\n", peak.step, peak.residual);
   };
   const structure::RelaxPeak last = structure::relax(solver, analysis.options, tell);
-  if (!quiet) fmt::print("  at rest after {} steps: out of balance {:.2e}\n", last.step, last.residual);
+  if (prints(talk)) fmt::print("  at rest after {} steps: out of balance {:.2e}\n", last.step, last.residual);
   output.write(solver);
-  if (!quiet) print_result(model, solver);
-  save(analysis.save, model, solver, quiet);
-  if (!quiet) output.print_names();
+  look(model, solver);
+  if (prints(talk)) print_result(model, solver);
+  save(analysis.save, model, solver, talk);
+  if (prints(talk)) output.print_names();
 }
 
 /// Shapes as states 1, 2, ...: the largest displacement is a hundredth of the body.
@@ -130,13 +141,13 @@ void write_shapes(const std::vector<structure::Mode>& modes, Fields& fields, con
 }
 
 void run(const io::ModeAnalysis& analysis, const io::ModelFile& model, Fields& fields, ExplicitSolver& solver,
-         bool quiet) {
+         Talk talk) {
   const std::vector<structure::Mode> modes = structure::lowest_modes(
       solver.body(), solver.supports(), solver.displacements(), analysis.options, solver.springs());
   if (model.output)
     io::write_frequencies(*model.output, model.geometry.units, modes, solver.mass().nodal_mass());
   write_shapes(modes, fields, solver);
-  if (quiet) return;
+  if (!prints(talk)) return;
   for (std::size_t k = 0; k < modes.size(); ++k)
     fmt::print("  mode {:<4} frequency {:.8g} 1/{}\n", k + 1, modes[k].frequency(),
                io::unit_names(model.geometry.units).time);
@@ -149,8 +160,8 @@ void run(const io::ModeAnalysis& analysis, const io::ModelFile& model, Fields& f
 
 }  // namespace
 
-void run_analysis(const io::ModelFile& model, Fields& fields, ExplicitSolver& solver, bool quiet) {
-  std::visit([&](const auto& analysis) { run(analysis, model, fields, solver, quiet); }, *model.analysis);
+void run_analysis(const io::ModelFile& model, Fields& fields, ExplicitSolver& solver, Talk talk) {
+  std::visit([&](const auto& analysis) { run(analysis, model, fields, solver, talk); }, *model.analysis);
 }
 
 }  // namespace app

@@ -6,13 +6,14 @@
 
 #include "io/field_series.h"
 #include "io/model_file.h"
+#include "solve_options.h"
 
 namespace app {
 
 /// `fields` are those of `output`, if it has some.  `solver` is the model's, and is left in the state that
-/// was found.  Writes what `output` and the analysis ask for, and prints it unless `quiet`.  Throws
+/// was found.  Writes what `output` and the analysis ask for, and prints it as `talk` says.  Throws
 /// std::runtime_error.
 void run_analysis(const io::ModelFile& model, std::optional<io::FieldSeries>& fields,
-                  structure::ExplicitSolver& solver, bool quiet);
+                  structure::ExplicitSolver& solver, Talk talk);
 
 }  // namespace app

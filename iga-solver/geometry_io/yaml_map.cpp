@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -48,15 +49,18 @@ std::string one_of(const std::vector<std::string>& words) {
 }  // namespace
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
+  const auto same = [](char a, char b) {
+    return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  };
   // Levenshtein distance, one row of the table at a time.
-  const auto distance = [&word](const std::string& other) {
+  const auto distance = [&](const std::string& other) {
     std::vector<size_t> row(other.size() + 1);
     for (size_t j = 0; j < row.size(); ++j) row[j] = j;
     for (size_t i = 0; i < word.size(); ++i) {
       size_t diagonal = row[0];
       row[0] = i + 1;
       for (size_t j = 0; j < other.size(); ++j) {
-        const size_t replaced = diagonal + (word[i] != other[j]);
+        const size_t replaced = diagonal + !same(word[i], other[j]);
         diagonal = row[j + 1];
         row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
       }
@@ -71,6 +75,12 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
     if (d < least && 3 * d <= longer + 2 && d < longer) least = d, nearest = candidate;
   }
   return nearest;
+}
+
+std::string expected_one_of(const std::string& word, const std::vector<std::string>& candidates) {
+  const std::string nearest = nearest_word(word, candidates);
+  return (nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest)) +
+         "expected one of: " + one_of(candidates);
 }
 
 YamlMap YamlMap::parse(const std::string& text, const std::string& file) {
@@ -97,10 +107,8 @@ const YamlNode* YamlMap::find(const std::string& key) const {
 void YamlMap::allow_only(const std::vector<std::string>& allowed) const {
   for (const std::string& key : this->keys()) {
     if (std::find(allowed.begin(), allowed.end(), key) != allowed.end()) continue;
-    const std::string nearest = nearest_word(key, allowed);
-    const std::string hint = nearest.empty() ? "" : fmt::format("did you mean '{}'? ", nearest);
-    fail(key, fmt::format("unknown key '{}'{}, {}expected one of: {}", shown(key),
-                          where_.empty() ? "" : " in " + where_, hint, one_of(allowed)));
+    fail(key, fmt::format("unknown key '{}'{}, {}", shown(key), where_.empty() ? "" : " in " + where_,
+                          expected_one_of(key, allowed)));
   }
 }
 
@@ -129,7 +137,12 @@ int YamlMap::line_of(const std::string& key) const {
   return line();
 }
 
-YamlMap YamlMap::map(const std::string& key) const { return YamlMap(tree_, value(key), file_, name_of(key)); }
+YamlMap YamlMap::map(const std::string& key, const char* example) const {
+  const YamlNode& node = value(key);
+  if (example && node.kind != Kind::map)
+    fail(key, fmt::format("{} is {}, expected a mapping: {}", name_of(key), described(node), example));
+  return YamlMap(tree_, node, file_, name_of(key));
+}
 
 std::vector<YamlMap> YamlMap::list_of_maps(const std::string& key) const {
   std::vector<YamlMap> maps;
@@ -142,10 +155,12 @@ std::string YamlMap::word(const std::string& key) const { return read_word(value
 
 std::string YamlMap::word_of(const std::string& key, std::initializer_list<const char*> allowed) const {
   const std::vector<std::string> words(allowed.begin(), allowed.end());
+  if (!has(key))
+    fail_at(*node_, fmt::format("{} is missing, expected one of: {}", name_of(key), one_of(words)));
   const std::string given = word(key);
   if (std::find(words.begin(), words.end(), given) == words.end())
     fail_at(value(key),
-            fmt::format("{} is {}, expected one of: {}", name_of(key), shown(given), one_of(words)));
+            fmt::format("{} is {}, {}", name_of(key), shown(given), expected_one_of(given, words)));
   return given;
 }
 
@@ -206,8 +221,10 @@ const YamlNode& YamlMap::value(const std::string& key) const {
 
 const std::vector<const YamlNode*>& YamlMap::list(const std::string& key, const std::string& of) const {
   const YamlNode& found = value(key);
+  const std::string as =
+      found.kind == Kind::scalar && of == "words" ? fmt::format(": [{}]", described(found)) : "";
   if (found.kind != Kind::list)
-    fail(key, fmt::format("{} is {}, expected a list of {}", name_of(key), described(found), of));
+    fail(key, fmt::format("{} is {}, expected a list of {}{}", name_of(key), described(found), of, as));
   return found.children;
 }
 

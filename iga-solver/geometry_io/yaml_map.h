@@ -43,7 +43,8 @@ class YamlMap {
   int line_of(const std::string& key) const;
 
   // Getters: InputError if the key is missing, of the wrong kind or out of range.  Numbers must be finite.
-  YamlMap map(const std::string& key) const;
+  /// `example`: how it looks, for the message where it is none, "{end: 1e-3}".
+  YamlMap map(const std::string& key, const char* example = nullptr) const;
   std::vector<YamlMap> list_of_maps(const std::string& key) const;
   std::string word(const std::string& key) const;
   std::string word_of(const std::string& key, std::initializer_list<const char*> allowed) const;
@@ -79,7 +80,9 @@ class YamlMap {
   std::string file_, where_;
 };
 
-/// The candidate nearest to `word` in edit distance, or "" if none is near.
+/// The candidate nearest to `word` in edit distance, upper and lower case alike, or "" if none is near.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates);
+/// "did you mean 'density'? expected one of: law, density": of what is none of them.
+std::string expected_one_of(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace geometry_io

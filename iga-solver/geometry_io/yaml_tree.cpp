@@ -20,6 +20,15 @@ constexpr std::size_t kAliasAllowance = 1000000;  // values that aliases may add
 
 int line_of(const YAML::Mark& mark) { return std::max(mark.line, 0) + 1; }
 
+/// Of a line, counted from 1.
+std::string hint_of_tabs(const std::string& text, int line) {
+  std::istringstream lines(text);
+  std::string words;
+  for (int i = 0; i < line; ++i) std::getline(lines, words);
+  return words.find('\t') < words.find_first_not_of(" \t") ? "; the line begins with a tab, expected spaces"
+                                                           : "";
+}
+
 }  // namespace
 
 // What yaml-cpp calls while it reads: one document after the other, each from its root down.
@@ -108,7 +117,8 @@ YamlTree::YamlTree(const std::string& text, const std::string& file) {
     fail_at_line(file, line_of(error.mark),
                  "lists or mappings nested too deeply, expected 500 levels at most");
   } catch (const YAML::Exception& error) {
-    fail_at_line(file, line_of(error.mark), "broken YAML: " + shown(error.msg));
+    fail_at_line(file, line_of(error.mark),
+                 "broken YAML: " + shown(error.msg) + hint_of_tabs(text, line_of(error.mark)));
   }
   const std::size_t count = builder.roots().size();
   if (count == 0) fail_at_line(file, 1, "file is empty, expected a mapping (key: value)");

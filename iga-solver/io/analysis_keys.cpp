@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/analysis_keys.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iterator>
 
-#include "geometry_io/regular_file.h"
+#include "io/run_keys.h"
 
 namespace io {
 
@@ -44,8 +42,10 @@ RelaxAnalysis read_relax(const YamlMap& map) {
 }
 
 ModeAnalysis read_modes(const YamlMap& map) {
-  map.allow_only({"kind", "count", "tolerance", "preconditioner"});
+  map.allow_only({"kind", "count", "tolerance", "preconditioner", "mass"});
   ModeAnalysis analysis;
+  if (map.has("mass") && map.word_of("mass", {"lumped", "consistent"}) == "consistent")
+    analysis.options.mass = structure::MassKind::consistent;
   if (map.has("count")) analysis.options.count = map.integer("count", 1, 1000);
   if (map.has("tolerance")) analysis.options.tolerance = map.number("tolerance", {0.0, 0.1});
   if (map.has("preconditioner")) analysis.options.preconditioner = read_preconditioner(map);
@@ -74,12 +74,14 @@ const Kind& kind_of(const YamlMap& map, const std::string& key) {
 Analysis read_analysis(const YamlMap& document, const std::vector<std::string>& inputs) {
   if (!document.is_map("analysis")) return kind_of(document, "analysis").usual;
   const YamlMap map = document.map("analysis");
-  const Analysis analysis = kind_of(map, "kind").read(map);
-  for (const std::string& input : inputs)
-    if (map.has("save") && geometry_io::same_file(map.word("save"), input))
-      map.fail("save", fmt::format("save is {}, from which the model is read, expected another file",
-                                   geometry_io::shown(input)));
-  return analysis;
+  if (map.has("save")) read_save(map, inputs);
+  return kind_of(map, "kind").read(map);
+}
+
+const char* analysis_word(const Analysis& analysis) {
+  return std::find_if(std::begin(kKinds), std::end(kKinds),
+                      [&](const Kind& kind) { return kind.usual.index() == analysis.index(); })
+      ->word;
 }
 
 }  // namespace io

@@ -37,4 +37,7 @@ using Analysis = std::variant<StaticAnalysis, RelaxAnalysis, ModeAnalysis>;
 /// it must not replace.  Throws geometry_io::InputError.
 Analysis read_analysis(const geometry_io::YamlMap& document, const std::vector<std::string>& inputs);
 
+/// "static", "relax" or "modes".
+const char* analysis_word(const Analysis& analysis);
+
 }  // namespace io

@@ -21,6 +21,7 @@ constexpr const char* kAxes[] = {"x", "y", "z"};
 
 structure::Directions read_directions(const YamlMap& map) {
   structure::Directions directions{false, false, false};
+  if (!map.is_list("fix")) map.fail("fix", "fix is not a list, expected some of x, y, z: [x, y, z]");
   for (const std::string& word : map.words("fix")) {
     if (word != "x" && word != "y" && word != "z")
       map.fail("fix", fmt::format("fix has '{}', expected a list of x, y, z", word));
@@ -45,7 +46,7 @@ structure::Directions read_symmetry(const YamlMap& map, const nurbs::Volume& pat
 }
 
 void read_motion(const YamlMap& entry, BoundaryEntry& support) {
-  const YamlMap map = entry.map("move");
+  const YamlMap map = entry.map("move", "{z: 1e-3}");
   map.allow_only({"x", "y", "z"});
   support.moves = true;
   for (int i = 0; i < 3; ++i) {
@@ -57,7 +58,7 @@ void read_motion(const YamlMap& entry, BoundaryEntry& support) {
 
 /// k in all directions, or along one: k d d^T.
 void read_spring(const YamlMap& entry, BoundaryEntry& support) {
-  const YamlMap map = entry.map("spring");
+  const YamlMap map = entry.map("spring", "{stiffness: 1e9}");
   map.allow_only({"stiffness", "direction", "per"});
   const double k = map.number("stiffness", geometry_io::positive());
   support.spring = k * structure::Stiffness3::Identity();

@@ -12,6 +12,7 @@
 
 #include "geometry_io/parse_number.h"
 #include "nurbs/usable_number.h"
+#include "structure/conditions/grid_table.h"
 
 namespace io {
 
@@ -105,6 +106,35 @@ FieldKey field_of(const YamlMap& map, const std::string& name, const std::vector
   return key;
 }
 
+/// `{x: [...], t: [...], table: [[...], ...]}` with some of the variables and rows of `components` numbers.
+FieldKey read_grid_table(const YamlMap& entry, const std::string& key,
+                         const std::vector<std::string>& variables, std::size_t components) {
+  const YamlMap map = entry.map(key);
+  std::vector<std::string> allowed = variables;
+  allowed.emplace_back("table");
+  map.allow_only(allowed);
+  structure::GridAxes axes;
+  for (int d = 0; d < 4; ++d)
+    if (map.has(kVariables[d])) axes[d] = map.numbers(kVariables[d]);
+  std::vector<nurbs::Vector3> rows;
+  for (const std::vector<double>& row : map.table("table")) {
+    if (row.size() != components)
+      map.fail("table", fmt::format("table has a row of {} numbers, expected {}", row.size(), components));
+    rows.emplace_back(nurbs::Vector3::Zero()).head(Eigen::Index(components)) =
+        Eigen::VectorXd::Map(row.data(), Eigen::Index(components));
+  }
+  FieldKey field;
+  field.place = fmt::format("{}:{}", entry.file(), entry.line_of(key));
+  field.is_uniform = axes[0].empty() && axes[1].empty() && axes[2].empty();
+  field.changes = !axes[3].empty();
+  try {
+    field.field = structure::grid_table(std::move(axes), std::move(rows));
+  } catch (const std::invalid_argument& problem) {
+    map.fail("table", fmt::format("table: {}", problem.what()));
+  }
+  return field;
+}
+
 }  // namespace
 
 structure::TimeFunction read_time_expression(const YamlMap& map, const std::string& key) {
@@ -113,7 +143,10 @@ structure::TimeFunction read_time_expression(const YamlMap& map, const std::stri
 }
 
 FieldKey read_field(const YamlMap& map, const std::string& key, const std::vector<std::string>& variables) {
+  if (map.is_map(key)) return read_grid_table(map, key, variables, 3);
   std::vector<Expression> parts;
+  if (!map.is_list(key))
+    map.fail(key, fmt::format("{} is not a list, expected 3 numbers or expressions, [x, y, z]", key));
   for (const std::string& text : map.words(key)) parts.push_back(read_expression(map, key, text, variables));
   if (parts.size() != 3)
     map.fail(key, fmt::format("{} is a list of {}, expected 3 numbers or expressions", key, parts.size()));
@@ -122,6 +155,7 @@ FieldKey read_field(const YamlMap& map, const std::string& key, const std::vecto
 
 FieldKey read_scalar_field(const YamlMap& map, const std::string& key,
                            const std::vector<std::string>& variables) {
+  if (map.is_map(key)) return read_grid_table(map, key, variables, 1);
   return field_of(map, key, {read_expression(map, key, map.word(key), variables)});
 }
 

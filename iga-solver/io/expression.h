@@ -29,13 +29,14 @@ class Expression {
 /// A number or an expression of t.
 structure::TimeFunction read_time_expression(const geometry_io::YamlMap& map, const std::string& key);
 
-/// A value that the model file gives by numbers or expressions.
+/// A value that the model file gives by numbers, expressions or a table.
 struct FieldKey {
   structure::Field field;
   bool is_uniform = true, changes = false;  ///< the same everywhere; not the same at all times
   std::string place = {};                   ///< "plate.yaml:12", for messages
 };
-/// Three numbers or expressions of `variables`.  Throws geometry_io::InputError.
+/// Three numbers or expressions of `variables`, or a table on a grid of them, `{x: [0, 1], t: [0, 1e-3],
+/// table: [[...], ...]}`.  Throws geometry_io::InputError.
 FieldKey read_field(const geometry_io::YamlMap& map, const std::string& key,
                     const std::vector<std::string>& variables);
 /// One of them; the field has it in x.

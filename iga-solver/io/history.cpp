@@ -117,13 +117,13 @@ struct History::Writer {
 
 double OutputTimes::next_after(double reached) const { return every_ * (std::floor(reached / every_) + 1.0); }
 
-bool OutputTimes::take(const structure::ExplicitSolver& solver) {
-  const double reached = solver.time() + 0.5 * solver.time_step();
+bool OutputTimes::take(double time, double step) {
+  const double reached = time + 0.5 * step;
   // The row that is there may be of another interval, or of none.
-  if (last_) next_time_ = std::max(next_time_, next_after(*last_ + 0.5 * solver.time_step()));
-  if (reached < next_time_ || (last_ && solver.time() <= *last_)) return false;
+  if (last_) next_time_ = std::max(next_time_, next_after(*last_ + 0.5 * step));
+  if (reached < next_time_ || (last_ && time <= *last_)) return false;
   next_time_ = next_after(reached);
-  last_ = solver.time();  // a next run begins with it, perhaps with a longer step
+  last_ = time;  // a next run begins with it, perhaps with a longer step
   return true;
 }
 

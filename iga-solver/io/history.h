@@ -17,7 +17,8 @@ class OutputTimes {
   /// `last`: the time of a row that is there already.
   explicit OutputTimes(double every, std::optional<double> last = {}) : every_(every), last_(last) {}
   /// Whether the solver has reached the next one, to within half a step; if so, it lies behind from now on.
-  bool take(const structure::ExplicitSolver& solver);
+  bool take(const structure::ExplicitSolver& solver) { return take(solver.time(), solver.time_step()); }
+  bool take(double time, double step);
   /// From now on multiples of another interval.
   void set_interval(double every) { every_ = every; }
 

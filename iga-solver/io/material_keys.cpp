@@ -37,13 +37,14 @@ std::shared_ptr<const structure::Material> read_constants(const YamlMap& map,
 }
 
 std::shared_ptr<const structure::Material> read_material(const YamlMap& map) {
-  const std::string name = map.word("law");
   std::vector<std::string> known;
-  for (const structure::MaterialLaw& law : structure::material_laws()) {
+  for (const structure::MaterialLaw& law : structure::material_laws()) known.emplace_back(law.word);
+  if (!map.has("law"))
+    map.fail("", fmt::format("law is missing, expected one of: {}", fmt::join(known, ", ")));
+  const std::string name = map.word("law");
+  for (const structure::MaterialLaw& law : structure::material_laws())
     if (name == law.word) return read_constants(map, law);
-    known.emplace_back(law.word);
-  }
-  map.fail("law", fmt::format("law is '{}', expected one of: {}", name, fmt::join(known, ", ")));
+  map.fail("law", fmt::format("law is '{}', {}", name, geometry_io::expected_one_of(name, known)));
 }
 
 }  // namespace

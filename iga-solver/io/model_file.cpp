@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "geometry_io/file_kind.h"
+#include "io/damping_keys.h"
 #include "io/material_keys.h"
 #include "nurbs/memory.h"
 #include "structure/weld.h"
@@ -33,13 +34,6 @@ structure::Probe read_probe(const YamlMap& probes, const std::string& name, cons
   } catch (const std::invalid_argument&) {
     map.fail("at", fmt::format("at is [{}, {}], expected 2 numbers from 0 to 1", at[0], at[1]));
   }
-}
-
-TimeSpan read_time(const YamlMap& map) {
-  map.allow_only({"end", "step"});
-  TimeSpan time{map.number("end", geometry_io::positive()), {}};
-  if (map.has("step")) time.step = map.number("step", geometry_io::positive());
-  return time;
 }
 
 /// A word, by the reader that knows all of them.
@@ -102,26 +96,29 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   document.allow_only({"units", "geometry", "material", "boundary", "surfaces", "probes", "output", "loads",
                        "initial", "time", "integration", "damping", "weld", "analysis", "state"});
   ModelFile model = read_required(document, read_and_note);
-  if (document.has("integration")) model.integration = read_integration(document.map("integration"));
+  if (document.has("integration"))
+    model.integration = read_integration(document.map("integration", "{quadrature: full}"));
   if (document.has("boundary"))
     model.boundary = read_boundary(document.list_of_maps("boundary"), model.geometry, model.nodes);
   if (document.has("probes")) {
-    const YamlMap probes = document.map("probes");
+    const YamlMap probes = document.map("probes", "{NAME: {face: zeta+, at: [0.5, 0.5]}}");
     for (const std::string& name : probes.keys()) model.probes.push_back(read_probe(probes, name, model));
   }
   if (document.has("output"))
-    model.output = read_output(document.map("output"), model.geometry, inputs, document.has("analysis"));
-  if (document.has("loads")) model.loads = read_loads(document.map("loads"), model.geometry, model.nodes);
-  if (document.has("initial")) model.initial_velocity = read_initial_velocity(document.map("initial"));
+    model.output = read_output(document.map("output", "{every: 1e-5, file: NAME}"), model.geometry, inputs,
+                               document.has("analysis"));
+  if (document.has("loads"))
+    model.loads = read_loads(document.map("loads", "{gravity: [0, 0, -9.81]}"), model.geometry, model.nodes);
+  if (document.has("initial"))
+    model.initial_velocity = read_initial_velocity(document.map("initial", "{velocity: [0, 0, 0]}"));
   if (document.has("damping")) {
-    const YamlMap damping = document.map("damping");
-    damping.allow_only({"mass", "stiffness"});
-    if (damping.has("mass")) model.mass_damping = damping.number("mass", geometry_io::non_negative());
-    if (damping.has("stiffness"))
-      add_viscosity(damping.number("stiffness", geometry_io::positive()), model.materials);
+    const DampingKeys damping = read_damping(document.map("damping"));
+    model.mass_damping = damping.mass;
+    model.modal_damping = damping.modal;
+    if (damping.stiffness > 0.0) add_viscosity(damping.stiffness, model.materials);
   }
-  if (document.has("time")) model.time = read_time(document.map("time"));
   if (document.has("state")) model.state = read_state(document, model.geometry.units, read_and_note);
+  if (document.has("time")) model.time = read_time_span(document.map("time", "{end: 1e-3}"), inputs);
   if (document.has("analysis")) model.analysis = read_analysis(document, inputs);
   return model;
 }

@@ -16,6 +16,7 @@
 #include "io/boundary_keys.h"
 #include "io/load_keys.h"
 #include "io/output_keys.h"
+#include "io/run_keys.h"
 #include "io/state_file.h"
 #include "structure/conditions/probe.h"
 #include "structure/node_numbering.h"
@@ -26,11 +27,6 @@
 namespace io {
 
 using nurbs::Vector3;
-
-struct TimeSpan {
-  double end;                  ///< [time]
-  std::optional<double> step;  ///< [time]; absent: chosen from the stable step
-};
 
 struct ModelFile {
   std::string file;  ///< as given, for messages
@@ -44,7 +40,8 @@ struct ModelFile {
   std::optional<HistoryOutput> output = {};
   Loads loads = {};
   std::optional<FieldKey> initial_velocity = {};
-  double mass_damping = 0.0;  ///< rate [1/time]
+  double mass_damping = 0.0;               ///< rate [1/time]
+  std::vector<double> modal_damping = {};  ///< of critical damping (damping_keys.h); of a modal body alone
   std::optional<TimeSpan> time = {};
   std::optional<Analysis> analysis = {};  ///< absent: a motion in time
   std::optional<SavedState> state = {};   ///< what it starts from

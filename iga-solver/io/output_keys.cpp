@@ -44,7 +44,8 @@ double interval(const YamlMap& map, bool without_time) {
 FieldOutput read_fields(const YamlMap& output, const geometry_io::GeometryFile& geometry, bool without_time) {
   if (output.is_list("fields"))
     return {words_of(output, "fields", field_words()), interval(output, without_time)};
-  const YamlMap map = output.map("fields");
+  const YamlMap map =
+      output.map("fields", "{of: [displacement], every: 1e-5}, or a list: [displacement, stress]");
   map.allow_only({"of", "every", "steps", "on"});
   FieldOutput fields{words_of(map, "of", field_words())};
   if (map.has("every") == map.has("steps") && !(without_time && !map.has("every")))

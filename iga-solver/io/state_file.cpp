@@ -36,6 +36,36 @@ NodalVectors read_vectors(const Hdf5Input& file, const std::string& path) {
   return nodal_vectors(values.numbers);
 }
 
+double read_number(const Hdf5Input& file, const std::string& path) {
+  const geometry_io::Hdf5Value& value = file.numbers(path);
+  if (value.numbers.size() != 1)
+    file.fail(path, fmt::format("has shape {}, expected one number", geometry_io::shape_text(value.shape)));
+  return value.numbers.front();
+}
+
+void take(const SavedState& state, double time, structure::ExplicitSolver& solver) {
+  constexpr double kSame = 1e-9;  // of the size
+  const NodalVectors reference = nodal_vectors(solver.in_order(solver.body().reference()));
+  const std::size_t expected = solver.state_size();
+  if (reference.cols() != state.reference.cols() ||
+      (reference - state.reference).lpNorm<Eigen::Infinity>() > kSame * reference.lpNorm<Eigen::Infinity>())
+    throw InputError(
+        fmt::format("{}: is a state of {} control points, expected one of the same {} undeformed ones as in "
+                    "the model: mesh "
+                    "and geometry are others",
+                    state.file, state.reference.cols(), reference.cols()));
+  std::vector<double> numbers{time};
+  append(state.displacement, numbers);
+  append(state.velocity, numbers);
+  append(NodalVectors::Zero(3, reference.cols()), numbers);  // accelerations: found from the forces
+  numbers.insert(numbers.end(), state.memory.begin(), state.memory.end());
+  if (numbers.size() != expected)
+    throw InputError(fmt::format("{}: has a memory of {} numbers, expected {}: the material is another",
+                                 state.file, state.memory.size(),
+                                 state.memory.size() + expected - numbers.size()));
+  solver.load(numbers);
+}
+
 }  // namespace
 
 void write_state(const std::string& path, geometry_io::Units units, const SavedState& state) {
@@ -51,6 +81,11 @@ void write_state(const std::string& path, geometry_io::Units units, const SavedS
   add("displacement", state.displacement);
   add("velocity", state.velocity);
   if (!state.memory.empty()) file.add_numbers("/state/memory", {state.memory.size()}, state.memory.data());
+  if (state.moment) {
+    file.add_numbers("/state/time", {1}, &state.moment->time);
+    file.add_numbers("/state/time_step", {1}, &state.moment->step);
+    file.add_numbers("/state/work", {state.moment->work.size()}, state.moment->work.data());
+  }
   const std::string problem = geometry_io::write_file(path, [&](std::ostream& out) { out << file.bytes(); });
   if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
 }
@@ -74,6 +109,9 @@ SavedState read_state(const std::string& path, geometry_io::Units units, const g
       file.fail("/state", fmt::format("has {} and {} nodes, expected the same number in all data sets",
                                       state.reference.cols(), values->cols()));
   if (file.has("/state/memory")) state.memory = file.numbers("/state/memory").numbers;
+  if (file.has("/state/time"))
+    state.moment = {read_number(file, "/state/time"), read_number(file, "/state/time_step"),
+                    file.numbers("/state/work").numbers};
   return state;
 }
 
@@ -98,27 +136,21 @@ SavedState state_of(const structure::ExplicitSolver& solver) {
           nodal_vectors(solver.in_order(solver.velocities())), solver.memory_in_order()};
 }
 
-void start_from(const SavedState& state, structure::ExplicitSolver& solver) {
-  constexpr double kSame = 1e-9;  // of the size
-  const NodalVectors reference = nodal_vectors(solver.in_order(solver.body().reference()));
-  const std::size_t expected = solver.state_size();
-  if (reference.cols() != state.reference.cols() ||
-      (reference - state.reference).lpNorm<Eigen::Infinity>() > kSame * reference.lpNorm<Eigen::Infinity>())
-    throw InputError(
-        fmt::format("{}: is a state of {} control points, expected one of the same {} undeformed ones as in "
-                    "the model: mesh "
-                    "and geometry are others",
-                    state.file, state.reference.cols(), reference.cols()));
-  std::vector<double> numbers{0.0};
-  append(state.displacement, numbers);
-  append(state.velocity, numbers);
-  append(NodalVectors::Zero(3, reference.cols()), numbers);  // accelerations: found from the forces
-  numbers.insert(numbers.end(), state.memory.begin(), state.memory.end());
-  if (numbers.size() != expected)
-    throw InputError(fmt::format("{}: has a memory of {} numbers, expected {}: the material is another",
-                                 state.file, state.memory.size(),
-                                 state.memory.size() + expected - numbers.size()));
-  solver.load(numbers);
+SavedState moment_of(const structure::ExplicitSolver& solver) {
+  SavedState state = state_of(solver);
+  state.moment = {solver.time(), solver.time_step(), solver.save_work_done()};
+  return state;
+}
+
+void start_from(const SavedState& state, structure::ExplicitSolver& solver) { take(state, 0.0, solver); }
+
+void continue_from(const SavedState& state, structure::ExplicitSolver& solver) {
+  if (!state.moment)
+    throw InputError(fmt::format(
+        "{0}: is what an analysis has found, expected the state of a motion that 'time: {{save: FILE}}' has "
+        "written; a motion that starts from it has 'state: {0}'",
+        state.file));
+  take(state, state.moment->time, solver);
 }
 
 }  // namespace io

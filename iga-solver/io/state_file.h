@@ -3,8 +3,10 @@
 //   /                    attributes `format` ("iga-solver state"), `version` (1), `units`
 //   /state/reference     [nodes][3] undeformed positions of the control points: a state belongs to one mesh
 //   /state/displacement  [nodes][3],  /state/velocity [nodes][3],  /state/memory [numbers], if any
+//   /state/time, /state/time_step [1], /state/work [numbers], of a motion that may be continued
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +21,13 @@ struct SavedState {
   std::string file;  ///< for messages
   nurbs::NodalVectors reference, displacement, velocity;
   std::vector<double> memory;
+  /// Of a motion: when it was saved, its time step [time], and what forces had done (ExplicitSolver's
+  /// save_work_done).
+  struct Moment {
+    double time, step;
+    std::vector<double> work;
+  };
+  std::optional<Moment> moment = {};
 };
 
 /// Throws std::runtime_error, naming the file, if it cannot be written.
@@ -34,8 +43,14 @@ void put_at_rest(structure::ExplicitSolver& solver, const nurbs::NodalVectors& u
 
 /// The solver's own.  Collective.
 SavedState state_of(const structure::ExplicitSolver& solver);
+/// The same in a motion, to be continued.
+SavedState moment_of(const structure::ExplicitSolver& solver);
 /// The solver goes on from there, at time 0; loads and supports are its own.  Throws geometry_io::InputError
 /// if the state is of another mesh.  Collective.
 void start_from(const SavedState& state, structure::ExplicitSolver& solver);
+/// The same at the time of the state: with the same time step, and after initialise_forces the work of then,
+/// the motion is that of a run that was not interrupted, to the last bit, cut in any way.  Also throws if the
+/// state is not one of a motion.
+void continue_from(const SavedState& state, structure::ExplicitSolver& solver);
 
 }  // namespace io

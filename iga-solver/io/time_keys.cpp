@@ -21,7 +21,7 @@ structure::TimeFunction read_ramp(const YamlMap& map) {
 }
 
 structure::TimeFunction read_sine(const YamlMap& map) {
-  const YamlMap sine = map.map("sine");
+  const YamlMap sine = map.map("sine", "{frequency: 50}");
   sine.allow_only({"frequency", "phase"});
   return structure::sine(sine.number("frequency", geometry_io::positive()),
                          sine.has("phase") ? sine.number("phase") : 0.0);

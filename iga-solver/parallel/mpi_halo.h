@@ -28,13 +28,14 @@ class MpiHalo final : public structure::Halo {
   Eigen::Index owned(Eigen::Index) const override { return part_.owned; }
   Eigen::Index held(Eigen::Index) const override { return part_.held(); }
   Id node_id(Eigen::Index column) const override { return column < part_.held() ? part_.nodes[column] : -1; }
-  Id element_id(Eigen::Index held) const override { return part_.elements[held]; }
+  Id element_id(Eigen::Index held) const override { return part_.element(held); }
   void begin_sum(const NodalVectors& values) const override;
   void finish_sum(NodalVectors& values) const override;
   void owners_to_ghosts(NodalVectors& values) const override;
   void sum(structure::ExactSum* sums, std::size_t count) const override;
   double largest(double value) const override;
-  std::vector<double> in_order(const std::vector<Id>& ids, std::vector<double> rows) const override;
+  void in_slices(const std::vector<Id>& ids, const double* rows, std::size_t numbers,
+                 const VisitRows& visit) const override;
 
  private:
   MPI_Comm comm_;

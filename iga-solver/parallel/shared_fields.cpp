@@ -24,21 +24,20 @@ SharedFields::SharedFields(MPI_Comm comm, const io::ModelFile& model)
     paths_ += (paths_.empty() ? "" : ", ") + model.output->file + "_" + place + ".pvd";
 }
 
-double SharedFields::interval(const structure::ExplicitSolver& solver) const {
-  return output_.every ? *output_.every : *output_.steps * solver.time_step();
-}
-
-void SharedFields::open(const structure::ExplicitSolver& solver) {
+void SharedFields::open(double time, double step) {
   double last = std::numeric_limits<double>::quiet_NaN();  // no state yet
-  if (resumes_) on_first_rank(comm_, [&] { last = series_->resume(solver.time()).value_or(last); });
+  if (resumes_) on_first_rank(comm_, [&] { last = series_->resume(time).value_or(last); });
   MPI_Bcast(&last, 1, MPI_DOUBLE, 0, comm_);
-  times_.emplace(interval(solver), std::isnan(last) ? std::optional<double>() : last);
+  times_.emplace(interval(step), std::isnan(last) ? std::optional<double>() : last);
 }
 
-void SharedFields::write_if_due(const structure::ExplicitSolver& solver) {
-  if (!times_) open(solver);
-  times_->set_interval(interval(solver));
-  if (!times_->take(solver)) return;
+bool SharedFields::is_due(double time, double step) {
+  if (!times_) open(time, step);
+  times_->set_interval(interval(step));
+  return times_->take(time, step);
+}
+
+void SharedFields::write(const structure::ExplicitSolver& solver) {
   const io::SolidState state{solver.time(), nodal_vectors(solver.in_order(solver.displacements())),
                              nodal_vectors(solver.in_order(solver.velocities())), solver.memory_in_order()};
   on_first_rank(comm_, [&] { series_->write(state); });

@@ -25,11 +25,16 @@ class SharedFields {
   const std::string& paths() const { return paths_; }
   /// Collective, before the first step and after each.  Throws std::runtime_error on every rank, naming the
   /// file, if rank 0 cannot write.
-  void write_if_due(const structure::ExplicitSolver& solver);
+  void write_if_due(const structure::ExplicitSolver& solver) {
+    if (is_due(solver.time(), solver.time_step())) write(solver);
+  }
+  /// The same in two calls: whether a state is due at a time, which is asked once, and then the state.
+  bool is_due(double time, double step);
+  void write(const structure::ExplicitSolver& solver);
 
  private:
-  void open(const structure::ExplicitSolver& solver);
-  double interval(const structure::ExplicitSolver& solver) const;
+  void open(double time, double step);
+  double interval(double step) const { return output_.every ? *output_.every : *output_.steps * step; }
 
   MPI_Comm comm_;
   io::FieldOutput output_;

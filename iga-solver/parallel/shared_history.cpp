@@ -19,10 +19,15 @@ void SharedHistory::open(double time) {
   times_.emplace(output_.every, std::isnan(last) ? std::optional<double>() : last);
 }
 
-void SharedHistory::record_if_due(const structure::ExplicitSolver& solver) {
-  if (!times_) open(solver.time());
-  if (!times_->take(solver)) return;
-  const io::HistoryRow row = io::measure(solver, probes_, supports_);
+bool SharedHistory::is_due(double time, double step) {
+  if (!times_) open(time);
+  return times_->take(time, step);
+}
+
+void SharedHistory::record(const structure::ExplicitSolver& solver,
+                           const std::function<void(io::HistoryRow& row)>& amend) {
+  io::HistoryRow row = io::measure(solver, probes_, supports_);
+  if (amend) amend(row);
   on_first_rank(comm_, [&] { history_->record(row); });
 }
 

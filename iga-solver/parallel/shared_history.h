@@ -5,6 +5,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -30,7 +31,14 @@ class SharedHistory {
   std::string path() const { return history_ ? history_->path() : std::string(); }
   /// Collective, before the first step and after each.  The first call opens the file.  Throws
   /// std::runtime_error on every rank, naming the file, if rank 0 cannot write.
-  void record_if_due(const structure::ExplicitSolver& solver);
+  void record_if_due(const structure::ExplicitSolver& solver) {
+    if (is_due(solver.time(), solver.time_step())) record(solver);
+  }
+  /// The same in two calls: whether a row is due at a time, which is asked once, and then the row, changed
+  /// by `amend` where somebody else knows better than the solver.
+  bool is_due(double time, double step);
+  void record(const structure::ExplicitSolver& solver,
+              const std::function<void(io::HistoryRow& row)>& amend = {});
 
  private:
   void open(double time);

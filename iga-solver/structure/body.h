@@ -78,6 +78,9 @@ class Body {
   /// Stored energy of the displacements [energy]; of a part, to be summed over all.
   virtual ExactSum strain_energy_sum(const NodalVectors& u) const = 0;
 
+  /// Energy that points have lost for good, as far as they remember it [energy]; of a part, likewise.
+  virtual ExactSum dissipated_sum() const { return {}; }
+
   double volume() const { return volume_sum().value(); }
   double strain_energy(const NodalVectors& u) const { return strain_energy_sum(u).value(); }
 
@@ -91,9 +94,16 @@ class Body {
   virtual void element_force(int element, const double* u, double* f) const = 0;
   /// Row-sum mass of one element's own volume [mass], [padded_functions(element)].
   virtual const double* element_mass(int element) const = 0;
+  /// Its consistent mass matrix [mass], in the order of element_nodes; unless a body knows better, lumped.
+  virtual Eigen::MatrixXd element_mass_matrix(int element) const {
+    return Eigen::VectorXd::Map(element_mass(element), Eigen::Index(element_nodes(element).size()))
+        .asDiagonal();
+  }
   /// Smallest current over reference volume det(I + H) [-] at the element's quadrature points: <= 0 if it is
   /// folded.
   virtual double smallest_volume_ratio(int element, const double* u) const = 0;
+  /// Of its patch.
+  virtual const Material& element_material(int /*element*/) const { return *materials().front(); }
   /// For messages: "spans 1, 0, 2 of xi, eta, zeta, undeformed about (1, 2, 3)".
   virtual std::string describe_element(int element) const = 0;
 

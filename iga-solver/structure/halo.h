@@ -5,7 +5,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <string>
@@ -48,9 +50,21 @@ class Halo {
   virtual void sum(ExactSum* /*sums*/, std::size_t /*count*/) const {}
   /// The largest number of all parts; not a number if one is none.
   virtual double largest(double value) const { return value; }
-  /// Rows of equally many numbers, one per id, from all parts in the order of the ids; complete on all parts.
-  virtual std::vector<double> in_order(const std::vector<Id>& /*ids*/, std::vector<double> rows) const {
-    return rows;
+  /// Rows of equally many numbers from all parts in the order of their ids, some thousands at a time, so that
+  /// no part needs room for all: visit(rows, numbers).
+  using VisitRows = std::function<void(const double*, std::size_t)>;
+  /// `ids`: of the part's rows; those of all parts are 0, 1, 2 ...  `rows`: so many `numbers` in all.
+  virtual void in_slices(const std::vector<Id>& /*ids*/, const double* rows, std::size_t numbers,
+                         const VisitRows& visit) const {
+    visit(rows, numbers);
+  }
+  /// The same in one piece, complete on all parts.
+  std::vector<double> in_order(const std::vector<Id>& ids, const double* rows, std::size_t numbers) const {
+    std::vector<double> all;
+    all.reserve(std::llround(sum(static_cast<double>(numbers))));
+    in_slices(ids, rows, numbers,
+              [&](const double* some, std::size_t count) { all.insert(all.end(), some, some + count); });
+    return all;
   }
 
   /// Of what each part has added to its own.
@@ -104,7 +118,8 @@ class Halo {
   std::string shared(const std::string& words) const {
     std::vector<Id> places(words.size());
     std::iota(places.begin(), places.end(), Id(0));
-    const std::vector<double> all = in_order(places, {words.begin(), words.end()});
+    const std::vector<double> rows(words.begin(), words.end());
+    const std::vector<double> all = in_order(places, rows.data(), rows.size());
     return {all.begin(), all.begin() + static_cast<long>(largest(static_cast<double>(words.size())))};
   }
 

@@ -177,12 +177,6 @@ std::vector<Id> Partition::nodes_of(int box) const {
   return nodes;
 }
 
-std::vector<Id> Partition::elements_of(int box) const {
-  std::vector<Id> elements(first_element_[box + 1] - first_element_[box]);
-  std::iota(elements.begin(), elements.end(), first_element_[box]);
-  return elements;
-}
-
 bool Partition::has_ghosts(int box) const {
   const std::vector<Id> nodes = nodes_of(box);
   return std::any_of(nodes.begin(), nodes.end(), [&](Id node) { return owner(node) != part_[box]; });
@@ -214,8 +208,8 @@ class PartBuilder {
     part_.columns = part_.held() + static_cast<int>(shares_.size());
     for (auto& [other, neighbour] : neighbours_) part_.neighbours.push_back(std::move(neighbour));
     for (const int box : part_.boxes) {
-      const std::vector<Id> elements = partition_.elements_of(box);
-      part_.elements.insert(part_.elements.end(), elements.begin(), elements.end());
+      part_.elements.push_back({partition_.first_element(box), part_.element_count});
+      part_.element_count += partition_.element_count(box);
       take_tables(box);
     }
     return std::move(part_);
@@ -242,6 +236,7 @@ class PartBuilder {
     }
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    nodes.shrink_to_fit();
     const auto ghosts = std::stable_partition(nodes.begin(), nodes.end(),
                                               [&](Id node) { return partition_.owner(node) == p_; });
     part_.owned = static_cast<int>(ghosts - nodes.begin());
@@ -318,6 +313,13 @@ class PartBuilder {
   std::vector<Share> shares_;  // of owned nodes, then of ghosts, each kind in order
   std::map<int, Neighbour> neighbours_;
 };
+
+Id Part::element(Id held) const {
+  const auto box = std::upper_bound(elements.begin(), elements.end(), held,
+                                    [](Id number, const Elements& some) { return number < some.begin; }) -
+                   1;
+  return box->first + held - box->begin;
+}
 
 void add_shares(const Part& part, nurbs::NodalVectors& forces) {
   for (const SharedNode& node : part.shared) {

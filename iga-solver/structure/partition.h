@@ -46,10 +46,16 @@ struct PatchPart {
 struct Part {
   std::vector<int> boxes;          ///< patch after patch, of each those with ghosts first
   std::vector<PatchPart> patches;  ///< of all patches of the body
-  std::vector<Id> elements;        ///< of these boxes, box after box, the first direction fastest
-  std::vector<Id> nodes;           ///< that the part holds, per column
-  int owned = 0;                   ///< how many of them
-  int columns = 0;                 ///< of nodes and shares
+  /// Elements that the part holds are those of `boxes`, box after box, the first direction fastest.
+  struct Elements {
+    Id first;  ///< of the body
+    Id begin;  ///< of the part
+  };
+  std::vector<Elements> elements;  ///< per box
+  Id element_count = 0;
+  std::vector<Id> nodes;  ///< that the part holds, per column
+  int owned = 0;          ///< how many of them
+  int columns = 0;        ///< of nodes and shares
   std::vector<Eigen::Index>
       runs;  ///< first columns of runs of owned nodes that no cut divides (Halo::for_each_run)
   std::vector<SharedNode> shared;
@@ -59,6 +65,8 @@ struct Part {
   std::vector<std::vector<int>> gather, scatter;
 
   int held() const { return static_cast<int>(nodes.size()); }
+  /// Of the body, of an element that the part holds.
+  Id element(Id held) const;
 };
 
 /// Adds up the shares of the nodes that the part owns, in the order of boxes; leaves zero where shares were.
@@ -126,7 +134,8 @@ class Partition {
   /// Of a box, the first direction fastest.
   std::vector<Id> nodes_of(int box) const;
   /// Elements are counted box after box, the first direction fastest.
-  std::vector<Id> elements_of(int box) const;
+  Id first_element(int box) const { return first_element_[box]; }
+  Id element_count(int box) const { return first_element_[box + 1] - first_element_[box]; }
   /// Everything that part p of them knows.  Takes time and memory in proportion to what it holds.
   Part part(int p) const;
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Sequence
 
 import vtk
 from states import State, read_states
@@ -80,12 +81,7 @@ def view(folder: Path, state: State, label: str) -> vtk.vtkRenderer:
     renderer.SetBackground(1.0, 1.0, 1.0)
     renderer.AddActor(blank(folder / f"blank_{state.step}.vtu"))
     renderer.AddActor(spheres(state))
-    text = vtk.vtkTextActor()
-    text.SetInput(label)
-    text.GetTextProperty().SetColor(0.0, 0.0, 0.0)
-    text.GetTextProperty().SetFontSize(26)
-    text.SetPosition(16, HEIGHT - 40)
-    renderer.AddActor2D(text)
+    renderer.AddActor2D(words(label, 16, HEIGHT - 40, 26))
     camera = renderer.GetActiveCamera()
     camera.SetFocalPoint(0.003, -0.003, 0.0)
     camera.SetPosition(-0.030, -0.128, 0.052)
@@ -95,17 +91,31 @@ def view(folder: Path, state: State, label: str) -> vtk.vtkRenderer:
     return renderer
 
 
-def legend() -> vtk.vtkScalarBarActor:
+def words(text: str, x: int, y: int, size: int) -> vtk.vtkTextActor:
+    actor = vtk.vtkTextActor()
+    actor.SetInput(text)
+    actor.GetTextProperty().SetColor(0.0, 0.0, 0.0)
+    actor.GetTextProperty().SetFontSize(size)
+    actor.SetPosition(x, y)
+    return actor
+
+
+def colour_bar(table: vtk.vtkScalarsToColors) -> vtk.vtkScalarBarActor:
     bar = vtk.vtkScalarBarActor()
-    bar.SetLookupTable(colours())
+    bar.SetLookupTable(table)
     bar.SetNumberOfLabels(5)
     bar.SetLabelFormat("%.0f")
     bar.UnconstrainedFontSizeOn()
-    for font in [bar.GetLabelTextProperty()]:
-        font.SetColor(0.0, 0.0, 0.0)
-        font.SetFontSize(20)
-        font.ShadowOff()
-        font.ItalicOff()
+    font = bar.GetLabelTextProperty()
+    font.SetColor(0.0, 0.0, 0.0)
+    font.SetFontSize(20)
+    font.ShadowOff()
+    font.ItalicOff()
+    return bar
+
+
+def legend() -> vtk.vtkScalarBarActor:
+    bar = colour_bar(colours())
     bar.SetPosition(0.86, 0.45)
     bar.SetWidth(0.12)
     bar.SetHeight(0.52)
@@ -114,17 +124,21 @@ def legend() -> vtk.vtkScalarBarActor:
 
 def draw(folder: Path, out: Path, labels: dict[int, str]) -> None:
     states = {state.step: state for state in read_states(folder)}
+    renderers = [view(folder, states[step], label) for step, label in labels.items()]
+    renderers[0].AddActor2D(legend())
+    render(renderers, out)
+
+
+def render(renderers: Sequence[vtk.vtkRenderer], out: Path) -> None:
+    """Two in a row."""
     window = vtk.vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(4)
-    rows = (len(labels) + 1) // 2
+    rows = (len(renderers) + 1) // 2
     window.SetSize(2 * WIDTH, rows * HEIGHT)
-    for i, (step, label) in enumerate(labels.items()):
-        renderer = view(folder, states[step], label)
+    for i, renderer in enumerate(renderers):
         row, column = rows - 1 - i // 2, i % 2
         renderer.SetViewport(0.5 * column, row / rows, 0.5 * (column + 1), (row + 1) / rows)
-        if i == 0:
-            renderer.AddActor2D(legend())
         window.AddRenderer(renderer)
     window.Render()
     image = vtk.vtkWindowToImageFilter()

@@ -32,6 +32,7 @@ COARSE_STEP = 5e-7  # of the three packings [s]; comparing the first with linear
 PAPER_STEP = 1e-8  # [s]
 RIM = 3e-3  # that is cut off a higher packing [m]
 SHOWN_MS = (0.03, 0.11, 0.3, 0.5, 0.7, 0.9)  # the states of Fig. 14
+STRESS_MS = (0.3, 1.0)
 
 # Plate theory, 1e3 N, mm: mean force within 0.01 ms of a time [ms], deflection of the centre, impulse until a time.
 PLATE_FORCE = {0.02: 940.0, 0.06: 590.0, 0.10: 400.0, 0.15: 230.0, 0.20: 210.0}
@@ -225,14 +226,26 @@ def finish(picture: Picture, path: Path) -> None:
 
 
 def draw_states(path: Path, results: Mapping[str, Result]) -> None:
-    """Fig. 14, in a process of its own: it needs an X server."""
+    """Fig. 14."""
     result = results["linear_elastic"]
-    labels = [f"{round(t * MS / result.values['dt'])}={t:g} ms" for t in SHOWN_MS]
-    command = ["xvfb-run", "-a", sys.executable, str(HERE / "picture.py"), str(result.folder), str(path), *labels]
+    render("picture.py", result, path, [f"{round(t * MS / result.values['dt'])}={t:g} ms" for t in SHOWN_MS])
+
+
+def draw_stress(path: Path, results: Mapping[str, Result]) -> None:
+    """The solid's own fields, a state every 0.1 ms."""
+    result = results["saint_venant_kirchhoff"]
+    shown = [(round(t * MS / result.values["dt"]), f"solid_volume_{round(t / 0.1)}.vtu", t) for t in STRESS_MS]
+    render("stress_picture.py", result, path, [f"{step}={fields}={t:g} ms" for step, fields, t in shown])
+
+
+def render(script: str, result: Result, path: Path, states: list[str]) -> None:
+    """In a process of its own: it needs an X server."""
+    command = ["xvfb-run", "-a", sys.executable, str(HERE / script), str(result.folder), str(path), *states]
     subprocess.run(command, check=True, env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
 
 
 PARAVIEW = ("blank.pvd", "blank_*.vtu", "spheres_*.vtp", "packing.data")
+SOLID = ("solid_volume.pvd", "solid_volume_*.vtu")
 
 
 def no_rows(_: Result) -> list[Row]:
@@ -257,7 +270,7 @@ STUDY = Study(
         *(packing(f"sphere_{name}", seed=seed) for name, seed in zip(STREAMS, SEEDS)),
         packing("sphere_packing_cut", rim=RIM),
         stream("linear_elastic", keep=PARAVIEW),
-        stream("saint_venant_kirchhoff", keep=PARAVIEW, variables={"law": "saint_venant_kirchhoff"}),
+        stream("saint_venant_kirchhoff", keep=(*PARAVIEW, *SOLID), variables={"law": "saint_venant_kirchhoff"}),
         *(stream(name, f"sphere_{name}", variables=COARSE) for name in STREAMS),
         stream("one_rank", judge=no_rows, ranks=1, variables=COARSE),
         stream("packing_cut", "sphere_packing_cut", cut_rows, variables={**COARSE, "T": 1e-4}),
@@ -266,6 +279,7 @@ STUDY = Study(
     figures=[
         Figure("fig13.png", list(LAWS), draw_history),
         Figure("fig14.png", ["linear_elastic"], draw_states),
+        Figure("stress.png", ["saint_venant_kirchhoff"], draw_stress),
         Figure("energy.png", ["linear_elastic"], draw_energies),
         Figure("overlaps.png", ["linear_elastic"], draw_overlaps),
     ],

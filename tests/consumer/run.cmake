@@ -16,6 +16,7 @@ step(${CMAKE_COMMAND} --build ${WORK}/build)
 step(${WORK}/build/rigid)
 step(${WORK}/build/elastic)
 step(${WORK}/build/particles)
+step(${WORK}/build/plugged ${WORK}/build/liboscillator.so)
 
 # Rigid walls link no structural code.
 foreach(program rigid particles)

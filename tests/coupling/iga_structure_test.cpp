@@ -8,6 +8,7 @@
 #include "coupling/force_distribution.h"
 #include "coupling/iga_structure.h"
 #include "nurbs/primitives.h"
+#include "point_force.h"
 #include "structure/material/laws.h"
 #include "structure/solid/solid.h"
 
@@ -31,16 +32,6 @@ coupling::IgaStructure block() {
   return solver;
 }
 
-/// Nodal forces of a point force F at parameters xi of the surface.
-NodalForces nodal_forces(const coupling::IgaStructure& solver, const nurbs::Parameter<2>& xi,
-                         const Vector3& F) {
-  NodalVectors on_surface = NodalVectors::Zero(3, solver.surface().topology.control_point_count());
-  coupling::FootBasis(solver.surface().topology, {0, xi}).distribute(F, on_surface);
-  NodalVectors on_nodes = NodalVectors::Zero(3, solver.positions().cols());
-  solver.surface().map.add_to_nodes(on_surface, on_nodes);
-  return NodalForces(on_nodes);
-}
-
 TEST(IgaStructure, SurfaceIsTheTopOfTheBlock) {
   const coupling::IgaStructure solver = block();
   NodalVectors x;
@@ -52,7 +43,7 @@ TEST(IgaStructure, SurfaceIsTheTopOfTheBlock) {
 TEST(IgaStructure, MomentumIsForceTimesTime) {
   coupling::IgaStructure solver = block();
   const Vector3 F(1.0, 0.5, -6.0);
-  const NodalForces forces = nodal_forces(solver, {0.7, 0.4}, F);
+  const NodalForces forces = point_force(solver, {0.7, 0.4}, F);
   solver.initialise_forces(forces);
   const int steps = 400;
   for (int n = 0; n < steps; ++n) {
@@ -66,7 +57,7 @@ TEST(IgaStructure, MomentumIsForceTimesTime) {
 TEST(IgaStructure, WorkOfTheForceIsTheEnergyOfTheBlock) {
   coupling::IgaStructure solver = block();
   const Vector3 F(0.0, 0.0, -6.0);
-  const NodalForces forces = nodal_forces(solver, {0.5, 0.5}, F);
+  const NodalForces forces = point_force(solver, {0.5, 0.5}, F);
   solver.initialise_forces(forces);
   double work = 0.0;
   for (int n = 0; n < 1000; ++n) {
@@ -81,7 +72,7 @@ TEST(IgaStructure, WorkOfTheForceIsTheEnergyOfTheBlock) {
 
 TEST(IgaStructure, LoadContinuesASavedStateToTheLastBit) {
   coupling::IgaStructure first = block(), second = block();
-  const NodalForces forces = nodal_forces(first, {0.3, 0.6}, {0, 1, -5});
+  const NodalForces forces = point_force(first, {0.3, 0.6}, {0, 1, -5});
   const auto advance = [&](coupling::IgaStructure& solver, int steps) {
     for (int n = 0; n < steps; ++n) {
       solver.begin_step();

@@ -5,6 +5,7 @@ import math
 import re
 import unittest
 
+import ball_on_block as bob
 import decks
 import numpy as np
 from branch_decks import FLOOR, L, OUTPUT, R, SIDE, model_file, nurbs, prelude, quad, run
@@ -23,6 +24,23 @@ class Reports(unittest.TestCase):
                     if found:
                         advised = float(re.search(r"timestep of at most ([\d.e+-]+)", found.group()).group(1))
                         self.assertAlmostEqual(advised, 0.1 * R / speed, delta=0.01 * advised)
+
+    def test_a_linear_solid_that_turns_is_named_once(self):
+        """8 degrees; a ball that is far off."""
+        turning = bob.block(fixed=()) + 'initial: {velocity: ["-1000*y", "1000*x", 0]}\n'
+        start = bob.prelude(balls=((0, 0, 0.01),), velocity=(0, 0, 0), timestep=2e-7)
+        for law, words, ranks, warned in (
+            ("linear_elastic", "", 1, 1), ("linear_elastic", "", 2, 1), ("linear_elastic", " substeps particles 2", 1, 1),
+            ("saint_venant_kirchhoff", "", 1, 0),
+        ):  # fmt: skip
+            wall = bob.wall(rest="structure block.yaml surface top" + words)
+            deck = start.replace("timestep 2e-07", "timestep 1e-07") if words else start
+            files = {"block.yaml": turning.replace("linear_elastic", law)}
+            text = decks.good(deck + wall + f"thermo 10000\nrun {1400 if words else 700}\n", files=files, ranks=ranks).text
+            found = re.findall(r"WARNING: Fix wall/nurbs \(id plate\): step \d+: at time .* element \d+ \(spans .*\) is turned by "
+                               r"3\.?\d* degrees, and its law linear_elastic, of small strain", text)  # fmt: skip
+            with self.subTest(law=law, words=words, ranks=ranks):
+                self.assertEqual(len(found), warned, text[-2000:])
 
     def test_power_is_that_of_force_and_torque(self):
         """The last column, of a wall that turns and of one that also shifts."""

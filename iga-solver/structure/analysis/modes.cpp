@@ -38,40 +38,49 @@ class FreeDofs {
 };
 
 /// y = M x, as Spectra asks for it.
-struct MassProduct {
+class MassProduct {
+ public:
   using Scalar = double;
-  Eigen::VectorXd mass;  // of each free degree of freedom
-  Eigen::Index rows() const { return mass.size(); }
+  MassProduct(const MassMatrix& mass, const FreeDofs& free, int node_count)
+      : mass_(mass), free_(free), q_(3, node_count) {}
+  Eigen::Index rows() const { return free_.count(); }
   void perform_op(const double* x, double* y) const {
-    for (Eigen::Index k = 0; k < mass.size(); ++k) y[k] = mass[k] * x[k];
+    free_.spread(x, q_);
+    free_.gather(mass_ * q_, y);
   }
+
+ private:
+  const MassMatrix& mass_;
+  const FreeDofs& free_;
+  mutable NodalVectors q_;
 };
 
-/// Shapes with sum of m_A |q_A|^2 = 1, each at right angles to the others in this sense.
+/// Shapes with q . M q = 1, each at right angles to the others in this sense.
 class OrthonormalShapes {
  public:
-  explicit OrthonormalShapes(const Eigen::VectorXd& nodal_mass) : mass_(nodal_mass) {}
+  explicit OrthonormalShapes(const MassMatrix& mass) : mass_(mass) {}
   double product(const NodalVectors& a, const NodalVectors& b) const {
-    return a.cwiseProduct(b).colwise().sum().dot(mass_.transpose());
+    return a.cwiseProduct(mass_ * b).sum();
   }
   /// Takes from q what is along them; twice, for round-off.
   void remove_from(NodalVectors& q) const {
     for (int twice = 0; twice < 2; ++twice)
-      for (const NodalVectors& shape : shapes_) q -= product(shape, q) * shape;
+      for (std::size_t k = 0; k < shapes_.size(); ++k) q -= M_shapes_[k].cwiseProduct(q).sum() * shapes_[k];
   }
   /// The same from forces b: then M^-1 b is free of them.
   void remove_from_forces(NodalVectors& b) const {
-    for (const NodalVectors& shape : shapes_) b -= (shape * mass_.asDiagonal()) * shape.cwiseProduct(b).sum();
+    for (std::size_t k = 0; k < shapes_.size(); ++k) b -= M_shapes_[k] * shapes_[k].cwiseProduct(b).sum();
   }
   void add(NodalVectors q) {
     remove_from(q);
     shapes_.push_back(q / std::sqrt(product(q, q)));
+    M_shapes_.push_back(mass_ * shapes_.back());
   }
   const std::vector<NodalVectors>& all() const { return shapes_; }
 
  private:
-  const Eigen::VectorXd& mass_;
-  std::vector<NodalVectors> shapes_;
+  const MassMatrix& mass_;
+  std::vector<NodalVectors> shapes_, M_shapes_;
 };
 
 /// y = (K + s M)^-1 x, likewise, without what is along shapes that are known.
@@ -92,6 +101,7 @@ class InverseProduct {
   void perform_op(const double* x, double* y) const {
     free_.spread(x, b_);
     known_.remove_from_forces(b_);
+    tangent_.supports().apply(b_);  // consistent masses act on fixed degrees of freedom, too
     const CgResult result = conjugate_gradients(tangent_.product(), *preconditioner_, b_, x_, limits_);
     if (!result.is_positive)
       throw std::runtime_error("modes: the stiffness is not positive: the body has buckled");
@@ -167,20 +177,21 @@ std::vector<Mode> lowest_modes(const Body& body, const Supports& supports, const
     throw std::invalid_argument(
         fmt::format("modes: count is {}, expected less than the {} free degrees of freedom", options.count,
                     free.count()));
-  OrthonormalShapes known(body.row_sum_mass());
+  const MassMatrix mass(body, options.mass);
+  OrthonormalShapes known(mass);
   if (springs.empty())
     for (NodalVectors& motion : free_rigid_motions(body.reference() + u, supports))
       known.add(std::move(motion));
   std::vector<Mode> modes;
   for (const NodalVectors& shape : known.all()) modes.push_back({0.0, shape});
   const double shift = modes.empty() ? 0.0 : shift_of_free_body(Tangent(body, supports, u), known);
-  const Tangent tangent(body, supports, u, shift, springs);
+  const Tangent tangent(body, supports, u, shift, springs, &mass);
   InverseProduct inverse(tangent, free, known, options);
-  MassProduct mass{Eigen::VectorXd(free.count())};
-  free.gather(Vector3::Ones() * body.row_sum_mass().transpose(), mass.mass.data());
+  MassProduct mass_product(mass, free, body.node_count());
   const auto is_lower = [](const Mode& a, const Mode& b) { return a.eigenvalue < b.eigenvalue; };
   for (int wanted = options.count - static_cast<int>(modes.size()); wanted > 0; wanted = 1) {
-    const std::vector<Mode> found = further_modes(inverse, mass, free, wanted, shift, options.tolerance);
+    const std::vector<Mode> found =
+        further_modes(inverse, mass_product, free, wanted, shift, options.tolerance);
     const bool is_all =
         static_cast<int>(modes.size()) >= options.count && !is_lower(found.front(), modes[options.count - 1]);
     if (is_all) break;

@@ -15,15 +15,16 @@ struct ModeOptions {
   int count = 10;           ///< how many, the lowest
   double tolerance = 1e-8;  ///< of eigenvalues, relative
   PreconditionerKind preconditioner = PreconditionerKind::automatic;
+  MassKind mass = MassKind::lumped;
 };
 
 struct Mode {
   double eigenvalue;         ///< omega^2 [1/time^2]; of motions of the whole body 0, within rounding
-  NodalVectors shape;        ///< 3 x node_count, sum of m_A |phi_A|^2 = 1; 0 at fixed degrees of freedom
+  NodalVectors shape;        ///< 3 x node_count, phi . M phi = 1; 0 at fixed degrees of freedom
   double frequency() const;  ///< omega / (2 pi) [1/time]
 };
 
-/// Rising, about displacements u, with row-sum lumped mass.  Throws std::invalid_argument if there are not so
+/// Rising, about displacements u.  Throws std::invalid_argument if there are not so
 /// many modes, std::runtime_error if they are not found or the body is unstable at u.
 std::vector<Mode> lowest_modes(const Body& body, const Supports& supports, const NodalVectors& u,
                                const ModeOptions& options = {},

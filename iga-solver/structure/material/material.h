@@ -39,8 +39,13 @@ class Material {
   /// Memory after a time step dt [time] from `old` that ends at H: sets all of `next`.
   virtual void evolve(const Matrix3& /*H*/, double /*dt*/, const double* /*old*/, double* /*next*/) const {}
 
+  /// Energy per reference volume that a point has lost for good, if its memory tells [J/m^3].
+  virtual double dissipated_density(const double* /*state*/) const { return 0.0; }
+
   /// Whether P is linear in H: its change is the same at all H.
   virtual bool is_linear() const { return false; }
+  /// Whether rotations strain it: P is linear in H but for what it remembers.
+  virtual bool is_small_strain() const { return is_linear(); }
 
   virtual const char* law() const = 0;        ///< its word in model files
   virtual double density() const = 0;         ///< reference mass density [kg/m^3]

@@ -33,14 +33,17 @@ Matrix3 Viscous::cauchy_stress(const Matrix3& H, const double* state) const {
 // dP = dH S + F C : sym(F^T dH).
 void Viscous::evolve(const Matrix3& H, double dt, const double* old, double* next) const {
   const Matrix3 before = Matrix3::Map(old), change = H - before, middle = 0.5 * (H + before);
-  Matrix3 viscous = elastic_->stress_change(middle, change, nullptr);
+  Matrix3 viscous = viscosity_ / dt * elastic_->stress_change(middle, change, nullptr);
+  double work = viscous.cwiseProduct(change).sum();
   if (!elastic_->is_linear()) {
-    const Matrix3 to_reference = (Matrix3::Identity() + middle).inverse();
+    const Matrix3 F = Matrix3::Identity() + middle, to_reference = F.inverse();
     const Matrix3 S = to_reference * elastic_->stress(middle, nullptr);
-    viscous = to_reference * (viscous - change * S);
+    viscous = to_reference * (viscous - viscosity_ / dt * change * S);
+    work = (F * viscous).cwiseProduct(change).sum();
   }
   Matrix3::Map(next) = H;
-  Matrix3::Map(next + 9) = viscosity_ / dt * viscous;
+  Matrix3::Map(next + 9) = viscous;
+  next[18] = old[18] + work;
 }
 
 std::vector<double> Viscous::further_constants() const {

@@ -26,10 +26,13 @@ class Viscous final : public Material {
   }
   Matrix3 cauchy_stress(const Matrix3& H, const double* state) const override;
 
-  /// H, and the viscous part of S (of a linear law: of P).
-  int state_size() const override { return 18; }
+  /// H, the viscous part of S (of a linear law: of P), and the work against it.
+  int state_size() const override { return 19; }
+  double dissipated_density(const double* state) const override { return state[18]; }
   void evolve(const Matrix3& H, double dt, const double* old, double* next) const override;
   double viscosity() const { return viscosity_; }
+  const std::shared_ptr<const Material>& elastic() const { return elastic_; }
+  bool is_small_strain() const override { return elastic_->is_small_strain(); }
 
   const char* law() const override { return law_.c_str(); }
   double density() const override { return elastic_->density(); }

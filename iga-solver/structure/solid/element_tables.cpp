@@ -82,6 +82,16 @@ void ElementTabulator::add_row_sums(int element, const ElementNet& net, double* 
   });
 }
 
+Eigen::MatrixXd ElementTabulator::products(int element, const ElementNet& net) const {
+  const int functions = space_.functions_per_element();
+  Eigen::MatrixXd products = Eigen::MatrixXd::Zero(functions, functions);
+  for_each_point(element, net, [&](const nurbs::RationalBasis<3>& basis, const Matrix3&, double wJ, int) {
+    const auto R = Eigen::VectorXd::Map(basis.R, functions);
+    products.noalias() += wJ * R * R.transpose();
+  });
+  return products;
+}
+
 int ElementTabulator::nearest_slot(const std::array<int, 3>& span, const nurbs::Parameter<3>& xi) const {
   int slot = 0;
   for (int d = 2; d >= 0; --d) {

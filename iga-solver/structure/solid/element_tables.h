@@ -35,6 +35,8 @@ class ElementTabulator {
   /// Adds integrals of R_A over the element (row sums of its mass matrix for density 1) [length^3]: one per
   /// function.
   void add_row_sums(int element, const ElementNet& net, double* sums) const;
+  /// Integrals of R_A R_B over the element [length^3].
+  Eigen::MatrixXd products(int element, const ElementNet& net) const;
   /// Memory of the point of an element that is nearest to xi in parameters.
   int nearest_slot(const std::array<int, 3>& span, const nurbs::Parameter<3>& xi) const;
   int slots() const { return most_[0] * most_[1] * most_[2]; }  ///< memories of an element

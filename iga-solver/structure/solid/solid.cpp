@@ -153,6 +153,11 @@ const double* Solid::element_mass(int element) const {
   return at.patch.element_mass(at.element);
 }
 
+Eigen::MatrixXd Solid::element_mass_matrix(int element) const {
+  const PatchElement at = of(element);
+  return at.patch.element_mass_matrix(at.element);
+}
+
 double Solid::smallest_volume_ratio(int element, const double* u) const {
   const PatchElement at = of(element);
   return at.patch.smallest_volume_ratio(at.element, u);
@@ -209,6 +214,15 @@ void Solid::evolve(const NodalVectors& u, double dt, NodalVectors& f,
 ExactSum Solid::strain_energy_sum(const NodalVectors& u) const {
   ExactSum sum;
   for (std::size_t p = 0; p < patches_.size(); ++p) patches_[p]->integrals().add_energies(held(p), u, sum);
+  return sum;
+}
+
+ExactSum Solid::dissipated_sum() const {
+  ExactSum sum;
+  for (int e = 0; remembered_ > 0 && e < element_count(); ++e) {
+    const PatchElement at = of(e);
+    sum.add(at.patch.dissipated(at.element, memory_.data() + e * remembered_));
+  }
   return sum;
 }
 

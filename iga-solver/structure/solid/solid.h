@@ -71,6 +71,7 @@ class Solid final : public Body {
   const std::vector<double>& memory() const override { return memory_; }
   void set_memory(std::vector<double> memory) override;
   ExactSum strain_energy_sum(const NodalVectors& u) const override;
+  ExactSum dissipated_sum() const override;
 
   int element_count() const override { return first_element_.back(); }
   int padded_functions(int element) const override { return of(element).patch.padded_functions(); }
@@ -78,7 +79,9 @@ class Solid final : public Body {
   std::vector<int> element_nodes(int element) const override;
   void element_force(int element, const double* u, double* f) const override;
   const double* element_mass(int element) const override;
+  Eigen::MatrixXd element_mass_matrix(int element) const override;
   double smallest_volume_ratio(int element, const double* u) const override;
+  const Material& element_material(int element) const override { return of(element).patch.material(); }
   std::string describe_element(int element) const override;
   std::vector<std::array<int, 2>> net_edges() const override;
 

@@ -210,6 +210,19 @@ void SolidPatch::element_force(int element, const double* memory, const double* 
   force_kernel(padded_)(*material_, one(element).tables.geometry(), {memory}, u, f);
 }
 
+Eigen::MatrixXd SolidPatch::element_mass_matrix(int element) const {
+  const int in_patch = space_.element_index(spans_of(element));
+  return material_->density() * tabulate_fully_.products(in_patch, {X_, columns_of(element)});
+}
+
+double SolidPatch::dissipated(int element, const double* memory) const {
+  const ElementTables& tables = one(element).tables;
+  double energy = 0.0;
+  for (int q = 0; q < tables.points; ++q)
+    energy += tables.wJ[q] * material_->dissipated_density(memory + tables.slot[q] * material_->state_size());
+  return energy;
+}
+
 double SolidPatch::smallest_volume_ratio(int element, const double* u) const {
   return structure::smallest_volume_ratio(one(element).tables.geometry(), u);
 }

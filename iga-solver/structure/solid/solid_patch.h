@@ -80,6 +80,9 @@ class SolidPatch {
   void gather(int element, const NodalVectors& nodal, double* values) const;
   void element_force(int element, const double* memory, const double* u, double* f) const;
   const double* element_mass(int element) const { return one(element).mass.data(); }
+  /// By what its points remember [energy].
+  double dissipated(int element, const double* memory) const;
+  Eigen::MatrixXd element_mass_matrix(int element) const;
   double smallest_volume_ratio(int element, const double* u) const;
   std::string describe_element(int element) const;
   std::vector<SkinBox> skin_boxes(nurbs::Face face) const {

@@ -99,6 +99,7 @@ void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   accelerate(F, 0.0);
   largest_u_ = u_.lpNorm<Eigen::Infinity>();
   ledger_ = WorkLedger();
+  dissipated_start_ = dissipated_energy();
   strain_start_.reset();
   budget_.reset();
   check_divergence(F);
@@ -243,14 +244,17 @@ void ExplicitSolver::start_energy_budget() {
 void ExplicitSolver::check_divergence(const NodalVectors& F) {
   const bool starts = !budget_;
   if (starts) start_energy_budget();
-  enum { kPower = kForceKinds, kAdded, kPartsBeyond, kPartsStrained, kSums };
+  enum { kPower = kForceKinds, kAdded, kPartsBeyond, kPartsAlarmed, kSums };
   std::array<ExactSum, kSums> sums;
   std::copy(ledger_.sums().begin(), ledger_.sums().end(), sums.begin());
   for (const ForceSums& run : sums_)
     sums[kPower].add(run.f_v[kLoads] + run.f_v[kForces] + run.f_v[kSupports]);
   sums[kAdded] = std::exchange(added_energy_, ExactSum());
   sums[kPartsBeyond].add(largest_u_ <= kLargestDisplacement ? 0.0 : 1.0);
-  sums[kPartsStrained].add(watch_ && !is_too_strained_ && watch_->look(x_) ? 1.0 : 0.0);
+  const bool is_strained = watch_ && !is_too_strained_ && watch_->look(x_);
+  elements_.look(*body_, u_, largest_u_);
+  const bool is_turned = !has_warned_ && elements_.turned();
+  sums[kPartsAlarmed].add(is_strained || is_turned || elements_.folded() ? 1.0 : 0.0);
   halo_->sum(sums.data(), sums.size());
 
   const double kinetic = kinetic_start_ + sums[kLoads].value() + sums[kForces].value() +
@@ -260,7 +264,22 @@ void ExplicitSolver::check_divergence(const NodalVectors& F) {
   if (!budget_->allows(kinetic) || sums[kPartsBeyond].value() > 0.0)
     throw Diverged(describe_divergence(
         {*body_, *halo_, *mass_, u_, v_, a_, F, time_, dt_, stable_time_step_, kinetic, budget_->most()}));
-  if (sums[kPartsStrained].value() > 0.0) look_at_strain();
+  if (sums[kPartsAlarmed].value() == 0.0) return;
+  tell_of_elements();
+  if (halo_->any(is_strained)) look_at_strain();
+}
+
+void ExplicitSolver::tell_of_elements() {
+  const std::string folded = describe_folded(*body_, *halo_, elements_, time_);
+  if (!folded.empty()) throw Diverged(folded);
+  if (has_warned_) return;
+  warning_ = describe_turned(*body_, *halo_, elements_, time_);
+  has_warned_ = !warning_.empty();
+}
+
+void ExplicitSolver::look_at_elements() {
+  elements_.look_at_all(*body_, u_);
+  tell_of_elements();
 }
 
 void ExplicitSolver::look_at_strain() {
@@ -318,7 +337,21 @@ double ExplicitSolver::strain_energy() const {
   return halo_->total(sum);
 }
 
-Work ExplicitSolver::work() const { return ledger_.work(*halo_); }
+// What the material has lost by viscosity is damped, not internal.
+Work ExplicitSolver::work() const {
+  Work work = ledger_.work(*halo_);
+  const double dissipated = dissipated_energy() - dissipated_start_;
+  work.internal -= dissipated;
+  work.damped += dissipated;
+  return work;
+}
+
+double ExplicitSolver::dissipated_energy() const {
+  const std::vector<const Material*> materials = body_->materials();
+  const bool remembers = std::any_of(materials.begin(), materials.end(),
+                                     [](const Material* material) { return material->state_size() > 0; });
+  return remembers ? halo_->total(body_->dissipated_sum()) : 0.0;
+}
 
 double ExplicitSolver::load_work() const { return loads_.empty() ? halo_->dot(f_ext_, u_) : work().loads; }
 

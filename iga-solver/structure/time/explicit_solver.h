@@ -9,6 +9,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "structure/body.h"
@@ -19,6 +21,7 @@
 #include "structure/conditions/supports.h"
 #include "structure/halo.h"
 #include "structure/time/divergence.h"
+#include "structure/time/element_watch.h"
 #include "structure/time/mass.h"
 #include "structure/time/stretch_watch.h"
 #include "structure/time/support_motion.h"
@@ -51,6 +54,9 @@ class ExplicitSolver {
   void set_velocities(const NodalVectors& v);
   /// dt [time]; throws std::invalid_argument unless it is positive and finite.
   void set_time_step(double dt);
+  /// Displacements and velocities that somebody else has worked out, of all columns, and their time: for what
+  /// is then asked of the nodes.
+  void set_motion(const NodalVectors& u, const NodalVectors& v, double time);
 
   /// Accelerations for the current state under further nodal forces F [force], whole at the nodes that the
   /// part owns; advances nothing.  Call before
@@ -60,9 +66,9 @@ class ExplicitSolver {
   void begin_step();
   /// Accelerations under further nodal forces F [force] and half kick.  Throws Diverged when the solid blows
   /// up: values that are not finite, displacements beyond kLargestDisplacement, or more kinetic energy than
-  /// the EnergyBudget allows; a step later the state would mean nothing.  Also if the body is
-  /// strained so much that the stable step has come down to dt: TooStrained, unless somebody is to shorten
-  /// it.
+  /// the EnergyBudget allows; a step later the state would mean nothing.  Also if an element is seen folded
+  /// (element_watch.h).  Also if the body is strained so much that the stable step has come down to dt:
+  /// TooStrained, unless somebody is to shorten it.
   void end_step(const NodalVectors& F);
 
   // For time steps that are made of several (coupling/substeps.h).
@@ -83,6 +89,7 @@ class ExplicitSolver {
   const Halo& halo() const { return *halo_; }
 
   const Springs& springs() const { return springs_; }
+  bool has_changing_loads() const { return !loads_.empty(); }
   /// All loads [force] at displacements u and the time t, 3 x n.  Collective.
   void external_forces(const NodalVectors& u, double t, NodalVectors& f) const;
   const Body& body() const { return *body_; }
@@ -116,8 +123,8 @@ class ExplicitSolver {
   Vector3 angular_momentum(const Vector3& about) const;  ///< sum (x_A - about) x m_A v_A
 
   /// By how much the work against internal forces exceeds the change of strain energy since then:
-  /// the error of the time step, of order dt^2, and what the material has dissipated.
-  /// `strain`: strain_energy().
+  /// the error of the time step, of order dt^2, and what a material has dissipated otherwise than by
+  /// viscosity. `strain`: strain_energy().
   double truncation(double strain) const;
 
   /// From the next forces on reactions are known.
@@ -125,6 +132,13 @@ class ExplicitSolver {
   /// Force of a support on the body [force], at the time of the last forces: what its degrees of freedom need
   /// to stay where they are, f_int - f_ext - F, or to move, m a more.  Collective.
   Vector3 reaction(const NamedSupport& support) const;
+
+  /// That a law of small strain has been turned too far, in one line, once; empty else.  The same on all
+  /// parts.
+  std::string take_warning() { return std::exchange(warning_, {}); }
+  /// For those who take no steps: looks at all elements for that, and for folds.  Throws Diverged.
+  /// Collective.
+  void look_at_elements();
 
   /// Displacement of a point whose nodes are those of the whole body.  Collective.
   Vector3 displacement(const Probe& probe) const;
@@ -142,14 +156,20 @@ class ExplicitSolver {
   /// Takes what is of the part.  Throws std::invalid_argument if the size does not fit.  Collective.
   void load(const std::vector<double>& state);
   std::size_t state_size() const;  ///< what save() gives, collective
-  std::size_t all_nodes() const;   ///< of all parts, collective
+  /// The work since initialise_forces as numbers, without round-off, and back, after initialise_forces: so a
+  /// later run goes on with it.  Both collective; load_work_done throws as load().
+  std::vector<double> save_work_done() const;
+  void load_work_done(const std::vector<double>& numbers);
+  std::size_t all_nodes() const;  ///< of all parts, collective
   /// Undeformed positions of nodes of the whole body [length], wherever they are held: 3 x nodes. Collective.
   NodalVectors reference_of(const std::vector<Id>& nodes) const;
   /// Nodal values of the whole body in the order of node ids, collective; and back to the part's.
   std::vector<double> in_order(const NodalVectors& values) const;
   void from_order(const double* rows, NodalVectors& values) const;
   /// What the material of the whole body remembers, in the order of element ids, collective.
-  std::vector<double> memory_in_order() const { return halo_->in_order(element_ids(), body_->memory()); }
+  std::vector<double> memory_in_order() const {
+    return halo_->in_order(element_ids(), body_->memory().data(), body_->memory().size());
+  }
 
  private:
   void check_size(const NodalVectors& values, const char* what) const;
@@ -167,7 +187,10 @@ class ExplicitSolver {
   /// Over the nodes of all parts.
   Vector3 sum_of_own(const std::function<Vector3(Eigen::Index node)>& value) const;
   void start_energy_budget();
+  double dissipated_energy() const;
   void check_divergence(const NodalVectors& F);
+  /// Throws Diverged if an element is folded; a warning if one is turned too far.
+  void tell_of_elements();
   /// Throws TooStrained if the time step is above the stable one, unless it is to go on.
   void look_at_strain();
   double find_stable_step(const NodalVectors& u) const;
@@ -196,12 +219,16 @@ class ExplicitSolver {
   bool keeps_reactions_ = false;
   std::vector<double> reactions_;       // of the supports' fixed dofs
   std::optional<double> strain_start_;  // strain energy when the ledger began
+  double dissipated_start_ = 0.0;       // likewise
   double kinetic_start_ = 0.0;          // what the ledger's work goes on from
   double power_ = 0.0;                  // of f_ext, F and supports [energy/time]
   std::optional<EnergyBudget> budget_;  // since state or loads were set
   mutable std::optional<double> stable_time_step_;
   std::optional<StretchWatch> watch_;  // if the stable step is known
   std::optional<double> stable_now_;   // when it was found last
+  ElementWatch elements_;
+  bool has_warned_ = false;
+  std::string warning_;
   bool goes_on_when_strained_ = false, is_too_strained_ = false;
 };
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <utility>
 
@@ -13,13 +15,17 @@ namespace structure {
 
 std::vector<Id> ExplicitSolver::fixed_dofs() const {
   const Eigen::Index owned = halo_->owned(u_.cols());
-  std::vector<double> is_fixed(3 * owned, 0.0);
+  std::vector<double> directions(owned, 0.0);  // that are fixed, as bits
   for (const Eigen::Index dof : supports_.fixed_dofs())
-    if (dof < 3 * owned) is_fixed[dof] = 1.0;
-  const std::vector<double> all = halo_->in_order({node_ids_.begin(), node_ids_.begin() + owned}, is_fixed);
+    if (dof < 3 * owned) directions[dof / 3] += 1 << dof % 3;
   std::vector<Id> fixed;
-  for (std::size_t dof = 0; dof < all.size(); ++dof)
-    if (all[dof] != 0.0) fixed.push_back(static_cast<Id>(dof));
+  Id node = 0;
+  halo_->in_slices({node_ids_.begin(), node_ids_.begin() + owned}, directions.data(), directions.size(),
+                   [&](const double* some, std::size_t count) {
+                     for (std::size_t i = 0; i < count; ++i, ++node)
+                       for (int c = 0; c < 3; ++c)
+                         if (static_cast<int>(some[i]) >> c & 1) fixed.push_back(3 * node + c);
+                   });
   return fixed;
 }
 
@@ -50,7 +56,7 @@ NodalVectors ExplicitSolver::reference_of(const std::vector<Id>& nodes) const {
     places.push_back(static_cast<Id>(place));
     rows.insert(rows.end(), X.begin(), X.end());
   }
-  rows = halo_->in_order(places, rows);
+  rows = halo_->in_order(places, rows.data(), rows.size());
   NodalVectors X(3, nodes.size());
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const auto place = std::lower_bound(asked.begin(), asked.end(), nodes[i]) - asked.begin();
@@ -61,7 +67,7 @@ NodalVectors ExplicitSolver::reference_of(const std::vector<Id>& nodes) const {
 
 std::vector<double> ExplicitSolver::in_order(const NodalVectors& values) const {
   const std::vector<Id> nodes(node_ids_.begin(), node_ids_.begin() + halo_->owned(u_.cols()));
-  return halo_->in_order(nodes, {values.data(), values.data() + 3 * nodes.size()});
+  return halo_->in_order(nodes, values.data(), 3 * nodes.size());
 }
 
 void ExplicitSolver::from_order(const double* rows, NodalVectors& values) const {
@@ -97,6 +103,41 @@ void ExplicitSolver::load(const std::vector<double>& state) {
     std::copy_n(next + width * elements[i], width, memory.data() + width * i);
   body_->set_memory(std::move(memory));
   x_ = body_->reference() + u_;
+  budget_.reset();
+}
+
+// Words of exact sums are whole numbers below 2^53.
+std::vector<double> ExplicitSolver::save_work_done() const {
+  std::array<ExactSum, kForceKinds> sums = ledger_.sums();
+  halo_->sum(sums.data(), sums.size());
+  std::vector<double> numbers{strain_start_.value_or(0.0), dissipated_start_};
+  for (ExactSum& sum : sums) numbers.insert(numbers.end(), sum.words().begin(), sum.words().end());
+  return numbers;
+}
+
+void ExplicitSolver::load_work_done(const std::vector<double>& numbers) {
+  constexpr std::size_t kNumbers = 2 + kForceKinds * ExactSum::kWords;
+  if (numbers.size() != kNumbers)
+    throw std::invalid_argument(
+        fmt::format("ExplicitSolver: work of {} numbers, expected {}", numbers.size(), kNumbers));
+  const bool is_first_part = halo_->owned(u_.cols()) > 0 && node_ids_[0] == 0;
+  std::array<ExactSum, kForceKinds> sums;
+  auto word = numbers.begin() + 2;
+  for (ExactSum& sum : sums)
+    for (std::int64_t& value : sum.words()) value = is_first_part ? static_cast<std::int64_t>(*word++) : 0;
+  ledger_.set_sums(sums);
+  strain_start_ = numbers[0];
+  dissipated_start_ = numbers[1];
+  budget_.reset();
+}
+
+void ExplicitSolver::set_motion(const NodalVectors& u, const NodalVectors& v, double time) {
+  check_size(u, "displacements");
+  check_size(v, "velocities");
+  u_ = u;
+  v_ = v;
+  x_ = body_->reference() + u;
+  time_ = time;
   budget_.reset();
 }
 

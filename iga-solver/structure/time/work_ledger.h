@@ -14,13 +14,13 @@ namespace structure {
 
 /// [energy]
 struct Work {
-  /// Done against internal forces: the change of strain energy and what the material has dissipated, up to
-  /// the error of the step.
+  /// Done against internal forces: the change of strain energy and what a material with a memory has
+  /// dissipated, up to the error of the step.
   double internal = 0.0;
   double loads = 0.0;     ///< of the external loads
   double forces = 0.0;    ///< of somebody's forces (contact)
   double supports = 0.0;  ///< of supports that move
-  double damped = 0.0;    ///< taken by damping in proportion to the mass
+  double damped = 0.0;    ///< taken by damping; the ledger has that in proportion to the mass
 };
 
 class WorkLedger {
@@ -36,6 +36,8 @@ class WorkLedger {
     return {all[kInternal].value(), all[kLoads].value(), all[kForces].value(), all[kSupports].value(),
             0.0 - all[kDamping].value()};
   }
+  /// From now on it has these beside what is added.
+  void set_sums(const std::array<ExactSum, kForceKinds>& sums) { sums_ = sums; }
   /// Of this part.
   const std::array<ExactSum, kForceKinds>& sums() const { return sums_; }
 

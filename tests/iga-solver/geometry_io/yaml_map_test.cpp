@@ -130,6 +130,22 @@ TEST(YamlMap, SaysWhatWasGivenAndWhatWasExpected) {
          m.word_of("w", {"glass", "steel"});
        },
        "f.yaml:1: w is iron, expected one of: glass, steel"},
+      {"w: Glas\n",
+       [](const YamlMap& m) {
+         m.word_of("w", {"glass", "steel"});
+       },
+       "f.yaml:1: w is Glas, did you mean 'glass'? expected one of: glass, steel"},
+      {"a: 1\n",
+       [](const YamlMap& m) {
+         m.word_of("w", {"glass", "steel"});
+       },
+       "f.yaml:1: w is missing, expected one of: glass, steel"},
+      {"w: iron\n", [](const YamlMap& m) { m.words("w"); },
+       "f.yaml:1: w is iron, expected a list of words: [iron]"},
+      {"a: 3\n", [](const YamlMap& m) { m.map("a", "{b: 3}"); },
+       "f.yaml:1: a is 3, expected a mapping: {b: 3}"},
+      {"a: {c: 1}\n\tb: 2\n", nothing,
+       "f.yaml:2: broken YAML: end of map not found; the line begins with a tab, expected spaces"},
       {"a:\n  b: 3\n", [](const YamlMap& m) { m.map("a").map("b"); },
        "f.yaml:2: a.b is 3, expected a mapping (key: value)"},
       {"a:\n  b: 3\n", [](const YamlMap& m) { m.map("a").allow_only({"c"}); },
@@ -155,6 +171,7 @@ TEST(YamlMap, NearestWord) {
   EXPECT_EQ(nearest_word("dnesity", words), "density");
   EXPECT_EQ(nearest_word("temperature", words), "");
   EXPECT_EQ(nearest_word("E", words), "");
+  EXPECT_EQ(nearest_word("NU", words), "nu");
 }
 
 }  // namespace

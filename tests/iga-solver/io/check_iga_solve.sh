@@ -67,13 +67,19 @@ expect_error 'missing.yaml.*cannot read' missing.yaml
 expect_error 'time step 5 is above the stable step [0-9.]+' fall.yaml --step 5
 expect_error 'model' --end 1
 expect_error '--end' fall.yaml --end -1
-expect_error '--stpe' fall.yaml --stpe 1
+expect_error "'--stpe.*did you mean '--step'" fall.yaml --stpe 1
+expect_error "--step: is 'fast', expected a number > 0" fall.yaml --step fast
 sed '/^time/d' fall.yaml > endless.yaml
 expect_error 'endless.yaml: no end time.*--end' endless.yaml
 sed 's/density: 2/density: -2/' fall.yaml > negative.yaml
 expect_error 'negative.yaml:4:.*density.*-2.*> 0' negative.yaml
 sed 's/file: fall/file: none\/fall/' fall.yaml > nowhere.yaml
 expect_error 'none/fall.h5' nowhere.yaml
+expect_error "none/fall.h5: cannot write here: there is no folder 'none'" nowhere.yaml --check
+sed 's/gravity: .*/tractions: [{face: zeta+, value: 3}]}/' fall.yaml > number.yaml
+expect_error 'number.yaml:6: value is not a list, expected 3 numbers or expressions' number.yaml
+sed 's/law: linear_elastic/law: Neo-Hooke/' fall.yaml > law.yaml
+expect_error "law.yaml:4: law is 'Neo-Hooke', did you mean 'neo_hooke'" law.yaml
 mkfifo pipe.yaml pipe.h5
 expect_error 'pipe.yaml: cannot read.*named pipe' pipe.yaml
 sed 's/file: fall/file: pipe/' fall.yaml > to_pipe.yaml

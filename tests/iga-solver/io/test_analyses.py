@@ -107,6 +107,18 @@ class Analyses(unittest.TestCase):
         self.run_model("analysis: {kind: relax, tolerance: 1e-7}", text=SANDWICH)
         np.testing.assert_allclose(self.rows("probes/end")[-1], found, rtol=1e-4, atol=1e-9)
 
+    def test_a_law_of_small_strain_that_turns_is_warned_of(self):
+        """The end of a cantilever that sags by an eighth of its length turns by 9 degrees or so; at rest and on its way."""
+        sagging = MODEL.replace(", {{fix: [y, z], faces: [eta-, eta+, zeta-, zeta+]}}", "").replace("[1e6, 0, 0]", "[0, 0, -6e5]")
+        for more in ("analysis: static", "time: {end: 0.012}"):
+            for law, warned in (("linear_elastic", True), ("saint_venant_kirchhoff", False)):
+                text = sagging.format(law=law, more=more).replace("output: {file: out, fields: [displacement, stress]}", "")
+                (self.folder / "model.yaml").write_text(text)
+                done = subprocess.run([PROGRAM, "--quiet", "model.yaml"], cwd=self.folder, capture_output=True, text=True, check=True)
+                with self.subTest(more=more, law=law):
+                    self.assertEqual(done.stderr.count("WARNING: model.yaml: at time"), warned, done.stderr)
+                    self.assertEqual("is turned by" in done.stderr, warned)
+
     def test_modes_are_those_of_a_bar(self):
         finer = MODEL.replace("[20, 2, 2]", "[20, 4, 4]")  # lumped masses of fewer across make waves of others too slow
         printed = self.run_model("analysis: {kind: modes, count: 3}", text=finer)
@@ -121,15 +133,60 @@ class Analyses(unittest.TestCase):
         np.testing.assert_allclose(shares, 8 / (np.pi * (2 * k + 1)) ** 2, rtol=0.05)
         self.assertEqual(len(list(self.folder.glob("out_volume_*.vtu"))), 3)
 
+    def test_on_springs(self):
+        """A bar on springs per area: static, relax; modes from tan(beta L) = k/(E beta), also of consistent masses."""
+        k = 1e10
+        held = "[{{name: wall, fix: [x, y, z], faces: [xi-]}}, "
+        sprung = MODEL.replace(held, f"[{{{{name: wall, spring: {{{{stiffness: {k:g}, direction: [1, 0, 0]}}}}, faces: [xi-]}}}}, ")
+        for analysis in ("static", "{kind: relax, tolerance: 1e-8}"):
+            self.run_model(f"analysis: {analysis}", text=sprung)
+            np.testing.assert_allclose(self.rows("probes/end")[-1, 0], STRESS / k + STRESS / E * LENGTH, rtol=1e-6)
+            np.testing.assert_allclose(self.rows("reactions/wall")[-1, 0], -0.01 * STRESS, rtol=1e-6)
+        beta = 1.0
+        for _ in range(100):
+            beta = np.arctan(k / (E * beta)) / LENGTH
+        exact = beta * (E / RHO) ** 0.5 / (2 * np.pi)
+        for mass, tolerance in (("lumped", 2e-3), ("consistent", 1e-6)):
+            self.run_model(f"analysis: {{kind: modes, count: 1, mass: {mass}}}", text=sprung)
+            np.testing.assert_allclose(self.rows("frequency")[0], exact, rtol=tolerance)
+
+    def test_under_a_pressure_that_follows(self):
+        """Neo-Hooke in uniaxial stress: Cauchy's, so first Piola-Kirchhoff's over the lateral stretch squared, is the pressure."""
+        stretch, lateral, P = 0.9, 1.03170243, -108.722185
+        block = f"""units: si
+geometry: {{{{box: {{{{origin: [0, 0, 0], size: [1, 1, 1], elements: [2, 2, 2], degree: 2}}}}}}}}
+material: {{{{law: {{law}}, youngs_modulus: 1000, poissons_ratio: 0.3, density: 1}}}}
+boundary: [{{{{fix: [x], faces: [xi-]}}}}, {{{{fix: [y], faces: [eta-]}}}}, {{{{fix: [z], faces: [zeta-]}}}}]
+probes: {{{{end: {{{{face: xi+, at: [1, 1]}}}}}}}}
+loads: {{{{pressures: [{{{{face: xi+, value: {-P / lateral**2!r}}}}}]}}}}
+output: {{{{file: out}}}}
+{{more}}
+"""
+        for analysis in ("static, load_steps: 2, tolerance: 1e-10", "relax, tolerance: 1e-8"):
+            self.run_model(f"analysis: {{kind: {analysis}}}", law="neo_hooke", text=block)
+            expected = [stretch - 1, lateral - 1, lateral - 1]
+            np.testing.assert_allclose(self.rows("probes/end")[-1], expected, atol=1e-7)
+
+    def test_viscosity_changes_neither_rest_nor_frequencies(self):
+        found = {}
+        for damping in ("", "\ndamping: {stiffness: 1e-6}"):
+            for analysis in ("static", "{kind: relax, tolerance: 1e-7}", "{kind: modes, count: 2}"):
+                self.run_model(f"analysis: {analysis}{damping}", law="saint_venant_kirchhoff")
+                name = "frequency" if "modes" in analysis else "probes/end"
+                found.setdefault(analysis, []).append(self.rows(name)[-1])
+        for analysis, (elastic, viscous) in found.items():
+            np.testing.assert_allclose(viscous, elastic, rtol=1e-6, atol=1e-12, err_msg=analysis)
+
     def test_refusals(self):
         for more, expected in (
-            ("analysis: statics", "model.yaml:8: analysis is statics, expected one of: static, relax, modes"),
+            ("analysis: statics", "model.yaml:8: analysis is statics, did you mean 'static'? expected one of: static, relax, modes"),
             ("analysis: {kind: static, load_step: 3}", "did you mean 'load_steps'?"),
             ("analysis: {kind: static, load_steps: 0}", "model.yaml:8: analysis.load_steps is 0, expected a whole number from 1"),
             ("analysis: {kind: static, preconditioner: multigrid}", "expected one of: auto, sparse, tensor, nodes"),
             ("analysis: {kind: relax, steps: 5}", "after 5 steps, expected 1.0e-06"),
             ("analysis: {kind: static, save: model.yaml}", "save is model.yaml, from which the model is read"),
             ("analysis: static\nstate: none.h5", "none.h5: cannot read this file"),
+            ("analysis: {kind: modes, mass: full}", "expected one of: lumped, consistent"),
         ):
             with self.subTest(more):
                 self.assertIn(expected, self.run_model(more, code=1))

@@ -68,6 +68,11 @@ class Loads(unittest.TestCase):
             ("points: [{face: zeta+, at: [0.1, 0.9], force: [1, 2, 3], time: {table: [[0, 0], [1, 5]]}}]",
              lambda t: np.array([5, 10, 15]) * t),
             ("body_force: {value: [x*y*z, 1, 0]}", lambda t: (2 * 0.5 * 0.125, 1, 0)),
+            ("tractions: [{face: zeta+, value: {x: [0, 1, 2], t: [0, 1e-3], table: "
+             "[[0, 0, 0], [0, 0, 0], [0, 0, 0], [1, 0, 0], [3, 0, -2], [1, 0, 4]]}}]",
+             lambda t: np.array([4, 0, 0]) * np.clip(t / 1e-3, 0, 1)),
+            ("tractions: [{face: zeta+, value: {y: [0, 2], table: [[0, 0, 0], [0, 3, 0]]}}]", lambda t: (0, 1.5, 0)),
+            ("body_force: {value: {z: [0, 0.5], table: [[0, 0, 0], [4, 0, 2]]}}", lambda t: (2, 0, 1)),
             ("gravity: {value: [1, 0, 2], time: {sine: {frequency: 30}}}",
              lambda t: 10 * np.array([1, 0, 2]) * np.sin(2 * np.pi * 30 * t)),
         ):  # fmt: skip
@@ -189,6 +194,10 @@ class Loads(unittest.TestCase):
             ("loads: {pressures: [{face: zeta+, value: 1, time: x}]}", "expected a number or an expression of t"),
             ("loads: {lines: [{edge: [zeta+, zeta-], value: [0, 0, 1]}]}", "edge has no control points"),
             ("loads: {points: [{face: zeta+, at: [2, 0], force: [0, 0, 1]}]}", "at is [2, 0], expected 2 numbers from 0 to 1"),
+            ("loads: {tractions: [{face: zeta+, value: {x: [0, 1], table: [[0, 0, 1]]}}]}", "table: 1 rows, expected 2"),
+            ("loads: {tractions: [{face: zeta+, value: {x: [1, 0], table: [[0, 0, 1], [0, 0, 1]]}}]}", "expected rising numbers"),
+            ("loads: {pressures: [{face: zeta+, value: {t: [0], table: [[0, 1]]}}]}", "a row of 2 numbers, expected 1"),
+            ("loads: {body_force: {value: {t: [0], table: [[0, 0, 1]]}}}", "unknown key"),
             ("loads: {gravity: deck}", "loads.gravity is deck, expected a vector: there is no deck here"),
             ("loads: {gravity: moon}", "gravity is 'moon', expected [x, y, z]"),
             ("loads: {pressure: 3}", "did you mean 'pressures'?"),

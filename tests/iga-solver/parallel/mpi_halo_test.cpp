@@ -113,10 +113,34 @@ TEST(MpiHalo, RowsComeInTheOrderOfIds) {
   const NodalVectors whole = models::random_vectors(cut.space.control_point_count(), 4);
   const NodalVectors own = cut.held(whole).leftCols(cut.part.owned);
   std::vector<Id> ids(cut.part.nodes.begin(), cut.part.nodes.begin() + cut.part.owned);
-  const std::vector<double> all = cut.halo.in_order(ids, {own.data(), own.data() + own.size()});
+  const std::vector<double> all = cut.halo.in_order(ids, own.data(), own.size());
   ASSERT_EQ(all.size(), std::size_t(whole.size()));
   EXPECT_EQ(NodalVectors::Map(all.data(), 3, whole.cols()), whole);
-  EXPECT_TRUE(cut.halo.in_order(ids, {}).empty()) << "rows without numbers";
+  EXPECT_TRUE(cut.halo.in_order(ids, nullptr, 0).empty()) << "rows without numbers";
+}
+
+TEST(MpiHalo, ManyRowsComeInSlicesWhateverTheirOrder) {
+  constexpr Id kMany = 150001;
+  const Cut cut;
+  const Ranks ranks;
+  std::vector<Id> ids;  // falling, every rank's between all others'
+  std::vector<double> rows, all;
+  for (Id id = kMany - 1; id >= 0; --id)
+    if (id % ranks.count == ranks.me) {
+      ids.push_back(id);
+      rows.insert(rows.end(), {1.0 * id, -0.5 * id});
+    }
+  int slices = 0;
+  cut.halo.in_slices(ids, rows.data(), rows.size(), [&](const double* some, std::size_t numbers) {
+    all.insert(all.end(), some, some + numbers);
+    ++slices;
+  });
+  EXPECT_GT(slices, 1);
+  ASSERT_EQ(all.size(), std::size_t(2 * kMany));
+  for (Id id = 0; id < kMany; ++id) {
+    ASSERT_EQ(all[2 * id], 1.0 * id);
+    ASSERT_EQ(all[2 * id + 1], -0.5 * id);
+  }
 }
 
 TEST(MpiHalo, MassesAreWholeAndNoColumnIsWithout) {

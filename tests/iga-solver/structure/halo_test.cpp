@@ -89,10 +89,11 @@ class TwoPartHalo final : public structure::Halo {
   }
 
   /// Those of part 0 come first.
-  std::vector<double> in_order(const std::vector<structure::Id>&, std::vector<double> rows) const override {
-    const std::vector<double> theirs = place_.swap(part_, rows);
-    rows.insert(part_ == 0 ? rows.end() : rows.begin(), theirs.begin(), theirs.end());
-    return rows;
+  void in_slices(const std::vector<structure::Id>&, const double* rows, std::size_t numbers,
+                 const VisitRows& visit) const override {
+    const std::vector<double> mine(rows, rows + numbers), theirs = place_.swap(part_, mine);
+    for (const auto* some : {part_ == 0 ? &mine : &theirs, part_ == 0 ? &theirs : &mine})
+      visit(some->data(), some->size());
   }
 
  private:

@@ -12,6 +12,12 @@
 #include "structure/material/laws.h"
 #include "structure/solid/solid.h"
 
+// Dense eigenvalues, which tests compare with, take a compiler ten seconds: in models.cpp, once.
+extern template Eigen::EigenSolver<Eigen::MatrixXd>& Eigen::EigenSolver<Eigen::MatrixXd>::compute(
+    const Eigen::EigenBase<Eigen::MatrixXd>&, bool);
+extern template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&
+Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&, int);
+
 namespace models {
 
 using nurbs::NodalVectors;

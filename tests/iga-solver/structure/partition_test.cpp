@@ -138,12 +138,11 @@ TEST(Partition, SharesOfWeldedPatchesDoToo) {
 // Each patch of 96 elements; three parts have 160 each.
 TEST(Partition, PatchesAreSharedOutByTheirElements) {
   for (const int count : {2, 3, 5, 7}) {
-    std::vector<std::size_t> elements;
-    for (const Part& part : all_parts(welded_partition(count), count))
-      elements.push_back(part.elements.size());
-    EXPECT_EQ(std::accumulate(elements.begin(), elements.end(), std::size_t(0)), 480u);
-    EXPECT_LE(*std::max_element(elements.begin(), elements.end()), 480u / count + 48u) << count;
-    EXPECT_GE(*std::min_element(elements.begin(), elements.end()), 32u) << count;
+    std::vector<Id> elements;
+    for (const Part& part : all_parts(welded_partition(count), count)) elements.push_back(part.element_count);
+    EXPECT_EQ(std::accumulate(elements.begin(), elements.end(), Id(0)), 480);
+    EXPECT_LE(*std::max_element(elements.begin(), elements.end()), 480 / count + 48) << count;
+    EXPECT_GE(*std::min_element(elements.begin(), elements.end()), 32) << count;
   }
 }
 
@@ -182,7 +181,7 @@ TEST(Partition, EveryElementIsInOnePart) {
   const Case c;
   std::vector<Id> elements;
   for (const Part& part : all_parts(Partition(c.space, c.cuts, 3), 3))
-    elements.insert(elements.end(), part.elements.begin(), part.elements.end());
+    for (Id held = 0; held < part.element_count; ++held) elements.push_back(part.element(held));
   std::sort(elements.begin(), elements.end());
   std::vector<Id> all(c.space.element_count());
   std::iota(all.begin(), all.end(), Id(0));

@@ -223,7 +223,7 @@ class CommandLine(unittest.TestCase):
         decks = [line.split()[0] for line in done.stdout.splitlines()]
         self.assertLessEqual({"ball_plate", "thin_plate"}, set(decks))
         cases = self.run_study("ball_plate", "--list").stdout.split()
-        self.assertEqual(len(cases), 26)
+        self.assertEqual(len(cases), 29)
         self.assertIn("quadratic_lambda_15.7585", cases)
 
 

@@ -11,10 +11,11 @@
 
 namespace coupling {
 
-OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface) {
+OpenedStructure open_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface,
+                                   const SolidOptions& options) {
   const char* const steps = std::getenv("LATE_STEPS");
   if (!steps) throw std::invalid_argument("LATE_STEPS is not set, expected a number of steps");
-  OpenedStructure opened = open_iga_structure_in_phase(comm, path, surface);
+  OpenedStructure opened = open_iga_structure_in_phase(comm, path, surface, options);
   opened.solver = std::make_unique<test::LateSurface>(std::move(opened.solver), std::atoi(steps));
   return opened;
 }

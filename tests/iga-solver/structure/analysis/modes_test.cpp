@@ -74,6 +74,54 @@ TEST(Modes, OfACantileverAreThoseOfTimoshenkosBeam) {
   EXPECT_NEAR(std::log2((limit - coarse) / (limit - fine)), 1.5, 0.5);
 }
 
+/// Bars fixed at both ends that move along x alone, c = L = 1; so thin that all else is far above.
+double bar_frequency(int elements, int degree, int mode) {
+  const Solid solid(models::block({1, 0.05, 0.05}, {elements, 1, 1}, degree), models::elastic(1.0, 0.0));
+  Supports supports;
+  for (const Face end : {Face::xi_minus, Face::xi_plus})
+    supports.fix(structure::nodes_on(solid.space(), {end}), {true, true, true});
+  supports.fix(structure::nodes_on(solid.space(), {}), {false, true, true});
+  structure::ModeOptions options{mode + 1, 1e-12};
+  options.mass = structure::MassKind::consistent;
+  return std::sqrt(structure::lowest_modes(solid, supports, undeformed(solid), options)[mode].eigenvalue);
+}
+
+// Hughes (2000), sec. 7.3.2: linear elements have omega^2 h^2 = 6 (1 - cos k h)/(2 + cos k h), above k^2 h^2;
+// degree p converges with h^(2 p).
+TEST(Modes, OfConsistentMassesAreThoseOfTheClosedFormAndOfOrderTwiceTheDegree) {
+  const double pi = std::acos(-1.0);
+  for (int mode = 0; mode < 3; ++mode) {
+    const double theta = (mode + 1) * pi / 8;
+    EXPECT_NEAR(bar_frequency(8, 1, mode), 8 * std::sqrt(6 * (1 - std::cos(theta)) / (2 + std::cos(theta))),
+                1e-7);
+  }
+  for (const int degree : {2, 3}) {
+    const double coarse = bar_frequency(4, degree, 1) - 2 * pi, fine = bar_frequency(8, degree, 1) - 2 * pi;
+    EXPECT_GT(fine, 0.0);
+    EXPECT_NEAR(std::log2(coarse / fine), 2.0 * degree, 0.8);
+  }
+}
+
+// Whatever the way to solve, free and held; the rigid motions of a free block stay.
+TEST(Modes, OfConsistentMassesDoNotDependOnThePreconditioner) {
+  const Solid solid(models::distorted(models::block({3, 2, 1}, {3, 2, 2}, 2), 0.02), models::elastic());
+  Supports held;
+  held.fix(structure::nodes_on(solid.space(), {Face::xi_minus}), {true, true, true});
+  for (const Supports& supports : {held, Supports()}) {
+    std::vector<double> seen;
+    for (const PreconditionerKind kind : {PreconditionerKind::sparse, PreconditionerKind::tensor}) {
+      structure::ModeOptions options{8, 1e-10, kind};
+      options.mass = structure::MassKind::consistent;
+      const std::vector<Mode> modes = structure::lowest_modes(solid, supports, undeformed(solid), options);
+      seen.push_back(modes[7].eigenvalue);
+      const bool is_free = supports.fixed_dofs().empty();
+      EXPECT_EQ(std::abs(modes[5].eigenvalue) < 1e-7 * modes[7].eigenvalue, is_free);
+    }
+    EXPECT_NEAR(seen[0] / seen[1], 1.0, 1e-7);
+    EXPECT_GT(seen[0], structure::lowest_modes(solid, supports, undeformed(solid), {8})[7].eigenvalue);
+  }
+}
+
 // A stretched St. Venant-Kirchhoff bar is stiffer along its axis by (3 s^2 - 1) / 2.
 TEST(Modes, AreThoseAboutADeformedState) {
   for (const structure::MaterialLaw& law : structure::material_laws()) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numeric>
@@ -56,6 +57,39 @@ TEST(FollowingPressure, OfAClosedSkinHasNoForceAndNoMoment) {
     EXPECT_LT(f.rowwise().sum().norm(), 1e-13);
     EXPECT_LT(moment.norm(), 1e-13);
     EXPECT_GT(f.norm(), 0.1);
+  }
+}
+
+/// K - dF/du of a thick plate that is held below, under a pressure above: its largest eigenvalue with lumped
+/// masses, which sets the stable step.
+double largest_eigenvalue(const Solid& solid, double p) {
+  const Eigen::Index dofs = 3 * solid.node_count();
+  Eigen::MatrixXd K = models::stiffness(solid);
+  constexpr double kStep = 1e-6;
+  for (Eigen::Index dof = 0; dof < dofs && p != 0.0; ++dof) {
+    NodalVectors x = solid.reference();
+    x.data()[dof] += kStep;
+    const NodalVectors above = pushed(solid, {Face::zeta_plus}, p, x);
+    x.data()[dof] -= 2 * kStep;
+    K.col(dof) -= (above - pushed(solid, {Face::zeta_plus}, p, x)).reshaped() / (2 * kStep);
+  }
+  const Eigen::VectorXd m = Eigen::VectorXd(solid.row_sum_mass()).replicate(1, 3).transpose().reshaped();
+  return (m.cwiseInverse().asDiagonal() * K).eigenvalues().cwiseAbs().maxCoeff();
+}
+
+// What a pressure p does to the stable step is less than the share p/E of it: its stiffness is one of p times
+// an area, that of the solid one of E.
+TEST(FollowingPressure, ChangesTheStableStepByLessThanItsShareOfTheModulus) {
+  for (const int degree : {2, 3}) {
+    for (const double height : {1.0, 0.1}) {
+      const Solid solid(models::block({1, 1, height}, {2, 2, 1}, degree), models::elastic(1.0, 0.3));
+      const double without = largest_eigenvalue(solid, 0.0);
+      for (const double p : {0.05, -0.05}) {
+        const double change = std::sqrt(without / largest_eigenvalue(solid, p)) - 1.0;
+        EXPECT_LT(std::abs(change), 0.05) << degree << ' ' << height;
+        EXPECT_GT(std::abs(change), 1e-6) << "it has one";
+      }
+    }
   }
 }
 

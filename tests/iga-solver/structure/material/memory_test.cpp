@@ -69,11 +69,11 @@ TEST(Memory, RelaxesUnderHeldStrainAsInTheClosedFormToSecondOrder) {
 double free_vibration(double w, double t) {
   Eigen::Matrix3d A;
   A << 0, 1, 0, -w * w, 0, (1.0 - kG) * w * w, 1.0 / kTau, 0, -1.0 / kTau;
-  const Eigen::EigenSolver<Eigen::Matrix3d> modes(A);
-  const Eigen::Vector3cd weights =
-      modes.eigenvectors().fullPivLu().solve(Eigen::Vector3cd(Eigen::Vector3d(0, 1, 0)));
+  const Eigen::EigenSolver<Eigen::MatrixXd> modes(Eigen::MatrixXd{A});
+  const Eigen::Matrix3cd shapes = modes.eigenvectors();
+  const Eigen::Vector3cd weights = shapes.fullPivLu().solve(Eigen::Vector3cd(Eigen::Vector3d(0, 1, 0)));
   const Eigen::Vector3cd grown = (modes.eigenvalues() * t).array().exp();
-  return (modes.eigenvectors() * weights.cwiseProduct(grown))[0].real();
+  return (shapes * weights.cwiseProduct(grown))[0].real();
 }
 
 /// Error of the amplitude after three time constants, relative to its first maximum.

@@ -280,7 +280,7 @@ TEST(Solid, APartIsTheWholeWhereItIs) {
     const nurbs::Parameter<3> xi{0.4, p == 0 ? 0.1 : 0.9, 0.7};
     EXPECT_EQ(own.stress(u_own, xi), whole.stress(u, xi));
     for (int e = 0; e < own.element_count(); ++e) {
-      const int id = static_cast<int>(part.elements[e]);
+      const int id = static_cast<int>(part.element(e));
       EXPECT_EQ(own.describe_element(e), whole.describe_element(id));
       EXPECT_EQ(own.element_mass(e)[0], whole.element_mass(id)[0]);
     }

@@ -84,7 +84,7 @@ double dense_eigenvalue(const nurbs::Volume& patch, const Supports& supports, do
       free.push_back(dof);
   const Eigen::VectorXd scale = m(free).cwiseSqrt().cwiseInverse();
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(
-             scale.asDiagonal() * K(free, free) * scale.asDiagonal(), Eigen::EigenvaluesOnly)
+             Eigen::MatrixXd(scale.asDiagonal() * K(free, free) * scale.asDiagonal()), Eigen::EigenvaluesOnly)
       .eigenvalues()
       .maxCoeff();
 }
@@ -360,7 +360,10 @@ double spectral_radius(double omega, double lead, double dt) {
   Eigen::Matrix2d kick, drift;
   kick << 1.0, 0.0, -dt * omega * omega, 1.0 - dt * omega * omega * lead;
   drift << 1.0, dt, 0.0, 1.0;
-  return Eigen::EigenSolver<Eigen::Matrix2d>(drift * kick, false).eigenvalues().cwiseAbs().maxCoeff();
+  return Eigen::EigenSolver<Eigen::MatrixXd>(Eigen::MatrixXd(drift * kick), false)
+      .eigenvalues()
+      .cwiseAbs()
+      .maxCoeff();
 }
 
 TEST(StableTimeStep, OfADampedBodyEndsWhereItsAmplificationMatrixDoes) {

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "model_check.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <stdexcept>
+
+#include "explicit_run.h"
+#include "geometry_io/regular_file.h"
+#include "io/history.h"
+#include "model_report.h"
+#include "nurbs/memory.h"
+#include "progress.h"
+
+namespace app {
+
+namespace {
+
+using structure::ExplicitSolver;
+using Clock = std::chrono::steady_clock;
+
+/// The most that this process has had [bytes].
+double memory_taken() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return 1024.0 * static_cast<double>(usage.ru_maxrss);
+}
+
+void print_size(const io::ModelFile& model, const ExplicitSolver& solver) {
+  long control_points = 0;
+  for (int p = 0; p < model.patch_count(); ++p) control_points += model.volume(p).space.control_point_count();
+  print_on_first("  patches      {}, {} control points, {} nodes\n", model.patch_count(), control_points,
+                 static_cast<long>(model.nodes.node_count()));
+  print_on_first("  memory       {} so far{}\n", nurbs::size_text(solver.halo().sum(memory_taken())),
+                 model.analysis ? "; an analysis takes more" : "");
+}
+
+/// Times that are multiples of `every` from 0 to `end`.
+long times_until(double end, double every) {
+  return 1 + static_cast<long>(std::floor(end / every * (1 + 1e-12)));
+}
+
+void print_output(const io::ModelFile& model, double end, const Steps& steps) {
+  if (!model.output) return print_on_first("  output       none\n");
+  const long most = steps.count + 1;
+  print_on_first("  output       {} rows of histories",
+                 std::min(most, times_until(end, model.output->every)));
+  if (const auto& fields = model.output->fields) {
+    const double every = fields->every ? *fields->every : *fields->steps * steps.size;
+    print_on_first(", {} states of fields at {} places", std::min(most, times_until(end, every)),
+                   fields->on.size());
+  }
+  print_on_first("\n");
+}
+
+/// The stable step has just been found by 20 internal forces in `seconds`; a step is little more than one.
+void print_duration(const Steps& steps, double seconds) {
+  constexpr double kForces = 20.0, kStepPerForce = 1.1;
+  const double run = kStepPerForce * seconds / kForces * static_cast<double>(steps.count);
+  print_on_first("  run time     {}{}, without output\n", run < 1.0 ? "" : "about ", duration_text(run));
+}
+
+/// Throws if there is no place for what is written.
+void check_output(const io::ModelFile& model) {
+  if (!model.output) return;
+  const std::filesystem::path path = io::checked_path(*model.output);
+  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  const std::string problem = std::filesystem::is_directory(folder)
+                                  ? geometry_io::problem_as_output(path.string())
+                                  : fmt::format("there is no folder '{}'", folder.string());
+  if (!problem.empty())
+    throw std::runtime_error(fmt::format("{}: cannot write here: {}", path.string(), problem));
+}
+
+void check_motion(const SolveOptions& options, const io::ModelFile& model, const ExplicitSolver& solver) {
+  const Clock::time_point start = Clock::now();
+  const double stable = find_stable_step(model, solver, Talk::usual);
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const std::optional<double> end = end_of(options, model);
+  if (!end)
+    return print_on_first("  time step    not known: neither 'time: {{end: T}}' nor --end T is given\n");
+  const Steps steps = steps_to(*end, options, model, stable, {});
+  print_on_first("  time step    {:.6g}, {} steps\n", steps.size, steps.count);
+  print_duration(steps, seconds);
+  print_output(model, *end, steps);
+}
+
+}  // namespace
+
+void check_model(const SolveOptions& options, io::ModelFile& model) {
+  check_output(model);
+  const std::vector<std::string> warnings =
+      warnings_of(model, model.analysis ? std::nullopt : end_of(options, model));
+  const ExplicitSolver solver = io::build_solver(model, parallel::cut_among(MPI_COMM_WORLD));
+  print_model(model, solver);
+  print_details(model);
+  print_size(model, solver);
+  if (model.analysis)
+    print_on_first("  analysis     {}\n", io::analysis_word(*model.analysis));
+  else
+    check_motion(options, model, solver);
+  for (const std::string& warning : warnings) print_on_first("WARNING: {}: {}\n", model.file, warning);
+}
+
+}  // namespace app

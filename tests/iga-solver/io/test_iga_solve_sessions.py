@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""iga-solve as it is worked with: --check tells what a run would be and what looks like a slip, --quiet and --verbose, progress
+on a terminal, and a run that was interrupted and is continued, on any number of ranks, beside the one that was not."""
+
+import os
+import pty
+import re
+import subprocess
+import tempfile
+import termios
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+PROGRAM = os.environ["IGA_SOLVE"]
+MPIEXEC = os.environ["MPIEXEC"]
+# 2 x 2 boxes, held, moved, loaded in time, damped
+PLATE = """units: si
+geometry: {box: {origin: [0, 0, 0], size: [0.04, 0.036, 0.004], elements: [34, 34, 1], degree: 2}}
+material: {law: LAW, youngs_modulus: 7.4e10, poissons_ratio: 0.23, density: 2480}
+boundary:
+  - {name: clamp, fix: [x, y, z], faces: [xi-]}
+  - {name: shaker, move: {z: 1e-6}, faces: [xi+], time: {sine: {frequency: 1e5}}}
+probes: {middle: {face: zeta+, at: [0.5, 0.47]}}
+output: {every: 4e-7, file: plate, fields: {of: [velocity], every: 1e-6, on: [zeta+]}}
+surfaces: {zeta+: zeta+}
+loads: {tractions: [{face: zeta+, value: [0, 0, "-1e8*sin(1e6*t)"]}]}
+damping: {mass: 1e4}
+initial: {velocity: [1, 0, -10]}
+time: {end: 4e-6, save: saved.h5, save_every: 1.5e-6}
+"""
+
+
+class Sessions(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = Path(folder.name)
+
+    def solve(self, text: str, *words: str, ranks: int = 1, code: int = 0) -> str:
+        (self.folder / "plate.yaml").write_text(text)
+        launcher = [MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
+        done = subprocess.run(
+            [*launcher, PROGRAM, "plate.yaml", *words], cwd=self.folder, capture_output=True, text=True, timeout=60, check=False
+        )
+        self.assertEqual(done.returncode != 0, code != 0, done.stdout + done.stderr)
+        return done.stdout if code == 0 else done.stderr
+
+    def written(self) -> dict:
+        series = {}
+        with h5py.File(self.folder / "plate.h5") as file:
+            file.visititems(lambda name, item: series.__setitem__(name, item[...]) if hasattr(item, "shape") else None)
+        for path in sorted(self.folder.glob("plate_zeta+*")):
+            series[path.name] = np.frombuffer(path.read_bytes(), dtype=np.uint8)
+        return series
+
+
+class Continued(Sessions):
+    def check(self, law: str, before: int, after: int, damping: str = "{mass: 1e4}") -> None:
+        """From the middle, while histories and fields have gone on to the end: what came after that is dropped, and anew."""
+        plate = PLATE.replace("LAW", law).replace("{mass: 1e4}", damping)
+        self.solve(plate, ranks=before)
+        whole, state = self.written(), self.folder / "saved.h5"
+        self.assertEqual(len(whole["time"]), 11)
+        self.assertGreater(np.abs(whole["ledger/damped"][-1]), 0)
+        with h5py.File(state) as file:
+            self.assertAlmostEqual(file["state/time"][0], 4e-6)
+            step = file["state/time_step"][0]
+        middle = f"end: {round(3e-6 / step) * step!r}, step: {step!r}"
+        self.solve(plate.replace("end: 4e-6", middle), "--quiet", ranks=before)
+        saved = state.read_bytes()
+        self.solve(plate, "--quiet")
+        state.write_bytes(saved)
+        self.assertRegex(self.solve(plate, "--continue", ranks=after), "continues    from time [23].")
+        again = self.written()
+        self.assertEqual(set(again), set(whole))
+        for name, values in whole.items():
+            self.assertTrue(np.array_equal(again[name], values), f"{name}, to the last bit")
+
+    def test_on_more_ranks(self):
+        self.check("saint_venant_kirchhoff", 1, 3)
+
+    def test_on_fewer_ranks(self):
+        self.check("neo_hooke", 2, 1)
+
+    def test_a_law_with_memory(self):
+        self.check("linear_elastic", 1, 2, "{mass: 1e4, stiffness: 1e-9}")
+
+    def test_farther_than_planned(self):
+        self.solve(PLATE.replace("LAW", "linear_elastic"))
+        self.solve(PLATE.replace("LAW", "linear_elastic"), "--continue", "--end", "6e-6")
+        with h5py.File(self.folder / "plate.h5") as file:
+            np.testing.assert_allclose(file["time"], 4e-7 * np.arange(16), atol=8e-8)
+
+    def test_refusals(self):
+        plate = PLATE.replace("LAW", "linear_elastic")
+        self.assertIn("saved.h5: cannot read", self.solve(plate, "--continue", code=1))
+        self.assertIn("expected a later end", self.solve(plate, "--quiet") + self.solve(plate, "--continue", code=1))
+        finer = plate.replace("[34, 34, 1]", "[35, 34, 1]")
+        self.assertIn("saved.h5: is a state of", self.solve(finer, "--continue", "--end", "1", code=1))
+        never = plate.replace(", save: saved.h5, save_every: 1.5e-6", "")
+        self.assertIn("time: {save: FILE}", self.solve(never, "--continue", code=1))
+        self.assertIn("save_every is given without", self.solve(plate.replace(" save: saved.h5,", ""), code=1))
+        self.assertIn("save is plate.yaml", self.solve(plate.replace("saved.h5", "plate.yaml"), code=1))
+
+
+class Check(Sessions):
+    def test_runs_nothing(self):
+        printed = self.solve(PLATE.replace("LAW", "neo_hooke"), "--check")
+        for pattern in (
+            r"elements     1156 \(34 x 34 x 1\)", "patches      1, 3888 control points, 3888 nodes", r"dof          11664, \d+ of",
+            "mass         0.0142848", "stable step", r"time step    \S+, \d+ steps", "run time     less than 1 s", r"memory       \S+ [MG]B",
+            "output       11 rows of histories, 5 states of fields at 1 places", "material     neo_hooke, E 7.4e[+]10",
+            "support      clamp: fixed at", "loads        1 tractions",
+        ):  # fmt: skip
+            self.assertRegex(printed, pattern)
+        self.assertNotIn("WARNING", printed)
+        self.assertEqual(sorted(path.name for path in self.folder.glob("*")), ["plate.yaml"])
+
+    def test_is_the_same_on_ranks(self):
+        def lines(text):
+            return [line for line in text.splitlines() if not re.search("memory|run time", line)]
+        plate = PLATE.replace("LAW", "linear_elastic")
+        self.assertEqual(lines(self.solve(plate, "--check", ranks=3)), lines(self.solve(plate, "--check")))
+
+    def test_slips(self):
+        plate = PLATE.replace("LAW", "linear_elastic")
+        bare = re.sub("(?m)^(loads|initial|damping|boundary|  - ).*\n", "", plate)
+        thin = plate.replace("0.004], elements: [34, 34, 1]", "0.00004], elements: [34, 34, 1]")
+        static = re.sub("(?m)^time:.*", "analysis: static", plate)
+        for text, expected in (
+            (bare, "nothing moves it"),
+            (bare + "loads: {gravity: [0, 0, -9.81]}\n", "free in 6 of its 6 rigid motions: loads carry it away"),
+            (thin, "patch 0 has elements 29 times as long as they are thin"),
+            (plate.replace("every: 4e-7", "every: 1"), "output.every is 1, after the end 4e-06"),
+            (re.sub("(?m)^output:.*\n", "", plate), "'probes' is not used"),
+            (static, "'initial' is not used"),
+            (re.sub("(?m)^  - .*\n", "", static).replace("boundary:\n", ""), "no equilibrium"),
+        ):
+            with self.subTest(expected):
+                self.assertRegex(self.solve(text, "--check"), f"(?m)^WARNING: plate.yaml: .*{expected}")
+
+    def test_errors_are_those_of_a_run(self):
+        plate = PLATE.replace("LAW", "linear_elastic")
+        self.assertIn("above the stable step", self.solve(plate, "--check", "--step", "1", code=1))
+        self.assertIn("did you mean 'boundary'", self.solve(plate.replace("boundary:", "bondary:"), "--check", code=1))
+
+
+class Words(Sessions):
+    def test_verbose_prints_energies_on_the_way(self):
+        plate = PLATE.replace("LAW", "linear_elastic")
+        usual, more = self.solve(plate), self.solve(plate, "--verbose")
+        self.assertEqual(usual.count("energies at time"), 1)
+        self.assertGreater(more.count("energies at time"), 10)
+        self.assertIn("support      clamp: fixed", more)
+        self.assertEqual(self.solve(plate, "--quiet"), "")
+        self.assertIn("excludes", self.solve(plate, "--quiet", "--verbose", code=1))
+
+    def test_progress_on_a_terminal(self):
+        (self.folder / "plate.yaml").write_text(PLATE.replace("LAW", "linear_elastic"))
+        ours, theirs = pty.openpty()
+        termios.tcsetwinsize(theirs, (24, 80))
+        with subprocess.Popen([PROGRAM, "plate.yaml"], cwd=self.folder, stdout=theirs, stderr=theirs) as run:
+            os.close(theirs)
+            text = b""
+            try:
+                while piece := os.read(ours, 4096):
+                    text += piece
+            except OSError:  # the end of a terminal
+                pass
+            self.assertEqual(run.wait(timeout=60), 0)
+        os.close(ours)
+        steps = re.search(r"(\d+) steps", text.decode())[1]
+        self.assertRegex(text.decode(), rf"\r  step {steps} of {steps}, time 4e-06, .* in all")
+
+
+if __name__ == "__main__":
+    unittest.main()
