@@ -3,7 +3,10 @@
 #include <fmt/ranges.h>
 #include <yaml-cpp/yaml.h>
 
+#include <stdexcept>
+
 #include "geometry_io/formats.h"
+#include "geometry_io/input_error.h"
 
 namespace geometry_io {
 namespace {
@@ -14,10 +17,15 @@ std::string list(const Numbers& numbers) {
   return fmt::format("[{}]", fmt::join(numbers, ", "));
 }
 
-std::string quoted(const std::string& text) {
+// The emitter puts a placeholder where bytes are not UTF-8, and two names could become one.
+std::string quoted_name(const std::string& name) {
   YAML::Emitter out;
-  out << YAML::DoubleQuoted << text;
-  return out.c_str();
+  out << YAML::DoubleQuoted << name;
+  const std::string text = out.c_str();
+  if (YAML::Load(text).Scalar() != name)
+    throw std::invalid_argument(
+        fmt::format("surface name {} is not UTF-8, expected a name that YAML can hold", shown(name)));
+  return text;
 }
 
 template <int Dim>
@@ -44,7 +52,7 @@ std::string write_yaml(const GeometryFile& geometry) {
     text += std::visit([](const auto& patch) { return patch_text(patch); }, shape);
   if (!geometry.surfaces.empty()) text += "surfaces:\n";
   for (const auto& [name, pieces] : geometry.surfaces)
-    text += fmt::format("  {}: {}\n", quoted(name), list(surface_words(pieces, geometry.patches)));
+    text += fmt::format("  {}: {}\n", quoted_name(name), list(surface_words(pieces, geometry.patches)));
   return text;
 }
 

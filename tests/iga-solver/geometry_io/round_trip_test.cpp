@@ -154,6 +154,14 @@ TEST(RoundTrip, FromFormatToFormat) {
   expect_same(geometry, again(again(again(geometry, format::xml), format::hdf5), format::yaml));
 }
 
+// Two names that differ in broken bytes alone would be one.
+TEST(RoundTrip, YamlNamesAreUtf8) {
+  GeometryFile geometry = random_geometry(1, true, false);
+  geometry.surfaces = {{"Gr\xf6\xdf", {{0, {}}}}};
+  EXPECT_THAT([&] { write_geometry(geometry, format::yaml); },
+              testing::ThrowsMessage<std::invalid_argument>(testing::HasSubstr("not UTF-8")));
+}
+
 TEST(RoundTrip, HDF5NamesHaveNoSlash) {
   GeometryFile geometry = random_geometry(1, true, false);
   geometry.surfaces = {{"a/b", {{0, {}}}}};
