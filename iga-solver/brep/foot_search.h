@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "brep/piece_tree.h"
+#include "brep/smooth_neighbours.h"
 #include "brep/surface.h"
 
 namespace brep {
@@ -39,7 +40,8 @@ class FootSearch {
  private:
   const Surface& surface_;
   PieceTree tree_;
-  double slack_, same_point_;
+  SmoothNeighbours neighbours_;
+  double same_point_;
 };
 
 }  // namespace brep
