@@ -4,8 +4,10 @@
 
 #include <Eigen/SparseCore>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
+#include "brep/surface.h"
 #include "nurbs/multi_patch.h"
 
 namespace coupling {
@@ -81,6 +83,8 @@ struct ContactSurface {
   /// Per patch: +1 or -1 where the normal dS/dxi x dS/deta points out of or into the body; 0 for a two-sided
   /// surface.
   std::vector<int> outward_sign;
+  /// In place of patches, of which there are none then: faces, edges and vertices, two-sided.
+  std::shared_ptr<const brep::Surface> faces = nullptr;
 };
 
 }  // namespace coupling

@@ -254,7 +254,7 @@ void FixWallNurbs::end_of_step() {
 }
 
 void FixWallNurbs::post_run() {
-  const contact::LocalSearch::Counts searches = contact::sum(loop_.searches(), world);
+  const contact::SearchCounts searches = contact::sum(loop_.searches(), world);
   messages_.print(contact::report(searches));
   if (searches.not_converged() > 0)
     messages_.warn(fmt::format("{} closest-point projections did not converge", searches.not_converged()));

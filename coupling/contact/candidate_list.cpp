@@ -5,12 +5,8 @@ namespace contact {
 
 using nurbs::Vector3;
 
-void CandidateList::set_surface(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points) {
-  tree_.build(surface, control_points);
-}
-
 void CandidateList::build(const coupling::RigidFrame& frame, const std::vector<Vector3>& images,
-                          const Surroundings& particles) {
+                          const Surroundings& particles, const Near& near) {
   frame_at_build_ = frame;
   images_ = images;
   candidates_.clear();
@@ -20,8 +16,8 @@ void CandidateList::build(const coupling::RigidFrame& frame, const std::vector<V
     const int first_image = static_cast<int>(image_elements_.size());
     for (size_t image = 0; image < images.size(); ++image) {
       const int first = static_cast<int>(elements_.size());
-      tree_.query(frame.to_body(Vector3::Map(particles.centre + 3 * i) - images[image]), particles.reach[i],
-                  elements_);
+      near(frame.to_body(Vector3::Map(particles.centre + 3 * i) - images[image]), particles.reach[i],
+           elements_);
       const int count = static_cast<int>(elements_.size()) - first;
       if (count > 0) image_elements_.push_back({static_cast<int>(image), first, count});
     }

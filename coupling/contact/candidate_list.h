@@ -3,12 +3,12 @@
 // Source: Gao & Feng (2019), section 4.1; control-point boxes and trees in place of their CGRID.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "coupling/rigid_frame.h"
 #include "nurbs/assert.h"
-#include "nurbs/multi_patch.h"
-#include "search/multi_patch_tree.h"
+#include "nurbs/types.h"
 
 namespace contact {
 
@@ -31,19 +31,17 @@ struct Surroundings {
 
 class CandidateList {
  public:
-  /// Boxes of the elements; control points (3 x n) in the wall's frame.
-  void set_surface(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points);
-  bool has_surface() const { return !tree_.empty(); }
-  /// Of the wall in its frame.
-  const search::Box& wall_bounds() const { return tree_.bounds(); }
-
-  /// Each particle becomes a candidate of the elements whose boxes, moved by one of the images, are within
-  /// its reach.
+  /// Adds the numbers, in rising order, of all elements that may be within `reach` of a point in the wall's
+  /// frame.
+  using Near = std::function<void(const nurbs::Vector3& point, double reach, std::vector<int>& out)>;
+  /// Each particle becomes a candidate of the elements that, moved by one of the images, are within its
+  /// reach.
   void build(const coupling::RigidFrame& frame, const std::vector<nurbs::Vector3>& images,
-             const Surroundings& particles);
+             const Surroundings& particles, const Near& near);
 
   const std::vector<Candidate>& candidates() const { return candidates_; }
   const std::vector<nurbs::Vector3>& images() const { return images_; }  ///< in space [length]
+  std::size_t image_element_count() const { return image_elements_.size(); }
   const ImageElements* image_elements(const Candidate& c) const {
     NURBS_ASSERT(c.first_image + c.image_count <= static_cast<int>(image_elements_.size()), c.first_image);
     return &image_elements_[c.first_image];
@@ -64,7 +62,6 @@ class CandidateList {
   std::vector<ImageElements> image_elements_;
   std::vector<int> elements_;
   std::vector<nurbs::Vector3> images_;
-  search::MultiPatchTree tree_;
   coupling::RigidFrame frame_at_build_;
 };
 

@@ -16,25 +16,18 @@ ContactLoop::ContactLoop(const coupling::StructureSolver& structure, coupling::S
                          const Options& options)
     : options_(options),
       wall_(structure, exchange),
-      search_(options.search, wall_.projector()),
-      tracker_(search_, candidates_) {}
+      tracker_(wall_.shape().track(candidates_, options.search, searches_)) {}
 
 void ContactLoop::forget_reports() {
-  search_.reset();
+  searches_ = SearchCounts();
   inside_ = crossing_ = stiff_ = brief_ = RunAlarm();
 }
 
 /* ---------------------------------------------------------------------- the list of candidates */
 
 void ContactLoop::build_list(const ParticleView& particles, const ListReach& reach) {
-  if (wall_.deforms()) wall_.import_all();
-  if (wall_.deforms() || !candidates_.has_surface()) {
-    candidates_.set_surface(wall_.surface(), wall_.control_points());
-    wall_.projector().begin_list();
-  }
-  const search::Box& bounds = candidates_.wall_bounds();
-  wall_.set_bounds(bounds);
-  wall_travel_ = wall_.max_speed(bounds) * reach.dt;
+  wall_.begin_list();
+  wall_travel_ = wall_.max_speed() * reach.dt;
   list_reach_.resize(particles.count);
   radius_limit_.resize(particles.count);
   double largest = 0.0;
@@ -44,11 +37,14 @@ void ContactLoop::build_list(const ParticleView& particles, const ListReach& rea
     radius_limit_[i] = particles.radius[i] + 0.5 * reach.skin / reach.touch_factor;
     largest = std::max(largest, list_reach_[i]);
   }
-  const std::vector<Vector3> images = wall_images(reach.box, bounds, wall_.frame(), largest);
+  const std::vector<Vector3> images = wall_images(reach.box, wall_.bounds(), wall_.frame(), largest);
   expect_images_to_stay(images);
-  candidates_.build(wall_.frame(), images, {particles.count, particles.x, list_reach_.data()});
+  candidates_.build(wall_.frame(), images, {particles.count, particles.x, list_reach_.data()},
+                    [&](const Vector3& point, double near, std::vector<int>& elements) {
+                      wall_.shape().near(point, near, elements);
+                    });
   if (wall_.deforms()) wall_.follow(candidates_.all_elements());
-  tracker_.list_is_new();
+  tracker_->list_is_new();
   surface_motion_ = 0.0;
   forget_lost_contacts(particles);
 }
@@ -73,8 +69,7 @@ void ContactLoop::forget_lost_contacts(const ParticleView& particles) {
 
 // A point of the surface is a convex combination of control points.
 double ContactLoop::wall_motion() {
-  if (!wall_.deforms())
-    return wall_.frame().max_displacement(candidates_.frame_at_build(), candidates_.wall_bounds());
+  if (!wall_.deforms()) return wall_.frame().max_displacement(candidates_.frame_at_build(), wall_.bounds());
   return surface_motion_ = wall_.motion_of_shape();
 }
 
@@ -94,13 +89,13 @@ void ContactLoop::step(const ParticleView& particles, const StepInfo& step, Cont
                        ContactObserver* observer) {
   contacts_.clear();
   forces_on_body_.clear();
-  tracker_.begin_step(surface_motion_);
+  tracker_->begin_step(surface_motion_);
   body_squared_frequency_ = wall_.squared_frequency();
-  ContactTracker::Query queries[kBlock];
+  FeetTracker::Query queries[kBlock];
   const int candidates = static_cast<int>(candidates_.candidates().size());
   for (int candidate = 0; candidate < candidates;) {
     const int count = next_block(particles, step, candidate, queries);
-    tracker_.follow(queries, count);
+    tracker_->follow(queries, count);
     batch_.clear();
     for (int k = 0; k < count; ++k) find_contacts(particles, step, queries[k]);
     answer(particles, step, model, observer);
@@ -120,16 +115,16 @@ inline void ContactLoop::answer(const ParticleView& particles, const StepInfo& s
 
 // The next candidates that may touch, from number `candidate` on.
 inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo& step, int& candidate,
-                                   ContactTracker::Query* queries) {
+                                   FeetTracker::Query* queries) {
   const std::vector<Candidate>& candidates = candidates_.candidates();
   int count = 0;
   for (; candidate < static_cast<int>(candidates.size()) && count < kBlock; ++candidate) {
     const int i = candidates[candidate].particle;
     if (!particles.meets_wall(i)) continue;
-    ContactTracker::Query& query = queries[count];
+    FeetTracker::Query& query = queries[count];
     query.centre = wall_.to_frame(particles.centre(i));
     query.touch_reach = particles.radius[i] * step.touch_factor;
-    if (tracker_.is_quiet(candidate, query.centre, query.touch_reach)) continue;
+    if (tracker_->is_quiet(candidate, query.centre, query.touch_reach)) continue;
     query.candidate = candidate;
     query.list_reach = list_reach_[i];
     ++count;
@@ -138,11 +133,11 @@ inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo
 }
 
 inline void ContactLoop::find_contacts(const ParticleView& particles, const StepInfo& step,
-                                       const ContactTracker::Query& query) {
+                                       const FeetTracker::Query& query) {
   const int i = candidates_.candidates()[query.candidate].particle;
   const ParticleSlots slots = particles.memory.of(i);
   const double radius = particles.radius[i];
-  for (TrackedFoot& tracked : tracker_.feet(query, slots)) {
+  for (TrackedFoot& tracked : tracker_->feet(query, slots)) {
     Foot& foot = tracked.foot;
     const bool touches = foot.distance <= radius || foot.distance < query.touch_reach;
     Vector3 delta = wall_.to_space_direction(query.centre - foot.point);

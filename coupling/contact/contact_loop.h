@@ -12,13 +12,13 @@
 //   structure.end_step(nodal forces), particles' second half kick
 #pragma once
 
+#include <memory>
 #include <stdexcept>
 #include <vector>
 
 #include "coupling/contact/candidate_list.h"
 #include "coupling/contact/contact_model.h"
-#include "coupling/contact/contact_tracker.h"
-#include "coupling/contact/local_search.h"
+#include "coupling/contact/feet_tracker.h"
 #include "coupling/contact/particle_view.h"
 #include "coupling/contact/periodic_images.h"
 #include "coupling/contact/run_alarm.h"
@@ -99,7 +99,7 @@ class ContactLoop {
 
   /// What has happened since these were forgotten last, on this rank.
   void forget_reports();
-  const LocalSearch::Counts& searches() const { return search_.counts(); }
+  const SearchCounts& searches() const { return searches_; }
   const RunAlarm& inside() const { return inside_; }      ///< centres inside the body
   const RunAlarm& crossing() const { return crossing_; }  ///< centres that may cross the surface in a step
   /// Contacts that together with the body's vibrations may be too stiff for the step, which either alone is
@@ -112,8 +112,8 @@ class ContactLoop {
   void expect_images_to_stay(const std::vector<Vector3>& images) const;
   void forget_lost_contacts(const ParticleView& particles);
   int next_block(const ParticleView& particles, const StepInfo& step, int& candidate,
-                 ContactTracker::Query* queries);
-  void find_contacts(const ParticleView& particles, const StepInfo& step, const ContactTracker::Query& query);
+                 FeetTracker::Query* queries);
+  void find_contacts(const ParticleView& particles, const StepInfo& step, const FeetTracker::Query& query);
   bool may_cross(const ParticleView& particles, const StepInfo& step, int particle, double distance) const;
   void check_crossing(const ParticleView& particles, const StepInfo& step, int particle, double distance,
                       const Vector3& delta, const Vector3& v_wall);
@@ -134,8 +134,8 @@ class ContactLoop {
   Options options_;
   Wall wall_;
   CandidateList candidates_;
-  LocalSearch search_;
-  ContactTracker tracker_;
+  SearchCounts searches_;
+  std::unique_ptr<FeetTracker> tracker_;
   double surface_motion_ = 0.0;       // of a deforming wall since the list was built
   double wall_travel_ = 0.0;          // in a step, when the list was built [length]
   std::vector<double> list_reach_;    // per particle, when the list was built

@@ -70,7 +70,7 @@ class ParticleSlots {
       if (slot(s).empty()) return s;
     return -1;
   }
-  void clear() {
+  void clear() const {
     for (int s = 0; s < slot_count_; ++s) slot(s).clear();
   }
 

@@ -24,6 +24,7 @@ bool same(const Foot& a, const Foot& b, double reach) {
 }  // namespace
 
 void ContactTracker::list_is_new() {
+  FeetTracker::list_is_new();
   states_.assign(candidates_.candidates().size(), State());
   feet_.clear();
 }
@@ -65,7 +66,7 @@ FeetRange ContactTracker::find_feet(const Query& query, const ParticleSlots& slo
   }
   // A search within touch_reach does not tell how far the surface is.
   const double clearance = nearest_distance(feet, query);
-  keep_clearance(query, state.touched && !state.regular ? 0.0 : clearance, state);
+  keep_clearance(query, state.touched && !state.regular ? 0.0 : clearance);
   state.touched = clearance < query.touch_reach;
   return feet;
 }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/contact/local_search.h"
 
-#include <fmt/format.h>
-
 #include "search/simplex_brent.h"
 
 namespace contact {
@@ -11,18 +9,13 @@ using nurbs::Vector3;
 using search::Foot;
 using search::FootStatus;
 
-inline void LocalSearch::count(const Foot& foot) {
-  ++counts_.by_status[static_cast<int>(foot.status)];
-  counts_.iterations += foot.iterations;
-}
-
 void LocalSearch::advance(const Vector3* centres, Foot* const* feet, int count_of_feet) {
   if (method_ == SearchMethod::newton) {
     projector_.follow(centres, feet, count_of_feet);
   } else {
     for (int k = 0; k < count_of_feet; ++k) *feet[k] = simplex_brent(centres[k], *feet[k]);
   }
-  for (int k = 0; k < count_of_feet; ++k) count(*feet[k]);
+  for (int k = 0; k < count_of_feet; ++k) counts_.add(*feet[k]);
 }
 
 Foot LocalSearch::simplex_brent(const Vector3& centre, const Foot& from) {
@@ -39,26 +32,7 @@ void LocalSearch::add_minima(const Vector3& centre, const Vector3& image, double
   const size_t before = out.size();
   projector_.add_minima(centre, image, reach, same_foot, elements, count_of_elements, out);
   counts_.cold += static_cast<long>(out.size() - before);
-  for (size_t k = before; k < out.size(); ++k) count(out[k]);
-}
-
-LocalSearch::Counts sum(const LocalSearch::Counts& counts, MPI_Comm world) {
-  constexpr int kNumbers = 7;
-  static_assert(sizeof(LocalSearch::Counts) == kNumbers * sizeof(long), "Counts is a row of numbers");
-  LocalSearch::Counts all;
-  MPI_Allreduce(&counts, &all, kNumbers, MPI_LONG, MPI_SUM, world);
-  return all;
-}
-
-std::string report(const LocalSearch::Counts& counts) {
-  const long* n = counts.by_status;
-  const long projections = n[0] + n[1] + n[2] + n[3];
-  const double iterations =
-      projections > 0 ? static_cast<double>(counts.iterations) / static_cast<double>(projections) : 0.0;
-  return fmt::format(
-      "{} projections: {} interior, {} edge, {} corner, {} not converged; {} cold, {} fallbacks, {:.2f} "
-      "iterations on average",
-      projections, n[0], n[1], n[2], n[3], counts.cold, counts.fallbacks, iterations);
+  for (size_t k = before; k < out.size(); ++k) counts_.add(out[k]);
 }
 
 }  // namespace contact

@@ -7,17 +7,24 @@
 
 #include "coupling/force_distribution.h"
 #include "nurbs/borders.h"
-#include "nurbs/curvature.h"
-#include "nurbs/surface_normal.h"
 
 namespace contact {
+
+namespace {
+
+std::unique_ptr<WallShape> shape_of(const coupling::ContactSurface& given, const nurbs::MultiPatch& surface,
+                                    const nurbs::NodalVectors& control_points) {
+  if (given.faces) return std::make_unique<FaceShape>(*given.faces);
+  return std::make_unique<PatchShape>(surface, control_points, given.outward_sign);
+}
+
+}  // namespace
 
 Wall::Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange& exchange)
     : structure_(structure),
       exchange_(exchange),
       surface_(structure.surface().topology),
-      projector_(surface_, exchange.positions()),
-      outward_sign_(structure.surface().outward_sign) {
+      shape_(shape_of(structure.surface(), surface_, exchange.positions())) {
   if (inverse_masses().cols() > 0) largest_inverse_mass_ = inverse_masses().maxCoeff();
 }
 
@@ -26,7 +33,7 @@ void Wall::weld_across(const std::vector<Vector3>& periods) {
   for (const Vector3& period : periods) in_frame.push_back(structure_.frame().rotation.transpose() * period);
   constexpr double kTolerance = 1e-9;
   surface_.set_borders(nurbs::find_borders(nurbs::split(surface_, control_points()), kTolerance, in_frame));
-  projector_.begin_list();  // it depends on the borders
+  shape_->begin_list(true);  // it depends on the borders
 }
 
 void Wall::import() {
@@ -39,24 +46,27 @@ void Wall::import() {
   if (!imported_) return import_all();
   if (!deforms_) return;
   exchange_.import_followed();
-  projector_.surface_moved();
+  shape_->changed();
 }
 
 void Wall::import_all() {
   if (imported_ && !deforms_) return;
   exchange_.import_surface();
-  projector_.surface_moved();
+  shape_->changed();
   imported_ = true;
 }
 
-void Wall::set_bounds(const search::Box& bounds) {
+void Wall::begin_list() {
+  if (deforms_) import_all();
+  shape_->begin_list(deforms_);
+  bounds_ = shape_->bounds();
   constexpr double kResolution = 1e-10;  // of the wall's coordinates, which feet know to about 1e-16
-  resolution_ = kResolution * bounds.low.cwiseAbs().cwiseMax(bounds.high.cwiseAbs()).maxCoeff();
+  resolution_ = kResolution * bounds_.low.cwiseAbs().cwiseMax(bounds_.high.cwiseAbs()).maxCoeff();
 }
 
-double Wall::max_speed(const search::Box& bounds) const {
+double Wall::max_speed() const {
   if (structure_.deforms()) return std::sqrt(exchange_.velocities().colwise().squaredNorm().maxCoeff());
-  return frame_.max_speed(bounds);
+  return frame_.max_speed(bounds_);
 }
 
 Vector3 Wall::velocity_of_deforming(const Foot& foot) const {
@@ -64,14 +74,11 @@ Vector3 Wall::velocity_of_deforming(const Foot& foot) const {
 }
 
 int Wall::side_of(const Foot& foot, const Vector3& delta) const {
-  const Vector3 normal = foot.status == search::FootStatus::interior
-                             ? nurbs::shape_at(surface_, control_points(), foot.at()).normal
-                             : nurbs::normal_at(surface_, control_points(), foot.at());
-  return normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1 : 1;
+  return shape_->normal_at(foot).dot(frame_.rotation.transpose() * delta) < 0.0 ? -1 : 1;
 }
 
 bool Wall::is_inside(const Foot& foot, const Vector3& delta) const {
-  const int sign = outward_sign_[foot.patch];
+  const int sign = shape_->outward_sign(foot.patch);
   if (sign == 0 || foot.status != search::FootStatus::interior) return false;
   return sign * side_of(foot, delta) < 0;
 }
@@ -80,11 +87,11 @@ Vector3 Wall::leave(Foot& foot, const Vector3& delta, int known_side, double rad
                     const Vector3& v) const {
   constexpr double kRoundOff = 1e-5;  // of the resolution
   constexpr double kOff = 1e-9;       // of the radius
-  const Vector3 normal = frame_.rotation * nurbs::normal_at(surface_, control_points(), foot.at());
+  const Vector3 normal = frame_.rotation * shape_->normal_at(foot);
   double side = normal.dot(delta);
   if (std::abs(side) <= kRoundOff * resolution_) side = 0.0;
   if (side == 0.0) side = known_side;
-  if (side == 0.0) side = outward_sign_[foot.patch];
+  if (side == 0.0) side = shape_->outward_sign(foot.patch);
   if (side == 0.0) side = normal.dot(velocity(foot, x, normal) - v);
   // What the models make of the overlap must be this distance to the last bit.
   foot.distance = radius - (radius - std::max(foot.distance, kOff * radius));
@@ -93,8 +100,7 @@ Vector3 Wall::leave(Foot& foot, const Vector3& delta, int known_side, double rad
 
 double Wall::effective_radius(const Foot& foot, const Vector3& delta, double radius) const {
   constexpr double kLeast = 0.1;  // of 1/r: in a hollow of nearly the particle's radius Hertz' theory ends
-  const nurbs::SurfaceShape shape = nurbs::shape_near(
-      surface_.patch(foot.patch), surface_.control_points_of(foot.patch, control_points()), foot.xi);
+  const nurbs::SurfaceShape shape = shape_->shape_near(foot);
   const double side = shape.normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1.0 : 1.0;
   double product = 1.0;
   for (const double curvature : shape.curvature) product *= std::max(1.0 - side * curvature * radius, kLeast);

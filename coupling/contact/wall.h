@@ -4,9 +4,9 @@
 // and all velocities are in space.
 #pragma once
 
+#include "coupling/contact/wall_shape.h"
 #include "coupling/surface_exchange.h"
 #include "nurbs/multi_patch.h"
-#include "search/multi_patch_projector.h"
 
 namespace contact {
 
@@ -34,8 +34,10 @@ class Wall {
   double motion_of_shape() const { return exchange_.largest_motion(); }
   /// Whether it is so on any rank, as far as they must agree.
   bool any(bool here) const { return exchange_.any(here); }
-  /// The box of all elements, in the wall's frame, when the list of candidates was built.
-  void set_bounds(const search::Box& bounds);
+  /// A list of candidates is to be built of all of it, as it now is.
+  void begin_list();
+  /// The box of all elements then, in the wall's frame.
+  const search::Box& bounds() const { return bounds_; }
 
   const nurbs::MultiPatch& surface() const { return surface_; }
   const nurbs::NodalVectors& control_points() const { return exchange_.positions(); }
@@ -49,7 +51,7 @@ class Wall {
     return 4.0 / (stable * stable);
   }
   double shortest_contact() const { return structure_.shortest_contact(); }  ///< that it knows [time]
-  search::MultiPatchProjector& projector() { return projector_; }
+  const WallShape& shape() const { return *shape_; }
 
   bool deforms() const { return deforms_; }
   bool stands() const { return stands_; }  ///< nothing of it moves in this step
@@ -61,7 +63,7 @@ class Wall {
   }
   Vector3 to_space_direction(const Vector3& X) const { return is_turned_ ? Vector3(frame_.rotation * X) : X; }
   /// At most, of any of its points [length/time].
-  double max_speed(const search::Box& bounds) const;
+  double max_speed() const;
   /// At a foot, which is at `point` in space.
   Vector3 velocity(const Foot& foot, const Vector3& point, const Vector3& delta) const {
     if (stands_) return Vector3::Zero();
@@ -73,7 +75,7 @@ class Wall {
 
   /// +1 where dS/dxi x dS/deta points, -1 on the other side.
   int side_of(const Foot& foot, const Vector3& delta) const;
-  bool has_inside(int patch) const { return outward_sign_[patch] != 0; }
+  bool has_inside(int patch) const { return shape_->outward_sign(patch) != 0; }
   /// Whether a centre is inside the body.
   bool is_inside(const Foot& foot, const Vector3& delta) const;
   /// A centre nearer than this is on the surface [length].
@@ -96,8 +98,8 @@ class Wall {
   const coupling::StructureSolver& structure_;
   coupling::SurfaceExchange& exchange_;
   nurbs::MultiPatch surface_;  // of the structure; welded across periodic faces, too
-  search::MultiPatchProjector projector_;
-  const std::vector<int>& outward_sign_;  // of each patch
+  std::unique_ptr<WallShape> shape_;
+  search::Box bounds_;
   coupling::RigidFrame frame_;
   double resolution_ = 0.0, largest_inverse_mass_ = 0.0;
   bool imported_ = false, needs_forces_ = false, deforms_ = false, slides_ = false, stands_ = false,

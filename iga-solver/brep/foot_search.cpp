@@ -29,6 +29,18 @@ int FootSearch::activate(const Vector3& d, double reach, const int* pieces, int 
   return kept;
 }
 
+double FootSearch::nearest(const Vector3& d, double reach, const int* pieces, int count) const {
+  PieceTree::Query query = tree_.query(d, reach);
+  for (int k = 0; k < count; ++k) {
+    if (!tree_.may_be_near(query, pieces[k])) continue;
+    const double distance = distance_of_piece(surface_, pieces[k], d);
+    if (distance >= reach) continue;
+    reach = distance;
+    query = tree_.query(d, reach);
+  }
+  return reach;
+}
+
 void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int count,
                       std::vector<Foot>& out) const {
   const PieceTree::Query query = tree_.query(d, reach);

@@ -31,6 +31,8 @@ class FootSearch {
   /// Those of these pieces that are not farther than `reach`: enough for points within `reach` - `reach of
   /// feet()` of d.  Returns their number; `active` has room for `count`, and may be `pieces`.
   int activate(const Vector3& d, double reach, const int* pieces, int count, int* active) const;
+  /// Distance of d from the nearest of these pieces, at least; `reach` if that is less.
+  double nearest(const Vector3& d, double reach, const int* pieces, int count) const;
   /// Appends the feet of d nearer than `reach`, given all pieces that are (more do no harm).
   void feet(const Vector3& d, double reach, const int* pieces, int count, std::vector<Foot>& out) const;
 

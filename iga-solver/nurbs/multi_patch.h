@@ -16,6 +16,8 @@ struct SurfacePoint {
 /// (3 x control_point_count()), patch after patch; so are the elements numbered.
 class MultiPatch {
  public:
+  /// Without patches.
+  MultiPatch() : first_control_point_{0}, first_element_{0} {}
   /// Borders as find_borders gives them, or none: all edges free.  Throws std::invalid_argument unless there
   /// is a patch, and four borders for each if any.
   explicit MultiPatch(std::vector<Space<2>> patches, Borders borders = {});

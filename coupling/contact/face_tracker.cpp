@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/contact/face_tracker.h"
+
+#include <algorithm>
+
+#include "nurbs/assert.h"
+
+namespace contact {
+
+using nurbs::Vector3;
+
+namespace {
+
+constexpr double kMargin = 0.1;  // of its reach: how far a particle moves before it chooses pieces again
+
+}  // namespace
+
+void FaceTracker::list_is_new() {
+  FeetTracker::list_is_new();
+  states_.assign(candidates_.candidates().size(), State());
+  pieces_.resize(candidates_.all_elements().size());
+  piece_counts_.resize(candidates_.image_element_count());
+}
+
+FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
+  NURBS_ASSERT(states_.size() == candidates_.candidates().size(), states_.size());
+  const State& state = states_[query.candidate];
+  if ((query.centre - state.centre).norm() + query.touch_reach > state.reach) {
+    const double distance = nearest(query, query.list_reach, Of::list);
+    if (distance > (1.0 + kMargin) * query.touch_reach) return none(query, slots, distance);
+    choose_pieces(query);
+  }
+  find(query);
+  if (found_.empty()) {
+    const double known = state.reach - (query.centre - state.centre).norm();
+    return none(query, slots, nearest(query, known, Of::chosen));
+  }
+  match_slots(query, slots);
+  keep_clearance(query, 0.0);
+  return {feet_.data(), static_cast<int>(feet_.size())};
+}
+
+FeetRange FaceTracker::none(const Query& query, const ParticleSlots& slots, double clearance) {
+  keep_clearance(query, clearance);
+  slots.clear();
+  return {feet_.data(), 0};
+}
+
+// f(centre less the image, pieces, their number, image) for each image near the candidate.
+template <class Function>
+void FaceTracker::for_each_image(const Query& query, Of of, Function f) const {
+  const Candidate& candidate = candidates_.candidates()[query.candidate];
+  const ImageElements* images = candidates_.image_elements(candidate);
+  for (int k = 0; k < candidate.image_count; ++k) {
+    const ImageElements& at = images[k];
+    const Vector3& image = candidates_.images()[at.image];
+    if (of == Of::list)
+      f(query.centre - image, candidates_.elements(at), at.count, image);
+    else
+      f(query.centre - image, pieces_.data() + at.first, piece_counts_[candidate.first_image + k], image);
+  }
+}
+
+double FaceTracker::nearest(const Query& query, double reach, Of of) const {
+  for_each_image(query, of, [&](const Vector3& d, const int* pieces, int count, const Vector3&) {
+    reach = search_.nearest(d, reach, pieces, count);
+  });
+  return reach;
+}
+
+void FaceTracker::choose_pieces(const Query& query) {
+  State& state = states_[query.candidate];
+  state.centre = query.centre;
+  state.reach = (1.0 + 2.0 * kMargin) * query.touch_reach;
+  const Candidate& candidate = candidates_.candidates()[query.candidate];
+  const ImageElements* images = candidates_.image_elements(candidate);
+  for (int k = 0; k < candidate.image_count; ++k)
+    piece_counts_[candidate.first_image + k] =
+        search_.activate(query.centre - candidates_.images()[images[k].image], state.reach,
+                         candidates_.elements(images[k]), images[k].count, pieces_.data() + images[k].first);
+}
+
+void FaceTracker::find(const Query& query) {
+  found_.clear();
+  for_each_image(query, Of::chosen,
+                 [&](const Vector3& d, const int* pieces, int count, const Vector3& image) {
+                   const std::size_t first = found_.size();
+                   search_.feet(d, query.touch_reach, pieces, count, found_);
+                   for (std::size_t k = first; k < found_.size(); ++k) {
+                     found_[k].image = image;
+                     found_[k].point += image;
+                   }
+                 });
+  if (found_.size() > 1)
+    std::sort(found_.begin(), found_.end(),
+              [](const brep::Foot& a, const brep::Foot& b) { return a.distance < b.distance; });
+  for (const brep::Foot& foot : found_) counts_.add(foot);
+}
+
+// A slot goes to the foot of its sheet that is nearest to where its branch was last, the nearest pair first.
+void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
+  feet_.clear();
+  pairs_.clear();
+  for (const brep::Foot& foot : found_) feet_.push_back({foot, -1});
+  for (int s = 0; s < slots.slot_count(); ++s) {
+    if (slots.slot(s).empty()) continue;
+    const nurbs::SurfacePoint at = slots.slot(s).foot();
+    const Vector3 last = search_.surface().faces[at.patch].point(at.xi);
+    const int sheet = search_.surface().sheet(at.patch, slots.slot(s).side());
+    for (std::size_t k = 0; k < found_.size(); ++k) {
+      const double distance2 = (last + found_[k].image - found_[k].point).squaredNorm();
+      if (found_[k].sheet == sheet && distance2 <= query.touch_reach * query.touch_reach)
+        pairs_.push_back({distance2, s, static_cast<int>(k)});
+    }
+  }
+  if (pairs_.size() > 1)
+    std::sort(pairs_.begin(), pairs_.end(),
+              [](const Pair& a, const Pair& b) { return a.distance2 < b.distance2; });
+  const auto is_matched = [&](int slot) {
+    return std::any_of(feet_.begin(), feet_.end(), [&](const TrackedFoot& f) { return f.slot == slot; });
+  };
+  for (const Pair& pair : pairs_)
+    if (feet_[pair.foot].slot < 0 && !is_matched(pair.slot)) feet_[pair.foot].slot = pair.slot;
+  for (int s = 0; s < slots.slot_count(); ++s)
+    if (!is_matched(s)) slots.slot(s).clear();
+}
+
+}  // namespace contact

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The feet of candidates on a wall of faces, edges and vertices.
+//
+// A foot costs little here, so none is followed: all are found anew in each step that may have one.  Near
+// the wall a candidate looks only at the pieces that it can reach before it has moved by a small part of its
+// radius; farther away it looks for the nearest piece alone, and then rests until it can be there.  A branch
+// is a foot of one sheet (brep/README.md), wherever it moves on it, over edges and vertices too.
+#pragma once
+
+#include <vector>
+
+#include "brep/foot_search.h"
+#include "coupling/contact/feet_tracker.h"
+#include "coupling/contact/search_counts.h"
+
+namespace contact {
+
+class FaceTracker final : public FeetTracker {
+ public:
+  /// Keeps references to all.
+  FaceTracker(const brep::FootSearch& search, const CandidateList& candidates, SearchCounts& counts)
+      : FeetTracker(candidates), search_(search), counts_(counts) {}
+
+  void list_is_new() override;
+  void follow(const Query* /*queries*/, int /*count*/) override {}
+  FeetRange feet(const Query& query, const ParticleSlots& slots) override;
+
+ private:
+  struct State {
+    nurbs::Vector3 centre = nurbs::Vector3::Zero();  // when its pieces were chosen
+    double reach = 0.0;                              // then; 0: not yet [length]
+  };
+  enum class Of { list, chosen };
+  template <class Function>
+  void for_each_image(const Query& query, Of of, Function f) const;
+  double nearest(const Query& query, double reach, Of of) const;
+  void choose_pieces(const Query& query);
+  void find(const Query& query);
+  void match_slots(const Query& query, const ParticleSlots& slots);
+  FeetRange none(const Query& query, const ParticleSlots& slots, double clearance);
+
+  const brep::FootSearch& search_;
+  SearchCounts& counts_;
+  std::vector<State> states_;      // per candidate
+  std::vector<int> pieces_;        // those chosen, of each image at the beginning of its range of elements
+  std::vector<int> piece_counts_;  // of these, per image of each candidate
+  std::vector<brep::Foot> found_;  // of one candidate, in this step; so are the next two
+  std::vector<TrackedFoot> feet_;
+  struct Pair {
+    double distance2;
+    int slot, foot;
+  };
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace contact

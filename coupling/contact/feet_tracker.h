@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The feet of each candidate from step to step: all local minima of the distance within reach, each with the
+// slot of the particle's memory that belongs to its branch.  Of a wall of patches by contact_tracker.h, of
+// one of faces in closed form by face_tracker.h; what both do: particles that too little has moved to touch
+// are left out.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "coupling/contact/candidate_list.h"
+#include "coupling/contact/contact_memory.h"
+#include "search/foot.h"
+
+namespace contact {
+
+struct TrackedFoot {
+  search::Foot foot;
+  int slot;  ///< of the particle's memory; -1: none yet
+};
+struct FeetRange {
+  TrackedFoot* first;
+  int count;
+  TrackedFoot* begin() const { return first; }
+  TrackedFoot* end() const { return first + count; }
+};
+
+class FeetTracker {
+ public:
+  /// Keeps a reference.
+  explicit FeetTracker(const CandidateList& candidates) : candidates_(candidates) {}
+  virtual ~FeetTracker() = default;
+
+  /// After the list was rebuilt.
+  virtual void list_is_new() { quiet_.assign(candidates_.candidates().size(), Quiet()); }
+  /// `surface_motion`: how far a deforming wall has moved since the list was built, else 0 [length].
+  void begin_step(double surface_motion) { surface_motion_ = surface_motion; }
+
+  /// A candidate of this step: where it is, and how far its contacts and its list reach [length].
+  struct Query {
+    int candidate;          ///< its number in the list
+    nurbs::Vector3 centre;  ///< in the wall's frame
+    double touch_reach;     ///< feet nearer than this may touch
+    double list_reach;      ///< feet nearer than this may do so before the next rebuild
+  };
+  /// Whether nothing within `touch_reach` can touch a candidate: too little has moved or grown since its feet
+  /// were found last.
+  bool is_quiet(int candidate, const nurbs::Vector3& centre, double touch_reach) const {
+    const Quiet& quiet = quiet_[candidate];
+    const double allowance = quiet.clearance - touch_reach - (surface_motion_ + quiet.surface_motion);
+    return allowance > 0.0 && (centre - quiet.centre).squaredNorm() < allowance * allowance;
+  }
+  /// Takes the branches of these candidates to where they are now, as far as they are followed.
+  virtual void follow(const Query* queries, int count) = 0;
+  /// The feet of a candidate, after follow(); those nearer than touch_reach are complete.  `slots`
+  /// whose branches are gone are cleared.  Valid until the next call.
+  virtual FeetRange feet(const Query& query, const ParticleSlots& slots) = 0;
+
+ protected:
+  static double nearest_distance(const FeetRange& feet, const Query& query) {
+    double nearest = query.list_reach;
+    for (const TrackedFoot& f : feet) nearest = std::min(nearest, f.foot.distance);
+    return nearest;
+  }
+  /// No point of the surface is nearer than `clearance` now.
+  void keep_clearance(const Query& query, double clearance) {
+    Quiet& quiet = quiet_[query.candidate];
+    const bool touches = clearance <= query.touch_reach;
+    quiet.clearance = touches ? 0.0 : clearance;  // contacts are looked at until they have ended
+    if (touches) return;
+    quiet.centre = query.centre;
+    quiet.surface_motion = surface_motion_;
+  }
+
+  const CandidateList& candidates_;
+
+ private:
+  struct Quiet {
+    nurbs::Vector3 centre = nurbs::Vector3::Zero();  // at the last search
+    double clearance = 0.0;  // no point of the surface was nearer then; 0: one touched
+    double surface_motion = 0.0;
+  };
+  std::vector<Quiet> quiet_;  // per candidate
+  double surface_motion_ = 0.0;
+};
+
+}  // namespace contact

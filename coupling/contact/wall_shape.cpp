@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/contact/wall_shape.h"
+
+#include <algorithm>
+
+#include "coupling/contact/contact_tracker.h"
+#include "coupling/contact/face_tracker.h"
+#include "nurbs/surface_normal.h"
+
+namespace contact {
+
+using nurbs::SurfaceShape;
+using nurbs::Vector3;
+using search::Foot;
+
+void PatchShape::changed() { projector_.surface_moved(); }
+
+void PatchShape::begin_list(bool moved) {
+  if (!moved && !tree_.empty()) return;
+  tree_.build(surface_, control_points_);
+  projector_.begin_list();
+}
+
+std::unique_ptr<FeetTracker> PatchShape::track(const CandidateList& candidates, SearchMethod method,
+                                               SearchCounts& counts) const {
+  return std::make_unique<ContactTracker>(LocalSearch(method, projector_, counts), candidates);
+}
+
+Vector3 PatchShape::normal_at(const Foot& foot) const {
+  return foot.status == search::FootStatus::interior
+             ? nurbs::shape_at(surface_, control_points_, foot.at()).normal
+             : nurbs::normal_at(surface_, control_points_, foot.at());
+}
+
+SurfaceShape PatchShape::shape_near(const Foot& foot) const {
+  return nurbs::shape_near(surface_.patch(foot.patch),
+                           surface_.control_points_of(foot.patch, control_points_), foot.xi);
+}
+
+std::unique_ptr<FeetTracker> FaceShape::track(const CandidateList& candidates, SearchMethod /*method*/,
+                                              SearchCounts& counts) const {
+  return std::make_unique<FaceTracker>(search_, candidates, counts);
+}
+
+Vector3 FaceShape::normal_at(const Foot& foot) const {
+  return search_.surface().faces[foot.patch].normal(foot.xi);
+}
+
+SurfaceShape FaceShape::shape_near(const Foot& foot) const {
+  const brep::Face& face = search_.surface().faces[foot.patch];
+  const brep::Parameter<2> k = face.curvatures(foot.xi);
+  return {foot.point, face.normal(foot.xi), {std::min(k[0], k[1]), std::max(k[0], k[1])}};
+}
+
+}  // namespace contact

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The shape of a wall, whatever it is made of: patches, or faces in closed form.  All in the wall's frame.
+// Another kind of wall is another class here, with a tracker of its feet.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "brep/foot_search.h"
+#include "coupling/contact/feet_tracker.h"
+#include "coupling/contact/local_search.h"
+#include "nurbs/curvature.h"
+#include "search/multi_patch_tree.h"
+
+namespace contact {
+
+class WallShape {
+ public:
+  virtual ~WallShape() = default;
+  /// Control points have moved near the elements that are followed, or which borders are welded.
+  virtual void changed() = 0;
+  /// A list of candidates is to be built; `moved`: the shape is not that of the last one.
+  virtual void begin_list(bool moved) = 0;
+  /// The box of all elements, and those that may be within `reach` of a point (added, numbers rising), after
+  /// begin_list.
+  virtual search::Box bounds() const = 0;
+  virtual void near(const nurbs::Vector3& point, double reach, std::vector<int>& elements) const = 0;
+  /// Both must outlive the tracker.
+  virtual std::unique_ptr<FeetTracker> track(const CandidateList& candidates, SearchMethod method,
+                                             SearchCounts& counts) const = 0;
+
+  /// Of length 1, at a foot wherever it is: on an edge, that of the patch or face that the foot names.
+  virtual nurbs::Vector3 normal_at(const search::Foot& foot) const = 0;
+  /// The same with curvatures; of a pole, those of a point beside it.
+  virtual nurbs::SurfaceShape shape_near(const search::Foot& foot) const = 0;
+  /// +1 or -1 where the normal points out of the body or into it; 0: two-sided.
+  virtual int outward_sign(int patch) const = 0;
+};
+
+class PatchShape final : public WallShape {
+ public:
+  /// Keeps references; control points are 3 x n.
+  PatchShape(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points,
+             const std::vector<int>& outward_sign)
+      : surface_(surface),
+        control_points_(control_points),
+        outward_sign_(outward_sign),
+        projector_(surface, control_points) {}
+  void changed() override;
+  void begin_list(bool moved) override;
+  search::Box bounds() const override { return tree_.bounds(); }
+  void near(const nurbs::Vector3& point, double reach, std::vector<int>& elements) const override {
+    tree_.query(point, reach, elements);
+  }
+  std::unique_ptr<FeetTracker> track(const CandidateList& candidates, SearchMethod method,
+                                     SearchCounts& counts) const override;
+  nurbs::Vector3 normal_at(const search::Foot& foot) const override;
+  nurbs::SurfaceShape shape_near(const search::Foot& foot) const override;
+  int outward_sign(int patch) const override { return outward_sign_[patch]; }
+
+ private:
+  const nurbs::MultiPatch& surface_;
+  const nurbs::NodalVectors& control_points_;
+  const std::vector<int>& outward_sign_;
+  search::MultiPatchProjector projector_;
+  search::MultiPatchTree tree_;
+};
+
+/// Rigid.
+class FaceShape final : public WallShape {
+ public:
+  /// Keeps a reference.
+  explicit FaceShape(const brep::Surface& surface) : search_(surface) {}
+  void changed() override {}
+  void begin_list(bool /*moved*/) override {}
+  search::Box bounds() const override { return {search_.surface().low, search_.surface().high}; }
+  void near(const nurbs::Vector3& point, double reach, std::vector<int>& elements) const override {
+    search_.near(point, reach, elements);
+  }
+  std::unique_ptr<FeetTracker> track(const CandidateList& candidates, SearchMethod method,
+                                     SearchCounts& counts) const override;
+  nurbs::Vector3 normal_at(const search::Foot& foot) const override;
+  nurbs::SurfaceShape shape_near(const search::Foot& foot) const override;
+  int outward_sign(int /*face*/) const override { return 0; }
+
+ private:
+  brep::FootSearch search_;
+};
+
+}  // namespace contact
