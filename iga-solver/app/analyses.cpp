@@ -9,6 +9,7 @@
 #include "io/history.h"
 #include "io/unit_names.h"
 #include "model_report.h"
+#include "progress.h"
 #include "structure/analysis/static_equilibrium.h"
 
 namespace app {
@@ -142,8 +143,13 @@ void write_shapes(const std::vector<structure::Mode>& modes, Fields& fields, con
 
 void run(const io::ModeAnalysis& analysis, const io::ModelFile& model, Fields& fields, ExplicitSolver& solver,
          Talk talk) {
+  structure::ModeOptions options = analysis.options;
+  Progress progress(options.count, talk);
+  if (prints(talk))
+    options.on_solve = [&](int solved, int at_least) { progress.tell_at_least("solve", solved, at_least); };
   const std::vector<structure::Mode> modes = structure::lowest_modes(
-      solver.body(), solver.supports(), solver.displacements(), analysis.options, solver.springs());
+      solver.body(), solver.supports(), solver.displacements(), options, solver.springs());
+  progress.end();
   if (model.output)
     io::write_frequencies(*model.output, model.geometry.units, modes, solver.mass().nodal_mass());
   write_shapes(modes, fields, solver);

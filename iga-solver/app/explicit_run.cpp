@@ -114,11 +114,10 @@ void begin(ExplicitSolver& solver, const std::optional<Moment>& continued, const
 
 void make_steps(ExplicitSolver& solver, const Steps& steps, const io::ModelFile& model, Talk talk,
                 Output& output) {
-  constexpr double kUsualInterval = 60.0, kShortInterval = 5.0;  // [s] between lines in a log
   constexpr long kReports = 20;
   const structure::NodalVectors no_forces = structure::NodalVectors::Zero(3, solver.body().node_count());
   output.write_if_due(solver, false);
-  Progress progress(steps.count, talk == Talk::more ? kShortInterval : kUsualInterval);
+  Progress progress(steps.count, talk);
   for (long step = 1; step <= steps.count; ++step) {
     try {
       solver.begin_step();

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <string>
 
+#include "solve_options.h"
+
 namespace app {
 
 /// "3 min 20 s", of seconds.
@@ -13,13 +15,20 @@ std::string duration_text(double seconds);
 
 class Progress {
  public:
-  /// Of a run of so many steps, from now on.  In a log a line comes every `log_interval` seconds.
-  Progress(long steps, double log_interval);
+  /// Of a run of so many steps, from now on.  In a log a line comes every minute, or more often.
+  Progress(long steps, Talk talk);
   /// After each step; `time` is that of the run.  Looks at the clock, and seldom prints.
   void tell(long step, double time);
+  /// After each of `what`, where the number of steps is the least there are.
+  void tell_at_least(const char* what, long step, long steps);
+  /// Takes the line off the terminal.
+  void end();
 
  private:
   using Clock = std::chrono::steady_clock;
+  bool is_due(bool ends);
+  std::string time_left(long step, long steps) const;
+  void print(const std::string& line, bool ends);
 
   long steps_;
   bool on_terminal_;

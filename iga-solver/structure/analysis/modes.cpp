@@ -94,10 +94,13 @@ class InverseProduct {
         known_(known),
         preconditioner_(make_preconditioner(tangent, options.preconditioner)),
         limits_{0.01 * options.tolerance},
+        on_solve_(options.on_solve),
         b_(3, tangent.body().node_count()) {}
   Eigen::Index rows() const { return free_.count(); }
   int node_count() const { return tangent_.body().node_count(); }
   void set_shift(double /*sigma*/) {}  // the tangent has it
+  /// Of this many, at least, from now on.
+  void expect(int products) { expected_ = solved_ + products; }
   void perform_op(const double* x, double* y) const {
     free_.spread(x, b_);
     known_.remove_from_forces(b_);
@@ -111,6 +114,7 @@ class InverseProduct {
                       result.residual, result.products, limits_.tolerance));
     known_.remove_from(x_);
     free_.gather(x_, y);
+    if (on_solve_) on_solve_(++solved_, expected_);
   }
 
  private:
@@ -119,7 +123,10 @@ class InverseProduct {
   const OrthonormalShapes& known_;
   std::unique_ptr<Preconditioner> preconditioner_;
   CgLimits limits_;
+  std::function<void(int, int)> on_solve_;
   mutable NodalVectors b_, x_;
+  mutable int solved_ = 0;
+  int expected_ = 0;
 };
 
 /// A shift where the body can move as a whole: about the least omega^2 of displacements that are quadratic in
@@ -147,6 +154,7 @@ std::vector<Mode> further_modes(InverseProduct& inverse, MassProduct& mass, cons
   const Eigen::Index basis = std::min<Eigen::Index>(free.count(), 2 * count + 10);
   Spectra::SymGEigsShiftSolver<InverseProduct, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(
       inverse, mass, count, basis, -shift);
+  inverse.expect(static_cast<int>(basis));
   solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, 1000, tolerance, Spectra::SortRule::SmallestAlge);
   if (solver.info() != Spectra::CompInfo::Successful)

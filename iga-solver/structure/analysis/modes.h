@@ -4,6 +4,7 @@
 // whole. Source: Ericsson & Ruhe (1980), Math. Comput. 35, 1251-1268; restarts: Sorensen (1992), by Spectra.
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct ModeOptions {
   double tolerance = 1e-8;  ///< of eigenvalues, relative
   PreconditionerKind preconditioner = PreconditionerKind::automatic;
   MassKind mass = MassKind::lumped;
+  /// Told after each system of equations: how many are solved, and how many it takes at least.
+  std::function<void(int solved, int at_least)> on_solve = {};
 };
 
 struct Mode {

@@ -57,14 +57,14 @@ template <class Number>
   return {{ln.value, d_ln}, {ln.excess, x.value * d_ln}, {ln.inverse, -d_ln * ln.inverse}};
 }
 
-/// dP = dP/dH : G, the change of a law's stress at H along G.
+/// dP/dH : G over the modulus, the change of a law's stress at H along G.
 template <class Law, class Number>
-[[gnu::always_inline]] inline Tensor<Number> stress_change(const Law& law, const Tensor<Number>& H,
-                                                           const Tensor<Number>& G) {
+[[gnu::always_inline]] inline Tensor<Number> unit_stress_change(const Law& law, const Tensor<Number>& H,
+                                                                const Tensor<Number>& G) {
   Tensor<Dual<Number>> H_and_G;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) H_and_G(i, j) = {H(i, j), G(i, j)};
-  const Tensor<Dual<Number>> P = law.stress(H_and_G);
+  const Tensor<Dual<Number>> P = law.unit_stress(H_and_G);
   Tensor<Number> dP;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) dP(i, j) = P(i, j).derivative;

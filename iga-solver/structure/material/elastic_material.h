@@ -9,8 +9,9 @@
 
 namespace structure {
 
-/// Law: a struct with kWord, kSmallStrain (P is the Cauchy stress), stress(H) and energy_density(H) for any
-/// kind of number, made by its Constants (IsotropicElastic: of lambda and mu).
+/// Law: a struct with kWord, kSmallStrain (P is the Cauchy stress), a modulus [Pa] and, in units of it,
+/// unit_stress(H) and unit_energy(H) for any kind of number, made by its Constants (IsotropicElastic: of
+/// lambda and mu).
 template <class Law>
 class ElasticMaterial final : public Law::Constants {
  public:
@@ -23,17 +24,17 @@ class ElasticMaterial final : public Law::Constants {
 
   const char* law() const override { return Law::kWord; }
   Matrix3 stress(const Matrix3& H, const double* /*state*/) const override {
-    return matrix(law_.stress(tensor(H)));
+    return law_.modulus * matrix(law_.unit_stress(tensor(H)));
   }
   Matrix3 stress_change(const Matrix3& H, const Matrix3& G, const double* /*state*/) const override {
-    return matrix(structure::stress_change(law_, tensor(H), tensor(G)));
+    return law_.modulus * matrix(unit_stress_change(law_, tensor(H), tensor(G)));
   }
   bool is_linear() const override { return Law::kSmallStrain; }
   Matrix3 cauchy_stress(const Matrix3& H, const double* state) const override {
     return Law::kSmallStrain ? stress(H, state) : Material::cauchy_stress(H, state);
   }
   double energy_density(const Matrix3& H, const double* /*state*/) const override {
-    return law_.energy_density(tensor(H));
+    return law_.modulus * law_.unit_energy(tensor(H));
   }
 
  private:

@@ -3,25 +3,24 @@
 // Source: Gao & Feng (2019), eq. 17 (there in Voigt notation).
 #pragma once
 
+#include "structure/material/lame_constants.h"
 #include "structure/material/tensor.h"
 
 namespace structure {
 
-class IsotropicElastic;
-
-struct LinearElasticLaw {
+struct LinearElasticLaw : LameConstants {
+  using LameConstants::LameConstants;
   using Constants = IsotropicElastic;
   static constexpr const char* kWord = "linear_elastic";
   static constexpr bool kSmallStrain = true;
-  double lambda, mu;  // Lame constants [Pa]
 
   template <class Number>
-  [[gnu::always_inline]] Tensor<Number> stress(const Tensor<Number>& H) const {
-    return hooke(lambda, mu, plus_transposed(H));
+  [[gnu::always_inline]] Tensor<Number> unit_stress(const Tensor<Number>& H) const {
+    return hooke(lambda_per_mu, plus_transposed(H));
   }
   template <class Number>
-  [[gnu::always_inline]] Number energy_density(const Tensor<Number>& H) const {
-    return 0.5 * double_dot(stress(H), H);
+  [[gnu::always_inline]] Number unit_energy(const Tensor<Number>& H) const {
+    return 0.5 * double_dot(unit_stress(H), H);
   }
 };
 

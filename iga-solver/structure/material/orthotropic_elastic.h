@@ -16,14 +16,15 @@ struct OrthotropicElasticLaw {
   static constexpr const char* kWord = "orthotropic_elastic";
   static constexpr bool kSmallStrain = false;
   static constexpr int kRow[6] = {0, 1, 2, 0, 1, 0}, kColumn[6] = {0, 1, 2, 1, 2, 2};
+  static constexpr double modulus = 1.0;  // [Pa]
   double C[6][6];  // [Pa] in the axes of space: S_xx, S_yy, S_zz, S_xy, S_yz, S_xz of E_xx ... 2 E_xy ...
 
   template <class Number>
-  [[gnu::always_inline]] Tensor<Number> stress(const Tensor<Number>& H) const {
+  [[gnu::always_inline]] Tensor<Number> unit_stress(const Tensor<Number>& H) const {
     return first_piola(H, second_piola(twice_green_lagrange(H)));
   }
   template <class Number>
-  [[gnu::always_inline]] Number energy_density(const Tensor<Number>& H) const {
+  [[gnu::always_inline]] Number unit_energy(const Tensor<Number>& H) const {
     const Tensor<Number> twice_E = twice_green_lagrange(H);
     return 0.25 * double_dot(second_piola(twice_E), twice_E);
   }

@@ -5,26 +5,25 @@
 // Source: Bonet & Wood (2008), Nonlinear Continuum Mechanics for Finite Element Analysis, eqs. 6.28-6.29.
 #pragma once
 
+#include "structure/material/lame_constants.h"
 #include "structure/material/tensor.h"
 
 namespace structure {
 
-class IsotropicElastic;
-
-struct SaintVenantKirchhoffLaw {
+struct SaintVenantKirchhoffLaw : LameConstants {
+  using LameConstants::LameConstants;
   using Constants = IsotropicElastic;
   static constexpr const char* kWord = "saint_venant_kirchhoff";
   static constexpr bool kSmallStrain = false;
-  double lambda, mu;  // Lame constants [Pa]
 
   template <class Number>
-  [[gnu::always_inline]] Tensor<Number> stress(const Tensor<Number>& H) const {
-    return first_piola(H, hooke(lambda, mu, twice_green_lagrange(H)));
+  [[gnu::always_inline]] Tensor<Number> unit_stress(const Tensor<Number>& H) const {
+    return first_piola(H, hooke(lambda_per_mu, twice_green_lagrange(H)));
   }
   template <class Number>
-  [[gnu::always_inline]] Number energy_density(const Tensor<Number>& H) const {
+  [[gnu::always_inline]] Number unit_energy(const Tensor<Number>& H) const {
     const Tensor<Number> twice_E = twice_green_lagrange(H);
-    return 0.25 * double_dot(hooke(lambda, mu, twice_E), twice_E);
+    return 0.25 * double_dot(hooke(lambda_per_mu, twice_E), twice_E);
   }
 };
 

@@ -78,14 +78,12 @@ template <class Number>
   return change;
 }
 
-/// lambda tr(strain) I + 2 mu strain, of twice a symmetric strain.
+/// lambda/mu tr(strain) I + 2 strain, of twice a symmetric strain.
 template <class Number>
-[[gnu::always_inline]] inline Tensor<Number> hooke(double lambda, double mu,
-                                                   const Tensor<Number>& twice_strain) {
-  const Number pressure = 0.5 * lambda * (twice_strain(0, 0) + twice_strain(1, 1) + twice_strain(2, 2));
-  Tensor<Number> stress;
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) stress(i, j) = stress(j, i) = mu * twice_strain(i, j);
+[[gnu::always_inline]] inline Tensor<Number> hooke(double lambda_per_mu, const Tensor<Number>& twice_strain) {
+  const Number pressure =
+      0.5 * lambda_per_mu * (twice_strain(0, 0) + twice_strain(1, 1) + twice_strain(2, 2));
+  Tensor<Number> stress = twice_strain;
   for (int i = 0; i < 3; ++i) stress(i, i) += pressure;
   return stress;
 }

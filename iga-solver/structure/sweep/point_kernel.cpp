@@ -17,7 +17,7 @@ using LaneTensor = Tensor<Lanes>;
 /// Geometry of the points of one word.
 struct PointGeometry {
   LaneTensor K;     // J^-1, over W if rational: K(d, j) = dxi_d / dX_j
-  Lanes w_det;      // w|J|
+  Lanes w_det;      // w|J|, times the law's modulus
   Lanes g[3] = {};  // dW / W; rational only
 };
 
@@ -88,8 +88,8 @@ constexpr int kTableWordsAhead = 16;
 
 template <GeometryMode Mode, bool Rational>
 [[gnu::always_inline]] inline void find_geometry(const PointRow& row, int word, const double* values,
-                                                 PointGeometry& geometry) {
-  const Lanes weight = row.weight * load(row.weights + std::size_t(word) * kLanes);
+                                                 double modulus, PointGeometry& geometry) {
+  const Lanes weight = modulus * row.weight * load(row.weights + std::size_t(word) * kLanes);
   if constexpr (Mode == GeometryMode::affine) {
     for (int k = 0; k < 9; ++k) geometry.K.m[k / 3][k % 3] = Lanes{} + row.affine[k];
     geometry.w_det = weight * row.affine[9];
@@ -98,7 +98,7 @@ template <GeometryMode Mode, bool Rational>
     const double* table = row.table + std::size_t(word) * kWord;
     prefetch(table + kTableWordsAhead * kWord, kWord);
     for (int k = 0; k < 9; ++k) geometry.K.m[k / 3][k % 3] = load(table + k * kLanes);
-    geometry.w_det = load(table + 9 * kLanes);
+    geometry.w_det = modulus * load(table + 9 * kLanes);
     if (Rational)
       for (int d = 0; d < 3; ++d) geometry.g[d] = load(table + (10 + d) * kLanes);
   } else {
@@ -141,10 +141,10 @@ template <bool Rational>
 }
 
 template <int Shift>
-[[gnu::always_inline]] inline void find_geometry(const PointRow& row, int word,
+[[gnu::always_inline]] inline void find_geometry(const PointRow& row, int word, double modulus,
                                                  AlignedGeometry<Shift>& geometry) {
   for (int d = 0; d < 3; ++d) geometry.k[d] = row.affine[3 * d + AlignedGeometry<Shift>::axis(d)];
-  geometry.w_det = row.weight * row.affine[9] * load(row.weights + std::size_t(word) * kLanes);
+  geometry.w_det = modulus * row.weight * row.affine[9] * load(row.weights + std::size_t(word) * kLanes);
 }
 
 template <int Shift>
@@ -167,11 +167,12 @@ template <int Shift>
 
 /// A law that the kernels do not hold, in the place of one: point after point.
 struct OutsideWord {
+  static constexpr double modulus = 1.0;  // [Pa]
   const OutsideLaw& outside;
   const double* weights;
   const std::ptrdiff_t* offset;
 
-  LaneTensor stress(const LaneTensor& H) const {
+  LaneTensor unit_stress(const LaneTensor& H) const {
     LaneTensor P{};
     for (int lane = 0; lane < kLanes; ++lane) {
       if (weights[lane] == 0.0) continue;
@@ -183,7 +184,7 @@ struct OutsideWord {
     }
     return P;
   }
-  Lanes energy_density(const LaneTensor& H) const {
+  Lanes unit_energy(const LaneTensor& H) const {
     Lanes energy{};
     for (int lane = 0; lane < kLanes; ++lane) {
       if (weights[lane] == 0.0) continue;
@@ -198,7 +199,7 @@ struct OutsideWord {
 /// dP of a law that kernels hold, and of one that they do not.
 template <class Law>
 [[gnu::always_inline]] inline LaneTensor change_at(const Law& law, const LaneTensor& H, const LaneTensor& G) {
-  return stress_change(law, H, G);
+  return unit_stress_change(law, H, G);
 }
 LaneTensor change_at(const OutsideWord& law, const LaneTensor& H, const LaneTensor& G) {
   LaneTensor dP{};
@@ -231,11 +232,11 @@ void stress_loop(const PointRow& row, PointSums& /*sums*/) {
       std::size_t(fields<Mode, Rational>()) * quantities<Mode, Rational>() * kLanes;
   double* values = row.values;
   for (int word = 0; word < row.words; ++word, values += kStride) {
+    const auto& law = law_at(row, word, static_cast<const Law*>(nullptr));
     PointGeometry geometry;
-    find_geometry<Mode, Rational>(row, word, values, geometry);
+    find_geometry<Mode, Rational>(row, word, values, law.modulus, geometry);
     const LaneTensor H = gradient<Rational>(values, geometry);
-    const LaneTensor P = law_at(row, word, static_cast<const Law*>(nullptr)).stress(H);
-    put_stress<Rational>(P, geometry, values);
+    put_stress<Rational>(law.unit_stress(H), geometry, values);
   }
 }
 
@@ -246,10 +247,11 @@ void energy_loop(const PointRow& row, PointSums& sums) {
   const double* values = row.values;
   Lanes energy{};
   for (int word = 0; word < row.words; ++word, values += kStride) {
+    const auto& law = law_at(row, word, static_cast<const Law*>(nullptr));
     PointGeometry geometry;
-    find_geometry<Mode, Rational>(row, word, values, geometry);
+    find_geometry<Mode, Rational>(row, word, values, law.modulus, geometry);
     const LaneTensor H = gradient<Rational>(values, geometry);
-    energy += geometry.w_det * law_at(row, word, static_cast<const Law*>(nullptr)).energy_density(H);
+    energy += geometry.w_det * law.unit_energy(H);
   }
   for (int lane = 0; lane < kLanes; ++lane) sums.sum += energy[lane];
 }
@@ -260,12 +262,12 @@ void stress_change_loop(const PointRow& row, PointSums& /*sums*/) {
   constexpr std::size_t kStride = std::size_t(fields<Mode, Rational>()) * kThree / 3 + kThree;
   double* values = row.values;
   for (int word = 0; word < row.words; ++word, values += kStride) {
+    const auto& law = law_at(row, word, static_cast<const Law*>(nullptr));
     PointGeometry geometry;
-    find_geometry<Mode, Rational>(row, word, values + kThree, geometry);
+    find_geometry<Mode, Rational>(row, word, values + kThree, law.modulus, geometry);
     const LaneTensor H = gradient<Rational>(values, geometry);
     const LaneTensor G = gradient<Rational>(values + kThree, geometry);
-    put_stress<Rational>(change_at(law_at(row, word, static_cast<const Law*>(nullptr)), H, G), geometry,
-                         values);
+    put_stress<Rational>(change_at(law, H, G), geometry, values);
   }
 }
 
@@ -273,10 +275,11 @@ template <class Law, int Shift>
 void aligned_stress_loop(const PointRow& row, PointSums& /*sums*/) {
   double* values = row.values;
   for (int word = 0; word < row.words; ++word, values += 9 * kLanes) {
+    const auto& law = law_at(row, word, static_cast<const Law*>(nullptr));
     AlignedGeometry<Shift> geometry;
-    find_geometry(row, word, geometry);
+    find_geometry(row, word, law.modulus, geometry);
     const LaneTensor H = gradient(values, geometry);
-    put_stress(law_at(row, word, static_cast<const Law*>(nullptr)).stress(H), geometry, values);
+    put_stress(law.unit_stress(H), geometry, values);
   }
 }
 

@@ -38,6 +38,24 @@ TEST(Modes, AreTheEigenvaluesOfTheDenseMatrix) {
   }
 }
 
+// One after the other, of which there are never fewer than was said.
+TEST(Modes, TellHowManySystemsAreSolved) {
+  const Solid solid(models::block({3, 2, 1}, {2, 2, 1}, 2), models::elastic());
+  Supports supports;
+  supports.fix(structure::nodes_on(solid.patch(0).space(), {Face::xi_minus}), {true, true, true});
+  structure::ModeOptions options;
+  options.count = 4;
+  int solves = 0, least = 0;
+  options.on_solve = [&](int solved, int at_least) {
+    EXPECT_EQ(solved, ++solves);
+    EXPECT_GE(at_least, least);
+    least = at_least;
+  };
+  structure::lowest_modes(solid, supports, undeformed(solid), options);
+  EXPECT_GT(least, options.count);
+  EXPECT_GE(solves, least);
+}
+
 TEST(Modes, OfAFreeBlockSixAreRigid) {
   const Solid solid(models::block({3, 2, 1}, {4, 3, 2}, 2), models::elastic());
   const Eigen::VectorXd& m = solid.row_sum_mass();

@@ -149,7 +149,7 @@ TYPED_TEST(IsotropicLaw, RefusesImpossibleConstants) {
 TEST(NeoHooke, HasTheClosedFormsOfVolumeChangeAndSimpleShear) {
   const double lambda = kE * kNu / ((1 + kNu) * (1 - 2 * kNu)), mu = kE / (2 * (1 + kNu));
   const NeoHooke law(kE, kNu, kDensity);
-  for (const double s : {0.01, 0.5, 0.98, 0.9843, 0.985, 1.0001, 1.015, 1.0155, 1.2, 3.0}) {
+  for (const double s : {0.01, 0.5, 0.98, 0.9964, 0.9967, 1.0001, 1.0033, 1.0036, 1.2, 3.0}) {
     const double P = mu * (s - 1 / s) + 3 * lambda * std::log(s) / s, ln = std::log(s);
     const double W = 1.5 * mu * (s * s - 1) - 3 * mu * ln + 4.5 * lambda * ln * ln;
     const Matrix3 H = (s - 1.0) * Matrix3::Identity();
