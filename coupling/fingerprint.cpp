@@ -127,6 +127,27 @@ FingerprintPart geometry_part(const std::vector<nurbs::Space<Dim>>& patches,
 template FingerprintPart geometry_part(const std::vector<nurbs::Space<2>>&, const ControlPointDigest&);
 template FingerprintPart geometry_part(const std::vector<nurbs::Space<3>>&, const ControlPointDigest&);
 
+FingerprintPart geometry_part(const brep::Surface& faces) {
+  std::vector<double> shapes, corners;
+  for (const brep::Face& face : faces.faces) {
+    for (const nurbs::Vector3& x : {face.frame.origin, face.frame.x, face.frame.z})
+      shapes.insert(shapes.end(), x.data(), x.data() + 3);
+    shapes.insert(shapes.end(), {static_cast<double>(face.kind), face.R, face.r, face.low[0], face.low[1],
+                                 face.high[0], face.high[1]});
+  }
+  for (const brep::Piece& piece : faces.pieces)
+    for (const int vertex : piece.vertex)
+      if (vertex >= 0)
+        corners.insert(corners.end(), faces.vertices[vertex].point.data(),
+                       faces.vertices[vertex].point.data() + 3);
+  std::ostringstream text;
+  text << faces.faces.size() << " faces from " << text_of(faces.low) << " to " << text_of(faces.high);
+  return {"geometry",
+          text.str(),
+          {static_cast<double>(faces.faces.size()), static_cast<double>(faces.pieces.size()),
+           checksum(shapes), checksum(corners)}};
+}
+
 FingerprintPart word_part(const std::string& name, const std::string& word) {
   return {name, word, {word.begin(), word.end()}};
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "brep/surface.h"
 #include "nurbs/patch.h"
 
 namespace coupling {
@@ -39,6 +40,9 @@ ControlPointDigest digest(const nurbs::NodalVectors& control_points);
 template <int Dim>
 FingerprintPart geometry_part(const std::vector<nurbs::Space<Dim>>& patches,
                               const ControlPointDigest& control_points);
+
+/// Of a wall of faces.
+FingerprintPart geometry_part(const brep::Surface& faces);
 
 /// A part that is one word, which must agree.
 FingerprintPart word_part(const std::string& name, const std::string& word);

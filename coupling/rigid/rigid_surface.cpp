@@ -10,18 +10,6 @@
 
 namespace coupling {
 
-namespace {
-
-/// Largest distance of a control point from the axis [length].
-double lever(const NodalVectors& x, const Vector3& centre, const Vector3& axis) {
-  double largest = 0.0;
-  for (int a = 0; a < x.cols(); ++a)
-    largest = std::max(largest, axis.cross(Vector3(x.col(a)) - centre).norm());
-  return largest;
-}
-
-}  // namespace
-
 RigidSurface::RigidSurface(const std::vector<nurbs::Surface>& patches, std::vector<int> outward_sign)
     : RigidSurface(nurbs::join(patches), std::move(outward_sign)) {}
 
@@ -35,11 +23,27 @@ RigidSurface::RigidSurface(nurbs::PatchedSurface surface, std::vector<int> outwa
   std::iota(nodes_.begin(), nodes_.end(), NodeId(0));
 }
 
+RigidSurface::RigidSurface(std::shared_ptr<const brep::Surface> faces)
+    : surface_{{}, SurfaceMap::identity(0), {}, std::move(faces)}, positions_(3, 0), velocities_(3, 0) {}
+
+/// Largest distance from the axis of a control point, or of a corner of the box around faces [length].
+double RigidSurface::lever(const Vector3& centre, const Vector3& axis) const {
+  double largest = 0.0;
+  const auto look_at = [&](const Vector3& x) { largest = std::max(largest, axis.cross(x - centre).norm()); };
+  for (const auto x : positions_.colwise()) look_at(x);
+  for (int corner = 0; surface_.faces && corner < 8; ++corner) {
+    const brep::Surface& wall = *surface_.faces;
+    look_at({(corner & 1 ? wall.high : wall.low)[0], (corner & 2 ? wall.high : wall.low)[1],
+             (corner & 4 ? wall.high : wall.low)[2]});
+  }
+  return largest;
+}
+
 void RigidSurface::drive(RigidDrive drive) {
   motion_ = RigidMotion(std::move(drive.motions));
   sliding_ = std::move(drive.sliding);
   if (!drive.servo) return;
-  const double reach = lever(positions_, drive.servo->com, drive.servo->axis);
+  const double reach = lever(drive.servo->com, drive.servo->axis);
   if (drive.servo->controls == ServoSettings::Controls::torque && reach == 0.0)
     throw std::invalid_argument("the servo cannot turn the wall: all of it lies on the axis");
   servo_.emplace(std::move(*drive.servo), reach);
@@ -114,6 +118,7 @@ void RigidSurface::load(const std::vector<double>& state) {
 }
 
 Fingerprint RigidSurface::fingerprint() const {
+  if (surface_.faces) return {geometry_part(*surface_.faces)};
   std::vector<nurbs::Space<2>> patches;
   for (int p = 0; p < surface_.topology.patch_count(); ++p) patches.push_back(surface_.topology.patch(p));
   return {geometry_part(patches, digest(positions_))};

@@ -24,6 +24,8 @@ class RigidSurface final : public StructureSolver {
  public:
   /// Patches whose edges coincide are welded.  `outward_sign` as in ContactSurface; empty: two-sided.
   explicit RigidSurface(const std::vector<nurbs::Surface>& patches, std::vector<int> outward_sign = {});
+  /// Of faces, edges and vertices, two-sided.
+  explicit RigidSurface(std::shared_ptr<const brep::Surface> faces);
   /// Before the first step.  Throws std::invalid_argument if a servo cannot turn the wall.
   void drive(RigidDrive drive);
   /// Between runs: other motions (or none) from where the wall is now, with a clock of their own.
@@ -65,6 +67,7 @@ class RigidSurface final : public StructureSolver {
 
  private:
   RigidSurface(nurbs::PatchedSurface surface, std::vector<int> outward_sign);
+  double lever(const Vector3& centre, const Vector3& axis) const;
 
   ContactSurface surface_;
   std::vector<NodeId> nodes_;  // the control points

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 
+#include "coupling/contact/wall_shape.h"
 #include "nurbs/primitives.h"
 
 namespace contact {
@@ -25,14 +26,12 @@ class Scene {
   Scene(const std::vector<nurbs::Surface>& patches, std::vector<Vector3> centres, double touch, double list,
         std::vector<Vector3> images = {Vector3::Zero()}, int slot_count = 2)
       : surface_(nurbs::join(patches)),
-        projector_(surface_.topology, surface_.control_points),
-        search_(SearchMethod::newton, projector_),
-        tracker_(search_, candidates_),
+        shape_(surface_.topology, surface_.control_points, two_sided_),
+        tracker_(shape_.track(candidates_, SearchMethod::newton, counts_)),
         centres_(std::move(centres)),
         touch_(touch),
         list_(list) {
-    projector_.begin_list();
-    candidates_.set_surface(surface_.topology, surface_.control_points);
+    shape_.begin_list(true);
     std::vector<double> empty = {ContactSlot::kEmpty, 0.0, 0.0};
     values_.resize(slot_count);
     for (std::vector<double>& rows : values_) {
@@ -40,28 +39,31 @@ class Scene {
       slots_.push_back(rows.data());
     }
     const std::vector<double> reach(centres_.size(), list_);
-    candidates_.build({}, images, {static_cast<int>(centres_.size()), centres_[0].data(), reach.data()});
-    tracker_.list_is_new();
+    candidates_.build({}, images, {static_cast<int>(centres_.size()), centres_[0].data(), reach.data()},
+                      [this](const Vector3& point, double near, std::vector<int>& elements) {
+                        shape_.near(point, near, elements);
+                      });
+    tracker_->list_is_new();
   }
 
   std::vector<Vector3>& centres() { return centres_; }
   ParticleSlots memory(int particle) const {
     return ContactMemory{slots_.data(), static_cast<int>(slots_.size()), 0}.of(particle);
   }
-  const LocalSearch& search() const { return search_; }
+  const SearchCounts& counts() const { return counts_; }
 
   /// One step as the fix makes it, `block` candidates at a time: take(particle, its feet).  Feet that touch
   /// get a slot.
   template <class Take>
   void step(int block, const Take& take) {
-    tracker_.begin_step(0.0);
+    tracker_->begin_step(0.0);
     const std::vector<Candidate>& all = candidates_.candidates();
     ASSERT_EQ(all.size(), centres_.size());
     std::vector<ContactTracker::Query> queries;
     for (size_t c = 0; c < all.size(); ++c) {
       queries.push_back({static_cast<int>(c), centres_[all[c].particle], touch_, list_});
       if (queries.size() < static_cast<size_t>(block) && c + 1 < all.size()) continue;
-      tracker_.follow(queries.data(), static_cast<int>(queries.size()));
+      tracker_->follow(queries.data(), static_cast<int>(queries.size()));
       for (const ContactTracker::Query& query : queries) resolve(query, take);
       queries.clear();
     }
@@ -72,7 +74,7 @@ class Scene {
   void resolve(const ContactTracker::Query& query, const Take& take) {
     const int particle = candidates_.candidates()[query.candidate].particle;
     const ParticleSlots slots = memory(particle);
-    const FeetRange feet = tracker_.feet(query, slots);
+    const FeetRange feet = tracker_->feet(query, slots);
     for (TrackedFoot& tracked : feet) {
       if (tracked.foot.distance > touch_) {
         if (tracked.slot >= 0) slots.slot(tracked.slot).clear();
@@ -86,10 +88,11 @@ class Scene {
   }
 
   nurbs::PatchedSurface surface_;
-  search::MultiPatchProjector projector_;
+  std::vector<int> two_sided_ = std::vector<int>(surface_.topology.patch_count(), 0);
+  PatchShape shape_;
   CandidateList candidates_;
-  LocalSearch search_;
-  ContactTracker tracker_;
+  SearchCounts counts_;
+  std::unique_ptr<FeetTracker> tracker_;
   std::vector<Vector3> centres_;
   double touch_, list_;
   std::vector<std::vector<double>> values_;  // of each slot, a row for each particle
@@ -127,7 +130,7 @@ TEST(ContactTracker, FollowsTwoBranchesOfManyParticles) {
       });
       EXPECT_EQ(seen, particles);
       // All feet were found once by a search of all candidates, then followed.
-      EXPECT_EQ(scene.search().counts().cold, 2 * particles);
+      EXPECT_EQ(scene.counts().cold, 2 * particles);
       for (int k = 0; k < particles; ++k)
         scene.centres()[k] += 0.05 * Vector3(std::cos(k), std::sin(2.0 * k), 0.2 * std::sin(step));
     }

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Balls on walls of faces, edges and vertices, without a deck.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "balls.h"
+#include "brep/builder.h"
+#include "coupling/rigid/rigid_surface.h"
+
+namespace {
+
+using coupling::RigidSurface;
+using nurbs::Vector3;
+using test::Balls;
+using test::BallsOnWall;
+
+constexpr double kRadius = 0.5;
+
+/// Of triangles between these points.
+RigidSurface wall_of(const nurbs::NodalVectors& points, const std::vector<int>& triangles) {
+  return RigidSurface(std::make_shared<brep::Surface>(brep::from_triangles(points, triangles)));
+}
+
+/// Two strips along y that meet at x = 0: left of it z = 0, right of it z = slope x.
+RigidSurface bent_sheet(double slope) {
+  nurbs::NodalVectors points(3, 6);
+  points << -4, 0, 4, -4, 0, 4,  //
+      -4, -4, -4, 4, 4, 4,       //
+      0, 0, 4 * slope, 0, 0, 4 * slope;
+  return wall_of(points, {0, 1, 3, 1, 4, 3, 1, 2, 4, 2, 5, 4});
+}
+RigidSurface floor() { return bent_sheet(0.0); }
+
+// m x'' = -k x for half a period, on the diagonal of two triangles.
+TEST(FaceWall, ABallBouncesOffAPlane) {
+  constexpr double kStiffness = 400.0, kSpeed = 1.0, kStep = 1e-4;
+  RigidSurface wall = floor();
+  Balls balls;
+  balls.add({-2.0, 0.0, kRadius}, kRadius, {0.25, 0, -kSpeed});
+  BallsOnWall scene(wall, balls, kStiffness, kStep);
+  double deepest = 0.0;
+  int steps = 0;
+  do {
+    scene.step();
+    ++steps;
+    ASSERT_LE(scene.loop.contacts().size(), 1u);
+    if (!scene.loop.contacts().empty()) deepest = std::max(deepest, scene.loop.contacts()[0].overlap);
+  } while (scene.balls.velocity(0)[2] < 0.0 || !scene.loop.contacts().empty());
+  const double omega = std::sqrt(kStiffness);
+  EXPECT_NEAR(steps * kStep, M_PI / omega, 2.0 * kStep);
+  EXPECT_NEAR(deepest, kSpeed / omega, 1e-6);
+  EXPECT_NEAR(scene.balls.velocity(0)[2], kSpeed, 1e-4);
+  EXPECT_EQ(scene.balls.velocity(0)[0], 0.25);
+}
+
+// Pressed in by 1e-3 r and moved across the edge, without friction: the force changes by no more than the
+// stiffness times what the ball has moved, convex or concave, there is one contact on convex edges, and a
+// contact that goes over a smooth edge keeps its slot, concave too.
+TEST(FaceWall, RollsOverEdgesWithoutAJump) {
+  constexpr double kOverlap = 1e-3, kStep = 1e-5;
+  for (const double degrees : {-30.0, -5.0, -0.5, 0.0, 0.5, 5.0, 30.0}) {
+    RigidSurface wall = bent_sheet(std::tan(degrees * M_PI / 180.0));
+    for (const double side : {1.0, -1.0}) {
+      Balls balls(3, 1);
+      balls.add({-0.3, 0.1, side * (kRadius - kOverlap)}, kRadius);
+      BallsOnWall scene(wall, balls, 1.0, 1.0);
+      Vector3 before = scene.balls.force(0);
+      double longest = 0.0;
+      for (int step = 1; step <= 60000; ++step) {
+        scene.balls.centre(0)[0] += kStep;
+        scene.evaluate();
+        const Vector3 force = scene.balls.force(0);
+        const double jump = (force - before).norm();
+        ASSERT_LT(jump, 3.0 * kStep) << degrees << ' ' << side << ' ' << step;
+        if (degrees * side <= 0.0) {
+          EXPECT_LE(scene.spring.seen.size(), 1u) << degrees << ' ' << side;
+        }
+        EXPECT_LE(scene.spring.seen.size(), 2u);
+        for (const contact::Contact& c : scene.spring.seen) longest = std::max(longest, c.history[0]);
+        before = force;
+      }
+      if (std::abs(degrees) < 1.0) {
+        EXPECT_GE(longest, 60000.0) << degrees << ' ' << side;
+      }
+    }
+  }
+}
+
+}  // namespace
