@@ -11,6 +11,7 @@
 
 #include "nurbs/borders.h"
 #include "nurbs/gauss_legendre.h"
+#include "triangle_summary.h"
 
 namespace app {
 namespace {
@@ -114,6 +115,11 @@ std::string continuity(const KnotVector& knots) {
   return parts.empty() ? "none" : fmt::format("{}", fmt::join(parts, ", "));
 }
 
+std::string box_text(const Vector3& low, const Vector3& high) {
+  return fmt::format("x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g}", low[0], high[0], low[1],
+                     high[1], low[2], high[2]);
+}
+
 template <int Dim>
 std::string patch_text(const Patch<Dim>& patch) {
   std::vector<int> degrees, points, elements;
@@ -129,8 +135,7 @@ std::string patch_text(const Patch<Dim>& patch) {
   // A rational arc's control points lie outside of it: the extents are those of the control points.
   const Vector3 low = patch.control_points.rowwise().minCoeff(),
                 high = patch.control_points.rowwise().maxCoeff();
-  text += fmt::format("  control points within x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, z {:.6g} to {:.6g}\n",
-                      low[0], high[0], low[1], high[1], low[2], high[2]);
+  text += "  control points within " + box_text(low, high) + '\n';
   text += fmt::format("  {} {:.6g}\n", Dim == 2 ? "area" : "volume", measure(patch));
   for (int d = 0; d < Dim; ++d) {
     text += fmt::format("  interior knots of {}: {}", kDirections[d], continuity(patch.space.knots(d)));
@@ -139,6 +144,13 @@ std::string patch_text(const Patch<Dim>& patch) {
     text += '\n';
   }
   return text;
+}
+
+std::string patch_text(const geometry_io::TriangleMesh& mesh) {
+  const Vector3 low = mesh.points.rowwise().minCoeff(), high = mesh.points.rowwise().maxCoeff();
+  return fmt::format("{} triangles{}, {} points within {}\n", mesh.count(),
+                     mesh.name.empty() ? "" : fmt::format(" of the solid '{}'", mesh.name),
+                     mesh.points.cols(), box_text(low, high));
 }
 
 std::string border_text(const Border& border, int own_patch, int side,
@@ -184,6 +196,7 @@ std::string summary(const geometry_io::GeometryFile& geometry) {
     }
   }
   if (!surfaces.empty()) text += "borders\n" + borders_text(surfaces, names);
+  text += triangles_text(geometry);
   for (const auto& [name, pieces] : geometry.surfaces) {
     text += fmt::format("surface '{}': {}\n", name,
                         fmt::join(geometry_io::surface_words(pieces, geometry.patches), ", "));
@@ -192,6 +205,7 @@ std::string summary(const geometry_io::GeometryFile& geometry) {
     surfaces.clear();
     names.clear();
     for (const geometry_io::SurfacePiece& piece : pieces) {
+      if (is_triangles(geometry.patches[piece.patch])) continue;
       surfaces.push_back(extract(piece, geometry.patches).surface);
       names.push_back(geometry_io::surface_words({piece}, geometry.patches).front());
     }

@@ -23,9 +23,10 @@ struct Options {
 // The patches of one named surface, as a geometry of its own; faces of volumes become surfaces.
 GeometryFile only(const GeometryFile& geometry, const std::string& surface, const std::string& file) {
   GeometryFile kept{geometry.units, {}, {}};
-  for (geometry_io::OrientedSurface& patch : named_surface(geometry, surface, file)) {
+  for (const geometry_io::SurfacePiece& piece : pieces_of(geometry, surface, file)) {
     kept.surfaces[surface].push_back({static_cast<int>(kept.patches.size()), std::nullopt});
-    kept.patches.push_back(std::move(patch.surface));
+    const geometry_io::Shape& patch = geometry.patches[piece.patch];
+    kept.patches.push_back(is_triangles(patch) ? patch : extract(piece, geometry.patches).surface);
   }
   return kept;
 }
@@ -71,11 +72,11 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App command("Prints what a geometry file holds, and writes it in another format.");
-  command.add_option("input", options.in, "geometry file: .h5, .hdf5 (HDF5), .xml (G+Smo), else YAML")
+  command.add_option("input", options.in, "geometry file: .h5, .hdf5 (HDF5), .xml (G+Smo), .stl, else YAML")
       ->required();
   command.add_option("output", options.out, "file to write: .yaml, .yml, .h5, .hdf5 or .xml");
   command.add_option("--surface", options.surface, "keep the patches of this named surface only");
   command.add_option("--units", options.units,
-                     "units of a file that has none (G+Smo): si (default), cgs, mm-g-ms or mm-t-s");
+                     "units of a file that has none (G+Smo, STL): si (default), cgs, mm-g-ms or mm-t-s");
   return app::run_command(command, argc, argv, options.in, [&] { run(options); });
 }

@@ -17,6 +17,8 @@ using std::string_view;
 constexpr std::size_t kHead = 4096;  // bytes that are looked at
 constexpr string_view kHdf5Signature("\x89HDF\r\n\x1a\n", 8);
 
+char lower(unsigned char c) { return static_cast<char>(std::tolower(c)); }
+
 bool starts_with(string_view text, string_view start) { return text.substr(0, start.size()) == start; }
 
 // Behind blanks and a byte order mark.
@@ -50,17 +52,24 @@ bool is_iges(string_view bytes) {
          line.find_first_not_of(" 0", 73) == 79 && line[79] == '1';
 }
 
-// As text, or 80 bytes of anything, the number of triangles, and 50 bytes for each.
-bool is_stl(string_view bytes) {
-  const string_view head = first_word(bytes.substr(0, kHead));
-  if (starts_with(head, "solid") && head.size() > 5 && std::isspace(static_cast<unsigned char>(head[5])) &&
-      (head.find("facet") != string_view::npos || head.find("endsolid") != string_view::npos))
-    return true;
+// "solid", in capitals or not, and what follows it.
+bool is_text_stl(string_view bytes) {
+  std::string head(first_word(bytes.substr(0, kHead)));
+  std::transform(head.begin(), head.end(), head.begin(), lower);
+  return starts_with(head, "solid") && head.size() > 5 && std::isspace(static_cast<unsigned char>(head[5])) &&
+         (head.find("facet") != string_view::npos || head.find("endsolid") != string_view::npos);
+}
+
+// 80 bytes of anything, the number of triangles, and 50 bytes for each.  No text of less than GBs has such a
+// number there.
+bool has_size_of_stl(string_view bytes) {
   if (bytes.size() < 84) return false;
   std::uint64_t count = 0;
   for (int i = 3; i >= 0; --i) count = 256 * count + static_cast<unsigned char>(bytes[80 + i]);
   return bytes.size() == 84 + 50 * count;
 }
+
+bool is_stl(string_view bytes) { return is_text_stl(bytes) || has_size_of_stl(bytes); }
 
 // Control characters that no text has; UTF-16 and UTF-32 have NULs behind their mark.
 bool is_binary(string_view bytes) {
@@ -85,9 +94,8 @@ constexpr const char* kCadFile =
     "so take "
     "the patches from the program that made it";
 constexpr const char* kStlFile =
-    "expected NURBS patches in YAML, HDF5 (.h5) or G+Smo's XML (.xml): triangles are a wall of LIGGGHTS' "
-    "own, 'fix "
-    "mesh/surface' with 'fix wall/gran ... mesh'";
+    "expected NURBS patches, or a file that names this one: triangles are read from files called .stl, and a "
+    "file in YAML takes them by 'geometry: {file: NAME}'";
 
 // In the order in which they are asked.
 const Kind kKinds[] = {
@@ -113,8 +121,7 @@ const Kind kKinds[] = {
 
 std::string extension_of(const std::string& path) {
   std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(), lower);
   return extension;
 }
 
@@ -128,6 +135,10 @@ FileKind kind_of_file(const std::string& path, const std::string& bytes) {
     for (const char* one : kind.extensions)
       if (extension == one) return kind.kind;
   return FileKind::text;
+}
+
+bool is_binary_stl(string_view bytes) {
+  return has_size_of_stl(bytes) || (!is_text_stl(bytes) && is_binary(bytes));
 }
 
 void refuse_kind(FileKind given, const std::string& path) {

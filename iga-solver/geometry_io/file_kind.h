@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace geometry_io {
 
@@ -11,6 +12,9 @@ enum class FileKind { text, hdf5, xml, step, iges, stl, binary };
 
 /// By the first bytes, else, for the foreign ones, by the extension; `text` is what shows no other sign.
 FileKind kind_of_file(const std::string& path, const std::string& bytes);
+
+/// Whether an STL file, whole or not, is meant to be a binary one.
+bool is_binary_stl(std::string_view bytes);
 
 /// Throws InputError, as expect_kind, of a file that is no text.
 [[noreturn]] void refuse_kind(FileKind given, const std::string& path);

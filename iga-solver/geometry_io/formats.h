@@ -18,4 +18,7 @@ std::string write_hdf5(const GeometryFile& geometry);
 GeometryFile parse_gismo(const std::string& text, const std::string& file, Units units);
 std::string write_gismo(const GeometryFile& geometry);
 
+/// `units` are those of the numbers.  Blocks `solid` are patches; the surfaces are their names, and `all`.
+GeometryFile parse_stl(const std::string& bytes, const std::string& file, Units units);
+
 }  // namespace geometry_io

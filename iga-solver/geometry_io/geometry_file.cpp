@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <initializer_list>
 #include <stdexcept>
@@ -41,9 +42,14 @@ GeometryFile read_changed(const YamlMap& map, Units units, const OpenGeometry& o
 /// `shapes`, patch after patch; surfaces that files among them name stay named.
 GeometryFile read_several(const YamlMap& geometry, Units units, const OpenGeometry& open) {
   GeometryFile all{units, {}, {}};
+  bool some_say_all = false;  // of files that offer it, such as STL
   for (const YamlMap& map : geometry.list_of_maps("shapes")) {
     GeometryFile part = read_changed(map, units, open);
     for (auto& [name, pieces] : part.surfaces) {
+      if (name == kAllPatches && pieces.size() == part.patches.size()) {
+        some_say_all = true;
+        continue;
+      }
       for (SurfacePiece& piece : pieces) piece.patch += static_cast<int>(all.patches.size());
       if (!all.surfaces.emplace(name, pieces).second)
         map.fail("file", fmt::format("surface '{}' is named by two files, expected one", name));
@@ -51,6 +57,8 @@ GeometryFile read_several(const YamlMap& geometry, Units units, const OpenGeomet
     all.patches.insert(all.patches.end(), part.patches.begin(), part.patches.end());
   }
   if (all.patches.empty()) geometry.fail("shapes", "shapes is empty, expected one shape at least");
+  if (some_say_all && std::none_of(all.patches.begin(), all.patches.end(), is_volume))
+    all.surfaces[kAllPatches] = parse_surface({kAllPatches}, all.patches);
   return all;
 }
 
@@ -92,18 +100,44 @@ GeometryFile parse_geometry_file(const std::string& text, const std::string& fil
   return read_geometry(document, open);
 }
 
-std::vector<OrientedSurface> named_surface(const GeometryFile& geometry, const std::string& name,
+const std::vector<SurfacePiece>& pieces_of(const GeometryFile& geometry, const std::string& name,
                                            const std::string& file) {
   const auto found = geometry.surfaces.find(name);
-  if (found == geometry.surfaces.end()) {
-    std::vector<std::string> names;
-    for (const auto& surface : geometry.surfaces) names.push_back(surface.first);
-    throw InputError(
-        fmt::format("{}: unknown surface '{}', expected one of: {}", file, name,
-                    names.empty() ? "(the file names none)" : fmt::format("{}", fmt::join(names, ", "))));
-  }
+  if (found != geometry.surfaces.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& surface : geometry.surfaces) names.push_back(surface.first);
+  throw InputError(
+      fmt::format("{}: unknown surface '{}', expected one of: {}", file, name,
+                  names.empty() ? "(the file names none)" : fmt::format("{}", fmt::join(names, ", "))));
+}
+
+JoinedMesh named_triangles(const GeometryFile& geometry, const std::string& name, const std::string& file) {
+  std::vector<const TriangleMesh*> meshes;
+  std::vector<int> patch;
+  for (const SurfacePiece& piece : pieces_of(geometry, name, file))
+    if (const auto* mesh = std::get_if<TriangleMesh>(&geometry.patches[piece.patch])) {
+      meshes.push_back(mesh);
+      patch.push_back(piece.patch);
+    }
+  JoinedMesh all = joined(meshes);
+  if (!meshes.empty() && all.mesh.triangles.empty())
+    throw InputError(fmt::format(
+        "{}: no triangle of surface '{}' has three different corners, expected one at least", file, name));
+  for (int& part : all.part) part = patch[part];
+  return all;
+}
+
+std::vector<OrientedSurface> named_surface(const GeometryFile& geometry, const std::string& name,
+                                           const std::string& file) {
   std::vector<OrientedSurface> patches;
-  for (const SurfacePiece& piece : found->second) patches.push_back(extract(piece, geometry.patches));
+  for (const SurfacePiece& piece : pieces_of(geometry, name, file)) {
+    if (is_triangles(geometry.patches[piece.patch]))
+      throw InputError(fmt::format(
+          "{}: surface '{}' is of triangles (STL), expected NURBS patches: triangles are a wall of "
+          "LIGGGHTS' own, 'fix mesh/surface' with 'fix wall/gran ... mesh'",
+          file, name));
+    patches.push_back(extract(piece, geometry.patches));
+  }
   return patches;
 }
 

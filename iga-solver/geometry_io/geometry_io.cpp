@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <vector>
@@ -30,6 +31,7 @@ const FormatEntry kFormats[] = {
     {format::yaml, {".yaml", ".yml"}, parse_yaml, write_yaml},
     {format::hdf5, {".h5", ".hdf5"}, parse_hdf5, write_hdf5},
     {format::xml, {".xml"}, parse_gismo, write_gismo},
+    {format::stl, {".stl", ".STL"}, parse_stl, nullptr},
 };
 const FormatEntry& entry(Format format) {
   for (const FormatEntry& known : kFormats)
@@ -94,7 +96,14 @@ OpenGeometry geometry_opener(ReadFile read) {
 
 std::string write_geometry(const GeometryFile& geometry, Format format) {
   const FormatEntry& known = entry(format);
-  if (!known.write) throw std::invalid_argument(fmt::format("{} files are read, not written", format));
+  if (!known.write)
+    throw std::invalid_argument(
+        fmt::format("{} files are read, not written, expected {}", format, written_extensions()));
+  if (std::any_of(geometry.patches.begin(), geometry.patches.end(), is_triangles))
+    throw std::invalid_argument(
+        fmt::format("{} holds no triangles (STL), expected NURBS patches: a file in YAML takes triangles by "
+                    "'geometry: {{file: NAME.stl}}'",
+                    format));
   return known.write(geometry);
 }
 

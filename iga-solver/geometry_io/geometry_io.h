@@ -17,7 +17,8 @@ namespace geometry_io {
 using Format = std::string_view;
 namespace format {
 constexpr Format yaml = "YAML", hdf5 = "HDF5", xml = "G+Smo XML";
-}
+constexpr Format stl = "STL";
+}  // namespace format
 /// By the file's extension, such as .h5.
 std::optional<Format> format_of_path(const std::string& path);
 /// ".yaml, .yml, .h5, .hdf5 or .xml": those that write_geometry can write.

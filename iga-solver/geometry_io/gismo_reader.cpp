@@ -228,7 +228,6 @@ class Collector {
 
   // A file that names no surface offers its patches as `all`, or the faces of its one volume.
   void name_all() {
-    const auto is_volume = [](const Shape& shape) { return std::holds_alternative<nurbs::Volume>(shape); };
     const int volumes =
         static_cast<int>(std::count_if(geometry_.patches.begin(), geometry_.patches.end(), is_volume));
     if (volumes == 0) geometry_.surfaces["all"] = parse_surface({"all"}, geometry_.patches);

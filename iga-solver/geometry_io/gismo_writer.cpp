@@ -119,7 +119,7 @@ std::string write_gismo(const GeometryFile& geometry) {
   xml_node root = document.append_child("xml");
   root.append_attribute("units") = units_name(geometry.units);
   for (size_t p = 0; p < geometry.patches.size(); ++p)
-    std::visit([&](const auto& patch) { write_patch(patch, p, root); }, geometry.patches[p]);
+    visit_nurbs(geometry.patches[p], [&](const auto& patch) { write_patch(patch, p, root); });
   size_t id = geometry.patches.size();
   xml_node domain = add_multi_patch(root, surfaces.empty() ? 3 : 2, id++, all);
   if (!surfaces.empty()) write_topology(surfaces, domain);

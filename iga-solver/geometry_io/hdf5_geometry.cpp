@@ -141,7 +141,7 @@ std::string write_hdf5(const GeometryFile& geometry) {
   for (size_t p = 0; p < geometry.patches.size(); ++p) {
     const std::string path = fmt::format("/patches/{}", p);
     file.add_group(path);
-    std::visit([&](const auto& patch) { write_patch(patch, path, file); }, geometry.patches[p]);
+    visit_nurbs(geometry.patches[p], [&](const auto& patch) { write_patch(patch, path, file); });
   }
   if (!geometry.surfaces.empty()) file.add_group("/surfaces");
   for (const auto& [name, pieces] : geometry.surfaces) {

@@ -11,9 +11,16 @@
 namespace geometry_io {
 namespace {
 
-constexpr const char* kAll = "all";
+constexpr const char* kAll = kAllPatches;
 
-bool is_volume(const Shape& shape) { return std::holds_alternative<nurbs::Volume>(shape); }
+// The patches of triangles of that name.
+std::vector<SurfacePiece> triangles_called(const std::string& name, const std::vector<Shape>& patches) {
+  std::vector<SurfacePiece> pieces;
+  for (int p = 0; p < static_cast<int>(patches.size()); ++p)
+    if (is_triangles(patches[p]) && std::get<TriangleMesh>(patches[p]).name == name)
+      pieces.push_back({p, std::nullopt});
+  return pieces;
+}
 
 SurfacePiece parse_face(int patch, const std::string& word, const std::vector<Shape>& patches) {
   if (is_volume(patches[patch])) return {patch, nurbs::face_from_name(word)};
@@ -48,8 +55,11 @@ void append_all(const std::vector<Shape>& patches, std::vector<SurfacePiece>& pi
 void parse_word(const std::string& word, const std::vector<Shape>& patches,
                 std::vector<SurfacePiece>& pieces) {
   const size_t blank = word.find(' ');
+  const std::vector<SurfacePiece> called = triangles_called(word, patches);
   if (word == kAll) {
     append_all(patches, pieces);
+  } else if (!called.empty() && !word.empty() && word.find_first_not_of("0123456789") != std::string::npos) {
+    pieces.insert(pieces.end(), called.begin(), called.end());
   } else if (blank != std::string::npos) {
     pieces.push_back(
         parse_face(parse_patch(word.substr(0, blank), patches), word.substr(blank + 1), patches));

@@ -3,16 +3,36 @@
 #pragma once
 
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <variant>
 #include <vector>
 
+#include "geometry_io/triangle_mesh.h"
 #include "nurbs/boundary.h"
 #include "nurbs/patch.h"
 
 namespace geometry_io {
 
-using Shape = std::variant<nurbs::Surface, nurbs::Volume>;
+/// A patch: NURBS, or triangles, which are a surface too.
+using Shape = std::variant<nurbs::Surface, nurbs::Volume, TriangleMesh>;
+
+inline bool is_volume(const Shape& shape) { return std::holds_alternative<nurbs::Volume>(shape); }
+inline bool is_triangles(const Shape& shape) { return std::holds_alternative<TriangleMesh>(shape); }
+
+/// Calls `visit` with the Surface or Volume.  Throws std::invalid_argument if it is triangles.
+template <class SomeShape, class Visit>
+void visit_nurbs(SomeShape& shape, Visit visit) {
+  if (auto* surface = std::get_if<nurbs::Surface>(&shape))
+    visit(*surface);
+  else if (auto* volume = std::get_if<nurbs::Volume>(&shape))
+    visit(*volume);
+  else
+    throw std::invalid_argument("a patch is triangles (STL), expected NURBS");
+}
+
+/// The surface of all patches.
+constexpr const char* kAllPatches = "all";
 
 /// A patch that is a surface, or a face of a patch that is a volume.
 struct SurfacePiece {
@@ -22,8 +42,9 @@ struct SurfacePiece {
 };
 
 /// What the words of a file say: `all` (every patch; all must be surfaces), FACE (of the one patch),
-/// PATCH (a surface, counted from 0) or "PATCH FACE" (of a volume).  Throws std::invalid_argument, saying
-/// what was given and what was expected; also if a piece is named twice or none is.
+/// PATCH (a surface, counted from 0), "PATCH FACE" (of a volume), or the name of patches of triangles. Throws
+/// std::invalid_argument, saying what was given and what was expected; also if a piece is named twice or none
+/// is.
 std::vector<SurfacePiece> parse_surface(const std::vector<std::string>& words,
                                         const std::vector<Shape>& patches);
 /// The shortest words that say the same.
@@ -35,6 +56,7 @@ struct OrientedSurface {
   nurbs::Surface surface;
   int outward_sign;
 };
+/// Of NURBS; throws std::bad_variant_access of triangles.
 OrientedSurface extract(const SurfacePiece& piece, const std::vector<Shape>& patches);
 
 }  // namespace geometry_io

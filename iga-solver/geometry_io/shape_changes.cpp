@@ -113,6 +113,12 @@ Affine read_rotation(const YamlMap& map) {
          Eigen::Translation3d(-origin);
 }
 
+template <int Dim>
+nurbs::NodalVectors& points_of(Patch<Dim>& patch) {
+  return patch.control_points;
+}
+nurbs::NodalVectors& points_of(TriangleMesh& mesh) { return mesh.points; }
+
 }  // namespace
 
 const std::vector<std::string>& change_words() {
@@ -124,7 +130,9 @@ void change_shapes(const YamlMap& geometry, std::vector<Shape>& patches) {
   if (geometry.has("refine")) {
     const YamlMap map = geometry.map("refine");
     map.allow_only({"degree", "divide", "knots"});
-    for (Shape& shape : patches) std::visit([&](auto& patch) { refine(map, patch); }, shape);
+    for (Shape& shape : patches)
+      blame(geometry, "refine",
+            "refine: ", [&] { visit_nurbs(shape, [&](auto& patch) { refine(map, patch); }); });
   }
   Affine change = Affine::Identity();
   if (geometry.has("scale")) change = read_scale(geometry);
@@ -132,7 +140,7 @@ void change_shapes(const YamlMap& geometry, std::vector<Shape>& patches) {
   if (geometry.has("move")) change = Eigen::Translation3d(geometry.vector3("move")) * change;
   if (!geometry.has("scale") && !geometry.has("rotate") && !geometry.has("move")) return;
   for (Shape& shape : patches)
-    std::visit([&](auto& patch) { patch.control_points = (change * patch.control_points).eval(); }, shape);
+    std::visit([&](auto& patch) { points_of(patch) = (change * points_of(patch)).eval(); }, shape);
 }
 
 }  // namespace geometry_io

@@ -49,7 +49,7 @@ std::string patch_text(const nurbs::Patch<Dim>& patch) {
 std::string write_yaml(const GeometryFile& geometry) {
   std::string text = fmt::format("units: {}\ngeometry:\n  patches:\n", units_name(geometry.units));
   for (const Shape& shape : geometry.patches)
-    text += std::visit([](const auto& patch) { return patch_text(patch); }, shape);
+    visit_nurbs(shape, [&](const auto& patch) { text += patch_text(patch); });
   if (!geometry.surfaces.empty()) text += "surfaces:\n";
   for (const auto& [name, pieces] : geometry.surfaces)
     text += fmt::format("  {}: {}\n", quoted_name(name), list(surface_words(pieces, geometry.patches)));

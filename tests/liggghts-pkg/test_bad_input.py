@@ -71,7 +71,7 @@ MODEL_FILES = {
     "device as geometry file": (f"{MODELS} type 2 geometry /dev/zero surface top", {}, ["'/dev/zero'", "Is a device"]),
     "STEP file as model file": (GOOD, {"block.yaml": STEP}, ["block.yaml: is a STEP file, expected"]),
     "STEP file as geometry file": (RIGID, {"flat.yaml": STEP}, ["flat.yaml: is a STEP file, expected"]),
-    "STL file as geometry file": (RIGID, {"flat.yaml": "solid a\nfacet normal 0 0 1\n"}, ["is an STL file", "fix mesh/surface"]),
+    "STL file as geometry file": (RIGID, {"flat.yaml": "solid a\nfacet normal 0 0 1\n"}, ["is an STL file", "called .stl"]),
     "comma as model file": (GOOD, {"block.yaml": ","}, ["block.yaml:1: broken YAML"]),
     "comma behind a geometry file": (RIGID, {"flat.yaml": "{units: si},"}, ["flat.yaml:1: broken YAML"]),
     "empty model file": (GOOD, {"block.yaml": ""}, ["block.yaml:1"]),

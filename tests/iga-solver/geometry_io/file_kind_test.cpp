@@ -42,6 +42,7 @@ TEST(FileKind, ByFirstBytes) {
   EXPECT_EQ(kind_of_file("a.h5", kIges), FileKind::iges);
   EXPECT_EQ(kind_of_file("a", kTextStl), FileKind::stl);
   EXPECT_EQ(kind_of_file("a", "solid \nendsolid \n"), FileKind::stl);
+  EXPECT_EQ(kind_of_file("a", "SOLID A\nFacet Normal 0 0 1\n"), FileKind::stl);
   EXPECT_EQ(kind_of_file("a", binary_stl(3)), FileKind::stl);
   EXPECT_EQ(kind_of_file("a.yaml", kHdf5), FileKind::hdf5);
   EXPECT_EQ(kind_of_file("a.yaml", std::string(1024, '\0') + kHdf5), FileKind::hdf5);
@@ -78,7 +79,7 @@ TEST(FileKind, ARefusalNamesTheWayOut) {
               ThrowsMessage<InputError>(
                   AllOf(StartsWith("x.step: is a STEP file, expected NURBS patches in YAML, HDF5"),
                         HasSubstr("none of our programs reads CAD files"))));
-  EXPECT_THAT(read("x.yaml", kTextStl), ThrowsMessage<InputError>(HasSubstr("fix mesh/surface")));
+  EXPECT_THAT(read("x.yaml", kTextStl), ThrowsMessage<InputError>(HasSubstr("from files called .stl")));
   EXPECT_THAT(read("x.yaml", kHdf5), ThrowsMessage<InputError>(HasSubstr("geometry: {file: NAME}")));
 }
 

@@ -28,7 +28,8 @@ class Refusals(ConvertCase):
             "binary": bytes(range(256)),
         }
         for kind, content in foreign.items():
-            for name in ("wall.yaml", "wall.h5", "wall.xml", "wall." + kind.split()[-1].lower()):
+            names = ["wall.yaml", "wall.h5", "wall.xml"] + (["wall." + kind.lower()] if kind in ("STEP", "IGES") else [])
+            for name in names:
                 (self.folder / name).write_bytes(content)
                 self.write("model.yaml", f"units: si\ngeometry: {{file: {name}}}\n")
                 for path in (name, "model.yaml"):
@@ -182,7 +183,7 @@ class Refusals(ConvertCase):
         self.write("units.yaml", "units: si\ngeometry: {file: good.h5}\n")
         self.write("chain.yaml", "units: si\ngeometry: {file: units.yaml}\n")
         self.write("gone.yaml", "units: si\ngeometry: {file: nowhere.xml}\n")
-        self.write("mixed.yaml", "units: si\n")
+        self.write("part.stl", "solid a\nfacet\nnormal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n")
         table = {
             ("nowhere.h5",): "nowhere.h5: cannot read this file: No such file or directory",
             (".",): "cannot read this file: Is a directory",
@@ -192,7 +193,9 @@ class Refusals(ConvertCase):
             ("units.yaml",): "good.h5: units are cgs, expected si as in the file that names this one",
             ("chain.yaml",): "units.yaml:2: geometry.file is good.h5 in a file that is itself read for another one",
             ("gone.yaml",): "nowhere.xml: cannot read this file",
-            ("good.h5", "out.stl"): "out.stl: unknown extension, expected .yaml, .yml, .h5, .hdf5 or .xml",
+            ("good.h5", "out.stp"): "out.stp: unknown extension, expected .yaml, .yml, .h5, .hdf5 or .xml",
+            ("good.h5", "out.stl"): "out.stl: STL files are read, not written, expected .yaml, .yml, .h5, .hdf5 or .xml",
+            ("part.stl", "out.h5"): "out.h5: HDF5 holds no triangles .STL., expected NURBS patches",
             ("good.h5", "none/out.h5"): "none/out.h5: cannot write here: No such file or directory",
             ("good.h5", "--surface", "floor"): r"good.h5: unknown surface 'floor', expected one of: \(the file names none\)",
             ("trimmed.xml", "--units", "inch"): "units is 'inch', expected one of: si, cgs, mm-g-ms, mm-t-s",

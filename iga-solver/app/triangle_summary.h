@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The triangles of a geometry, as nurbs-convert prints them.
+#pragma once
+
+#include <string>
+
+#include "geometry_io/geometry_file.h"
+
+namespace app {
+
+/// All of them as one wall, lines that end with a newline; empty if there are none.
+std::string triangles_text(const geometry_io::GeometryFile& geometry);
+
+}  // namespace app
