@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include "brep/builder.h"
 #include "coupling/model_text.h"
 #include "coupling/open_structure.h"
 #include "coupling/rigid/rigid_surface.h"
@@ -24,8 +25,16 @@ void expect_room(const std::vector<nurbs::Surface>& patches, const std::string& 
   }
 }
 
-OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface) {
+std::unique_ptr<RigidSurface> wall_of_triangles(const geometry_io::TriangleMesh& mesh, double edge_angle) {
+  return std::make_unique<RigidSurface>(
+      std::make_shared<const brep::Surface>(brep::from_triangles(mesh.points, mesh.triangles, edge_angle)));
+}
+
+OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
+                                   double edge_angle) {
   const geometry_io::GeometryFile file = geometry_io::read_geometry(path, reader_on_all_ranks(comm));
+  const geometry_io::TriangleMesh triangles = geometry_io::named_triangles(file, surface, path).mesh;
+  if (triangles.count() > 0) return {wall_of_triangles(triangles, edge_angle), file.units};
   std::vector<nurbs::Surface> patches;
   std::vector<int> outward_sign;
   for (geometry_io::OrientedSurface& patch : geometry_io::named_surface(file, surface, path)) {
@@ -39,9 +48,9 @@ OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const
 }  // namespace
 
 OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
-                                   RigidDrive drive) {
-  OpenedStructure opened =
-      parallel::on_every_rank(comm, path, [&] { return read_rigid_surface(comm, path, surface); });
+                                   RigidDrive drive, double edge_angle) {
+  OpenedStructure opened = parallel::on_every_rank(
+      comm, path, [&] { return read_rigid_surface(comm, path, surface, edge_angle); });
   static_cast<RigidSurface&>(*opened.solver).drive(std::move(drive));
   return opened;
 }

@@ -21,10 +21,11 @@ struct OpenedStructure {
   geometry_io::Units units;
 };
 
-/// Rigid wall: the named surface of a geometry file, and what moves it.  Collective; throws
-/// geometry_io::InputError or std::invalid_argument on every rank.
+/// Rigid wall: the named surface of a geometry file, and what moves it.  Edges between faces that turn by
+/// less than `edge_angle` [rad] are smooth.  Collective; throws geometry_io::InputError or
+/// std::invalid_argument on every rank.
 OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
-                                   RigidDrive drive = {});
+                                   RigidDrive drive = {}, double edge_angle = brep::kEdgeAngle);
 
 /// Deforming solid of iga-solver: the named surface of a model file.  Collective; throws
 /// geometry_io::InputError on every rank.  Lives in the library coupling_iga, so that a rigid wall links no

@@ -94,6 +94,8 @@ constexpr Keyword<void(const Reading&)> kKeywords[] = {
     {"geometry", "geometry FILE", [](const Reading& in) { read_body(in, WallNurbsOptions::Body::rigid); }},
     {"surface", "surface NAME",
      [](const Reading& in) { in.options.surface = in.words.value("the name of a surface in the file"); }},
+    {"edge_angle", "edge_angle A",
+     [](const Reading& in) { in.options.edge_angle = in.words.number_at_least_zero(in.keyword); }},
     {"material", "material independent",
      [](const Reading& in) {
        in.words.value_of(in.keyword, {"independent"});

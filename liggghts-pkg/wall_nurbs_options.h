@@ -22,11 +22,12 @@ struct WallNurbsOptions {
   std::vector<std::string> setting_words;  ///< on/off settings of these models, for LIGGGHTS
   int atom_type = 0;                       ///< the wall's material, 1-based
   Body body = Body::rigid;
-  std::string file;                   ///< model file (iga), geometry file (rigid), a plug-in's model
-  std::string plugin;                 ///< its shared library
-  std::string surface;                ///< name of the surface in that file
-  coupling::SolidOptions solid;       ///< of a deforming wall
-  bool material_independent = false;  ///< the deck's E and nu may differ from the model file's
+  std::string file;                      ///< model file (iga), geometry file (rigid), a plug-in's model
+  std::string plugin;                    ///< its shared library
+  std::string surface;                   ///< name of the surface in that file
+  double edge_angle = brep::kEdgeAngle;  ///< below which edges of a rigid wall are smooth [rad]
+  coupling::SolidOptions solid;          ///< of a deforming wall
+  bool material_independent = false;     ///< the deck's E and nu may differ from the model file's
   bool store_force = false;
   contact::SearchMethod search = contact::SearchMethod::newton;
   int slots = 4;                  ///< contacts that one particle may have at a time

@@ -56,6 +56,17 @@ void check_units(const WallNurbsOptions& options, geometry_io::Units units, cons
                                             options.file, geometry_io::units_name(units), deck_units));
 }
 
+// What needs control points.
+void check_face_wall(const WallNurbsOptions& options) {
+  const auto refuse = [&](const char* what) {
+    throw std::invalid_argument(
+        fmt::format("'{}' is a wall of triangles, given '{}', expected a wall of NURBS patches for it",
+                    options.file, what));
+  };
+  if (!options.output.file.empty()) refuse("output");
+  if (options.drive.servo) refuse("servo");
+}
+
 liggghts_pkg::VariableLookup variables_of(LAMMPS* lmp, const std::string& fix_id) {
   return [=](const std::string& name) { return liggghts_pkg::deck_variable(lmp, fix_id, name); };
 }
@@ -69,7 +80,8 @@ coupling::OpenedStructure open(MPI_Comm world, const WallNurbsOptions& options) 
     case WallNurbsOptions::Body::rigid:
       break;
   }
-  return coupling::open_rigid_surface(world, options.file, options.surface, options.drive);
+  return coupling::open_rigid_surface(world, options.file, options.surface, options.drive,
+                                      options.edge_angle);
 }
 
 /// Of the particles of all ranks; infinite if there are none.
@@ -127,6 +139,7 @@ WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
       opened_.solver = coupling::with_substeps(std::move(opened_.solver), *options_.substeps);
     }
     check_units(options_, opened_.units, lmp->update->unit_style);
+    if (opened_.solver->surface().faces) check_face_wall(options_);
   } catch (const std::exception& problem) {
     lmp->error->all(FLERR, liggghts_pkg::wall_message(arg[0], problem.what()).c_str());
   }

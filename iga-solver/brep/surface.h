@@ -74,6 +74,8 @@ struct Borders {
   int vertex[4] = {-1, -1, -1, -1};  ///< -1: none; the tip of a whole cone is the first
 };
 
+constexpr double kEdgeAngle = 0.02;  ///< of edges that count as smooth, if nothing else is said [rad]
+
 struct Surface {
   std::vector<Face> faces;
   std::vector<Piece> pieces;  ///< of one face in a row
@@ -84,7 +86,7 @@ struct Surface {
   std::vector<Corner> corners;  ///< of one vertex in a row
   std::vector<int> sheets;      ///< of (face, side): 2 * face, 2 * face + 1 for side -
   int sheet_count = 0;
-  double edge_angle = 0.02;  ///< [rad]
+  double edge_angle = kEdgeAngle;  ///< [rad]
   double size = 0.0;         ///< diagonal of the box around the wall [length]
   Vector3 low, high;         ///< that box
   double slack = 0.0;        ///< how far borders of two faces may be apart [length]
