@@ -47,4 +47,37 @@ class FootBasis {
   nurbs::SurfaceValues values_;
 };
 
+/// The same for a rigid wall of faces, whose nodes are four corners of the box around it: barycentric
+/// coordinates, so force and torque of all nodes together are those at the foot.
+class BoxBasis {
+ public:
+  BoxBasis(const brep::Surface& wall, const Vector3& foot) {
+    const Vector3 b = (foot - wall.low).cwiseQuotient(extent(wall));
+    R_[0] = 1.0 - b.sum();
+    for (int d = 0; d < 3; ++d) R_[1 + d] = b[d];
+  }
+  /// The low corner, and those along each axis from there, 3 x 4 [length].
+  static NodalVectors nodes(const brep::Surface& wall) {
+    NodalVectors nodes = wall.low.replicate(1, 4);
+    nodes.rightCols<3>() += Eigen::Matrix3d(extent(wall).asDiagonal());
+    return nodes;
+  }
+  void distribute(const Vector3& F, NodalVectors& f) const {
+    for (int c = 0; c < 4; ++c) f.col(c) += R_[c] * F;
+  }
+  template <class Function>
+  void for_each_control_point(Function f) const {
+    for (int c = 0; c < 4; ++c) f(c);
+  }
+
+ private:
+  /// Of a wall that is flat along an axis, its size there.
+  static Vector3 extent(const brep::Surface& wall) {
+    const Vector3 sides = wall.high - wall.low;
+    return (sides.array() > 0.0).select(sides, wall.size);
+  }
+
+  double R_[4];
+};
+
 }  // namespace coupling

@@ -70,7 +70,7 @@ SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver)
   all_counts_.resize(ranks);
   counts_.resize(ranks);
   offset_.resize(ranks);
-  const int control_points = solver.surface().topology.control_point_count();
+  const int control_points = static_cast<int>(solver.surface().map.control_point_count());
   for (int c = 0; c < control_points; ++c)
     if (map_.hangs(c)) own_.push_back(c);
   if (solver.is_in_parts()) {
@@ -144,6 +144,15 @@ bool SurfaceExchange::any(bool here) const {
   return owners_ ? owners_->largest(here ? 1.0 : 0.0) > 0.0 : here;
 }
 
+template <class Basis>
+void SurfaceExchange::spread(const ContactForce& contact, const Basis& foot) {
+  foot.distribute(Vector3::Map(contact.F), surface_forces_);
+  foot.for_each_control_point([&](int c) {
+    if (!is_touched_[c]) touched_.push_back(c);
+    is_touched_[c] = true;
+  });
+}
+
 const NodalForces& SurfaceExchange::export_add(const std::vector<ContactForce>& local) {
   forget_forces();
   contacts_.clear();
@@ -156,12 +165,12 @@ const NodalForces& SurfaceExchange::export_add(const std::vector<ContactForce>& 
   });
   for (const ContactForce& contact : contacts_) {
     NURBS_ASSERT(Vector3::Map(contact.F).allFinite(), contact.tag, contact.F[0], contact.F[1], contact.F[2]);
-    const FootBasis foot = basis_of(contact, solver_.surface().topology);
-    foot.distribute(Vector3::Map(contact.F), surface_forces_);
-    foot.for_each_control_point([&](int c) {
-      if (!is_touched_[c]) touched_.push_back(c);
-      is_touched_[c] = true;
-    });
+    const ContactSurface& surface = solver_.surface();
+    if (surface.faces)
+      spread(contact, BoxBasis(*surface.faces,
+                               surface.faces->faces[contact.patch].point({contact.xi[0], contact.xi[1]})));
+    else
+      spread(contact, basis_of(contact, surface.topology));
   }
   std::sort(touched_.begin(), touched_.end());
   map_.nodes_of(touched_, nodal_forces_.touched);

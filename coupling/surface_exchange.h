@@ -54,6 +54,8 @@ class SurfaceExchange {
   void import_masses();
   void gather(const std::vector<ContactForce>& local);
   void send_to_owners(const std::vector<ContactForce>& local);
+  template <class Basis>
+  void spread(const ContactForce& contact, const Basis& foot);
   void forget_forces();
 
   MPI_Comm comm_;

@@ -64,7 +64,6 @@ void check_face_wall(const WallNurbsOptions& options) {
                     options.file, what));
   };
   if (!options.output.file.empty()) refuse("output");
-  if (options.drive.servo) refuse("servo");
 }
 
 liggghts_pkg::VariableLookup variables_of(LAMMPS* lmp, const std::string& fix_id) {

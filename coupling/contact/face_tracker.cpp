@@ -2,6 +2,8 @@
 #include "coupling/contact/face_tracker.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "nurbs/assert.h"
 
@@ -91,10 +93,39 @@ void FaceTracker::find(const Query& query) {
                      found_[k].point += image;
                    }
                  });
-  if (found_.size() > 1)
+  if (found_.size() > 1) {
     std::sort(found_.begin(), found_.end(),
               [](const brep::Foot& a, const brep::Foot& b) { return a.distance < b.distance; });
+    keep_one_at_seams();
+  }
   for (const brep::Foot& foot : found_) counts_.add(foot);
+}
+
+// Where the wall goes on with one of its images, across a periodic face of the box, neither knows the other:
+// a foot on the rim of the one is none if it lies in the plane that touches the other at a nearer foot, or in
+// that foot.
+void FaceTracker::keep_one_at_seams() {
+  const auto repeats = [&](const brep::Foot& rim, const brep::Foot& nearer) {
+    if (rim.image == nearer.image) return false;
+    const double apart2 = (rim.point - nearer.point).squaredNorm(), same = search_.same_point();
+    if (apart2 <= same * same) return true;
+    const double out_of_plane = rim.distance * rim.distance - nearer.distance * nearer.distance - apart2;
+    return rim.status != search::FootStatus::interior && std::abs(out_of_plane) <= 2.0 * rim.distance * same;
+  };
+  auto end = found_.begin() + 1;
+  for (auto foot = end; foot != found_.end(); ++foot)
+    if (std::none_of(found_.begin(), end, [&](const brep::Foot& kept) { return repeats(*foot, kept); }))
+      *end++ = *foot;
+  found_.erase(end, found_.end());
+}
+
+// Squared distance of a foot from where a branch was last, on the image that was the nearest to it.
+double FaceTracker::squared_way(const Query& query, const Vector3& last, const Vector3& now) const {
+  double least = std::numeric_limits<double>::infinity();
+  for_each_image(query, Of::chosen, [&](const Vector3&, const int*, int, const Vector3& image) {
+    least = std::min(least, (last + image - now).squaredNorm());
+  });
+  return least;
 }
 
 // A slot goes to the foot of its sheet that is nearest to where its branch was last, the nearest pair first.
@@ -108,14 +139,13 @@ void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
     const Vector3 last = search_.surface().faces[at.patch].point(at.xi);
     const int sheet = search_.surface().sheet(at.patch, slots.slot(s).side());
     for (std::size_t k = 0; k < found_.size(); ++k) {
-      const double distance2 = (last + found_[k].image - found_[k].point).squaredNorm();
-      if (found_[k].sheet == sheet && distance2 <= query.touch_reach * query.touch_reach)
-        pairs_.push_back({distance2, s, static_cast<int>(k)});
+      if (found_[k].sheet != sheet) continue;
+      const double way2 = squared_way(query, last, found_[k].point);
+      if (way2 <= query.touch_reach * query.touch_reach) pairs_.push_back({way2, s, static_cast<int>(k)});
     }
   }
   if (pairs_.size() > 1)
-    std::sort(pairs_.begin(), pairs_.end(),
-              [](const Pair& a, const Pair& b) { return a.distance2 < b.distance2; });
+    std::sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) { return a.way2 < b.way2; });
   const auto is_matched = [&](int slot) {
     return std::any_of(feet_.begin(), feet_.end(), [&](const TrackedFoot& f) { return f.slot == slot; });
   };

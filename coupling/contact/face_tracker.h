@@ -36,6 +36,8 @@ class FaceTracker final : public FeetTracker {
   double nearest(const Query& query, double reach, Of of) const;
   void choose_pieces(const Query& query);
   void find(const Query& query);
+  void keep_one_at_seams();
+  double squared_way(const Query& query, const nurbs::Vector3& last, const nurbs::Vector3& now) const;
   void match_slots(const Query& query, const ParticleSlots& slots);
   FeetRange none(const Query& query, const ParticleSlots& slots, double clearance);
 
@@ -47,7 +49,7 @@ class FaceTracker final : public FeetTracker {
   std::vector<brep::Foot> found_;  // of one candidate, in this step; so are the next two
   std::vector<TrackedFoot> feet_;
   struct Pair {
-    double distance2;
+    double way2;
     int slot, foot;
   };
   std::vector<Pair> pairs_;

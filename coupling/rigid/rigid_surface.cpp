@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "coupling/force_distribution.h"
 #include "nurbs/assert.h"
 
 namespace coupling {
@@ -24,18 +25,19 @@ RigidSurface::RigidSurface(nurbs::PatchedSurface surface, std::vector<int> outwa
 }
 
 RigidSurface::RigidSurface(std::shared_ptr<const brep::Surface> faces)
-    : surface_{{}, SurfaceMap::identity(0), {}, std::move(faces)}, positions_(3, 0), velocities_(3, 0) {}
+    : surface_{{}, SurfaceMap::identity(4), {}, std::move(faces)},
+      nodes_{0, 1, 2, 3},
+      positions_(BoxBasis::nodes(*surface_.faces)),
+      velocities_(NodalVectors::Zero(3, 4)) {}
 
-/// Largest distance from the axis of a control point, or of a corner of the box around faces [length].
+// Largest distance from the axis of a control point or vertex [length].
 double RigidSurface::lever(const Vector3& centre, const Vector3& axis) const {
   double largest = 0.0;
   const auto look_at = [&](const Vector3& x) { largest = std::max(largest, axis.cross(x - centre).norm()); };
-  for (const auto x : positions_.colwise()) look_at(x);
-  for (int corner = 0; surface_.faces && corner < 8; ++corner) {
-    const brep::Surface& wall = *surface_.faces;
-    look_at({(corner & 1 ? wall.high : wall.low)[0], (corner & 2 ? wall.high : wall.low)[1],
-             (corner & 4 ? wall.high : wall.low)[2]});
-  }
+  if (surface_.faces)
+    for (const brep::Vertex& vertex : surface_.faces->vertices) look_at(vertex.point);
+  else
+    for (const auto x : positions_.colwise()) look_at(x);
   return largest;
 }
 

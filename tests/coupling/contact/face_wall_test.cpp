@@ -87,4 +87,42 @@ TEST(FaceWall, RollsOverEdgesWithoutAJump) {
   }
 }
 
+// The nodes of such a wall, four, have the force and the torque that act at the foot.
+TEST(FaceWall, ForcesOnItsNodesAreThoseAtTheFoot) {
+  RigidSurface wall = bent_sheet(0.3);
+  coupling::SurfaceExchange exchange(MPI_COMM_SELF, wall);
+  const Vector3 F(0.3, -2.0, 0.7);
+  const coupling::ContactForce contact{1, 0, 1, {0.4, -1.7}, {F[0], F[1], F[2]}};
+  const Vector3 x = wall.surface().faces->faces[1].point({0.4, -1.7});
+  const coupling::NodalForces& forces = exchange.export_add({contact});
+  Vector3 sum = Vector3::Zero(), torque = Vector3::Zero();
+  for (int a = 0; a < 4; ++a) {
+    const Vector3 f = forces.values.col(a);
+    sum += f;
+    torque += Vector3(wall.positions().col(a)).cross(f);
+  }
+  EXPECT_LT((sum - F).norm(), 1e-14);
+  EXPECT_LT((torque - x.cross(F)).norm(), 1e-13);
+}
+
+// A floor that spans a periodic box has no rim there: one contact throughout, which keeps its slot, and the
+// force is that of a floor without end.
+TEST(FaceWall, GoesOnAcrossAPeriodicFace) {
+  constexpr double kOverlap = 1e-3, kStep = 1e-3;
+  RigidSurface wall = floor();
+  Balls balls(2, 1);
+  balls.add({3.5, 0.1, kRadius - kOverlap}, kRadius);
+  BallsOnWall scene(wall, balls, 1.0, 1.0, {{-4, -9, -9}, {4, 9, 9}, {true, false, false}});
+  for (int step = 2; step <= 1000; ++step) {
+    double& x = scene.balls.x[0];
+    x += kStep;
+    if (x > 4.0) x -= 8.0;
+    if (step % 100 == 0 || x < -4.0 + kStep) scene.build_list();
+    scene.evaluate();
+    ASSERT_EQ(scene.spring.seen.size(), 1u) << x;
+    EXPECT_NEAR(scene.balls.force(0)[2], kOverlap, 1e-12) << x;
+    EXPECT_EQ(scene.spring.seen[0].history[0], step) << x;
+  }
+}
+
 }  // namespace
