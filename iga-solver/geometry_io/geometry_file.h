@@ -20,7 +20,7 @@
 //   surfaces: {top: zeta+}                      # a volume's face; `all` for surface patches
 //
 // Of several patches, counted from 0, a surface is a list of patches and of "PATCH FACE", as in
-// `surfaces: {shell: [0, 1], bore: [2 zeta-, 3 zeta-]}`.
+// `surfaces: {shell: [0, 1], bore: [2 zeta-, 3 zeta-]}`; blocks of STL files also by name: `[cone, lid]`.
 //
 // `degree` is one number or one per direction.  In a box or plane `breaks: [[0, .5, 1], ..]` (relative, from
 // 0 to 1) may stand in place of `elements` for graded meshes.
