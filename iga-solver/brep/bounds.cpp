@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "brep/bounds.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace brep {
+namespace {
+
+constexpr double kTurn = 6.283185307179586;
+
+struct Interval {
+  double low, high;
+};
+Interval operator*(const Interval& a, const Interval& b) {
+  const double corner[4] = {a.low * b.low, a.low * b.high, a.high * b.low, a.high * b.high};
+  return {*std::min_element(corner, corner + 4), *std::max_element(corner, corner + 4)};
+}
+Interval operator*(double s, const Interval& a) { return Interval{s, s} * a; }
+Interval operator+(const Interval& a, const Interval& b) { return {a.low + b.low, a.high + b.high}; }
+Interval operator+(double s, const Interval& a) { return {s + a.low, s + a.high}; }
+
+// p cos(t) + q sin(t) for t in a range: a wave, so its ends and the crests between them.
+Interval wave(double p, double q, double low, double high) {
+  const double start = p * std::cos(low) + q * std::sin(low), end = p * std::cos(high) + q * std::sin(high);
+  const double height = std::hypot(p, q), crest = std::atan2(q, p);
+  Interval values{std::min(start, end), std::max(start, end)};
+  const auto met = [&](double t) { return t + kTurn * std::ceil((low - t) / kTurn) <= high; };
+  if (met(crest)) values.high = height;
+  if (met(crest + 0.5 * kTurn)) values.low = -height;
+  return values;
+}
+
+}  // namespace
+
+Bounds bounds_of(const Face& face) {
+  Bounds box;
+  const Interval second{face.low[1], face.high[1]};
+  for (int i = 0; i < 3; ++i) {
+    const Interval e = wave(face.frame.x[i], face.frame.y[i], face.low[0], face.high[0]);
+    const double z = face.frame.z[i];
+    Interval x{0.0, 0.0};
+    if (face.kind == Kind::cylinder) x = face.R * e + z * second;
+    if (face.kind == Kind::cone) x = second * (std::cos(face.r) * z + std::sin(face.r) * e);
+    if (face.kind == Kind::sphere || face.kind == Kind::torus) {
+      const bool torus = face.kind == Kind::torus;
+      const double tube = torus ? face.r : face.R, ring = torus ? face.R : 0.0;
+      const Interval cos = wave(1.0, 0.0, second.low, second.high),
+                     sin = wave(0.0, 1.0, second.low, second.high);
+      x = (ring + tube * cos) * e + tube * z * sin;
+    }
+    box.low[i] = face.frame.origin[i] + x.low;
+    box.high[i] = face.frame.origin[i] + x.high;
+  }
+  return box;
+}
+
+Bounds bounds_of(const Surface& surface, const Piece& piece) {
+  if (!piece.triangle()) return bounds_of(surface.faces[piece.face]);
+  const Vector3 &a = surface.vertices[piece.vertex[0]].point, &b = surface.vertices[piece.vertex[1]].point,
+                &c = surface.vertices[piece.vertex[2]].point;
+  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
+}
+
+Circle circle_around(const Vector3& a, const Vector3& b, const Vector3& c) {
+  const Vector3* corner[3] = {&a, &b, &c};
+  for (int i = 0; i < 3; ++i) {  // on the longest side if the angle at the third point is not acute
+    const Vector3 &p = *corner[i], &q = *corner[(i + 1) % 3], &opposite = *corner[(i + 2) % 3];
+    if ((p - opposite).dot(q - opposite) <= 0.0) return {0.5 * (p + q), 0.5 * (p - q).norm()};
+  }
+  const Vector3 u = b - a, v = c - a, n = u.cross(v);
+  const Vector3 to_centre =
+      (u.squaredNorm() * v.cross(n) + v.squaredNorm() * n.cross(u)) / (2.0 * n.squaredNorm());
+  return {a + to_centre, to_centre.norm()};
+}
+
+}  // namespace brep

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Boxes and discs around pieces of a wall.
+#pragma once
+
+#include "brep/surface.h"
+
+namespace brep {
+
+struct Bounds {
+  Vector3 low, high;
+};
+
+/// Around a face that is no plane: tight for cylinders, else at most a few times too large.
+Bounds bounds_of(const Face& face);
+Bounds bounds_of(const Surface& surface, const Piece& piece);
+
+/// The smallest circle around a triangle.
+struct Circle {
+  Vector3 centre;
+  double radius;
+};
+Circle circle_around(const Vector3& a, const Vector3& b, const Vector3& c);
+
+}  // namespace brep

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "brep/face.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <stdexcept>
+
+namespace brep {
+namespace {
+
+constexpr double kTurn = 6.283185307179586;
+constexpr double kOnAxis = 1e-12;  // of the radius: no direction is better than another
+
+// A point in cylindrical coordinates of a frame.
+struct Cylindrical {
+  double x, y, z, rho;
+  Cylindrical(const Frame& frame, const Vector3& d) {
+    const Vector3 from = d - frame.origin;
+    x = from.dot(frame.x), y = from.dot(frame.y), z = from.dot(frame.z);
+    rho = std::sqrt(x * x + y * y);
+  }
+  // Of length 1; `fallback` near the axis.
+  Vector3 direction(const Frame& frame, double nothing, double fallback) const {
+    if (rho <= nothing) return std::cos(fallback) * frame.x + std::sin(fallback) * frame.y;
+    return (x / rho) * frame.x + (y / rho) * frame.y;
+  }
+};
+
+// The turn of an angle that is in the range, or nearest to it; and how far it is outside.
+double into_range(double& angle, double low, double high) {
+  angle += kTurn * std::ceil((low - angle) / kTurn);
+  if (angle <= high) return 0.0;
+  const double above = angle - high, below = low + kTurn - angle;
+  if (below < above) angle -= kTurn;
+  return std::min(above, below);
+}
+
+double out_of(double x, double low, double high) { return std::max({0.0, low - x, x - high}); }
+
+}  // namespace
+
+Frame frame_at(const Vector3& origin, const Vector3& z, const Vector3& x) {
+  Frame frame;
+  frame.origin = origin;
+  frame.z = z.normalized();
+  const Vector3 across = x - x.dot(frame.z) * frame.z;
+  if (!(z.norm() > 0.0) || !(across.norm() > 1e-12 * x.norm()))
+    throw std::invalid_argument("frame: axes z and x that are not zero and not parallel are needed");
+  frame.x = across.normalized();
+  frame.y = frame.z.cross(frame.x);
+  return frame;
+}
+
+Vector3 Face::point(const Parameter<2>& xi) const {
+  switch (kind) {
+    case Kind::plane:
+      return frame.origin + xi[0] * frame.x + xi[1] * frame.y;
+    case Kind::cylinder:
+      return frame.origin + R * radial(xi[0]) + xi[1] * frame.z;
+    case Kind::cone:
+      return frame.origin + xi[1] * (std::cos(r) * frame.z + std::sin(r) * radial(xi[0]));
+    case Kind::sphere:
+      return frame.origin + R * (std::cos(xi[1]) * radial(xi[0]) + std::sin(xi[1]) * frame.z);
+    case Kind::torus:
+      return frame.origin + (R + r * std::cos(xi[1])) * radial(xi[0]) + r * std::sin(xi[1]) * frame.z;
+  }
+  return frame.origin;
+}
+
+Vector3 Face::normal(const Parameter<2>& xi) const {
+  switch (kind) {
+    case Kind::plane:
+      return frame.z;
+    case Kind::cylinder:
+      return radial(xi[0]);
+    case Kind::cone:
+      return std::cos(r) * radial(xi[0]) - std::sin(r) * frame.z;
+    case Kind::sphere:
+    case Kind::torus:
+      return std::cos(xi[1]) * radial(xi[0]) + std::sin(xi[1]) * frame.z;
+  }
+  return frame.z;
+}
+
+Parameter<2> Face::curvatures(const Parameter<2>& xi) const {
+  switch (kind) {
+    case Kind::plane:
+      return {0.0, 0.0};
+    case Kind::cylinder:
+      return {-1.0 / R, 0.0};
+    case Kind::cone:
+      return {-1.0 / (xi[1] * std::tan(r)), 0.0};
+    case Kind::sphere:
+      return {-1.0 / R, -1.0 / R};
+    case Kind::torus:
+      return {-std::cos(xi[1]) / (R + r * std::cos(xi[1])), -1.0 / r};
+  }
+  return {0.0, 0.0};
+}
+
+Projection Face::project(const Vector3& d) const {
+  if (kind == Kind::plane) {
+    const Vector3 from = d - frame.origin;
+    const double height = from.dot(frame.z);
+    return {{from.dot(frame.x), from.dot(frame.y)}, d - height * frame.z, frame.z, height, 0.0};
+  }
+  const Cylindrical at(frame, d);
+  const double nothing = kOnAxis * (kind == Kind::cone ? std::abs(at.z) : R);
+  const Vector3 e = at.direction(frame, nothing, middle(0));
+  double angle = at.rho <= nothing ? middle(0) : std::atan2(at.y, at.x);
+  const double turned = into_range(angle, low[0], high[0]);
+  if (kind == Kind::cylinder)
+    return {{angle, at.z},
+            frame.origin + R * e + at.z * frame.z,
+            e,
+            at.rho - R,
+            std::max(R * turned, out_of(at.z, low[1], high[1]))};
+  const double cos = std::cos(r), sin = std::sin(r);
+  if (kind == Kind::cone) {
+    const double length = at.z * cos + at.rho * sin;
+    return {{angle, length},
+            frame.origin + length * (cos * frame.z + sin * e),
+            cos * e - sin * frame.z,
+            at.rho * cos - at.z * sin,
+            std::max(length * sin * turned, out_of(length, low[1], high[1]))};
+  }
+  const double tube = kind == Kind::torus ? r : R, ring = kind == Kind::torus ? R : 0.0;
+  const double off = at.rho - ring, from = std::sqrt(off * off + at.z * at.z);
+  double second = from <= kOnAxis * tube ? middle(1) : std::atan2(at.z, off);
+  const double second_turned = into_range(second, low[1], high[1]);
+  const Vector3 normal = from <= kOnAxis * tube ? Vector3(std::cos(second) * e + std::sin(second) * frame.z)
+                                                : Vector3((off / from) * e + (at.z / from) * frame.z);
+  const Vector3 point = frame.origin + ring * e + tube * normal;
+  const double radius = ring + tube * std::cos(second);
+  return {{angle, second}, point, normal, from - tube, std::max(radius * turned, tube * second_turned)};
+}
+
+double Face::distance_of_whole(const Vector3& d) const {
+  if (kind == Kind::plane) return std::abs((d - frame.origin).dot(frame.z));
+  const Cylindrical at(frame, d);
+  switch (kind) {
+    case Kind::cylinder:
+      return std::abs(at.rho - R);
+    case Kind::cone:
+      return std::abs(at.rho * std::cos(r) - at.z * std::sin(r));
+    case Kind::sphere:
+      return std::abs(std::sqrt(at.rho * at.rho + at.z * at.z) - R);
+    default:
+      return std::abs(std::hypot(at.rho - R, at.z) - r);
+  }
+}
+
+bool Face::whole_turn(int direction) const {
+  const bool angle = kind == Kind::torus || (kind != Kind::plane && direction == 0);
+  return angle && high[direction] - low[direction] >= kTurn * (1.0 - 1e-9);
+}
+
+}  // namespace brep

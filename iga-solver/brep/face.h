@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// One face of a wall in closed form: its parameters, points, normals, curvatures, and the foot of a point on
+// the surface that it is cut from.  Angles in rad; e(a) = cos(a) x + sin(a) y of the frame.
+//
+//   kind      xi                   point(xi)                                        normal
+//   plane     lengths              origin + xi0 x + xi1 y                           z
+//   cylinder  angle, height        origin + R e(xi0) + xi1 z                        away from the axis
+//   cone      angle, length        origin + xi1 (cos(r) z + sin(r) e(xi0)), xi1>=0  away from the axis
+//   sphere    longitude, latitude  origin + R (cos(xi1) e(xi0) + sin(xi1) z)        away from the centre
+//   torus     two angles           origin + (R + r cos(xi1)) e(xi0) + r sin(xi1) z  out of the tube
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "brep/names.h"
+
+namespace brep {
+
+/// Trimmed and NURBS faces have their place here.
+enum class Kind : std::int8_t { plane, cylinder, cone, sphere, torus };
+
+/// Right-handed, axes of length 1.
+struct Frame {
+  Vector3 origin = Vector3::Zero();
+  Vector3 x = Vector3::UnitX(), y = Vector3::UnitY(), z = Vector3::UnitZ();
+};
+/// With this axis z, and x as near to `x` as it can be.  Throws std::invalid_argument if one of them is zero
+/// or they are parallel.
+Frame frame_at(const Vector3& origin, const Vector3& z, const Vector3& x);
+
+/// Foot of a point on the surface that a face is cut from.
+struct Projection {
+  Parameter<2> xi;  ///< inside the face's range where a whole turn more or less leads there
+  Vector3 point, normal;
+  double height;   ///< signed distance along the normal [length]
+  double outside;  ///< how far xi is from the range, 0 inside it and for planes, which have pieces [length]
+};
+
+struct Face {
+  Frame frame;
+  double R = 0.0;  ///< radius of cylinder, sphere and of the torus' circle [length]
+  double r = 0.0;  ///< radius of the torus' tube [length]; half the angle of a cone, in (0, pi/2) [rad]
+  Parameter<2> low{0.0, 0.0}, high{0.0, 0.0};  ///< range of xi
+  int first_piece = 0, piece_count = 0;        ///< of Surface::pieces
+  Kind kind = Kind::plane;
+
+  Vector3 point(const Parameter<2>& xi) const;
+  Vector3 normal(const Parameter<2>& xi) const;
+  /// Principal, along xi0 and along xi1, positive towards the normal (as nurbs/curvature.h) [1/length].
+  Parameter<2> curvatures(const Parameter<2>& xi) const;
+  /// On the axis, in the centre, on the circle of a torus: in the middle of the range.
+  Projection project(const Vector3& d) const;
+  /// |project(d).height| alone, or less.
+  double distance_of_whole(const Vector3& d) const;
+  /// Whether the range of an angle is a whole turn, to 1e-9.
+  bool whole_turn(int direction) const;
+  double middle(int direction) const { return 0.5 * (low[direction] + high[direction]); }
+
+ private:
+  Vector3 radial(double angle) const { return std::cos(angle) * frame.x + std::sin(angle) * frame.y; }
+};
+
+}  // namespace brep

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Which pieces of a wall are near a point, and all its feet on them: the local minima of its distance from
+// every sheet (README.md).
+#pragma once
+
+#include <vector>
+
+#include "brep/piece_tree.h"
+#include "brep/smooth_neighbours.h"
+#include "brep/surface.h"
+
+namespace brep {
+
+/// patch: number of the face through which the sheet claims the foot, xi on that face.
+struct Foot : search::Foot {
+  int sheet;
+  int side;    ///< +1 or -1: of the face, which looks to d
+  int entity;  ///< number of the face, edge or vertex on which it is, by its status
+};
+
+class FootSearch {
+ public:
+  /// Keeps a reference to `surface`, which must outlive it and stay as it is.
+  explicit FootSearch(const Surface& surface);
+  FootSearch(const Surface&& surface) = delete;
+
+  const Surface& surface() const { return surface_; }
+
+  /// Appends the numbers of the pieces not farther than `reach` [length] from d, rising.
+  void near(const Vector3& d, double reach, std::vector<int>& pieces) const;
+  /// Those of these pieces that are not farther than `reach`: enough for points within `reach` - `reach of
+  /// feet()` of d.  Returns their number; `active` has room for `count`, and may be `pieces`.
+  int activate(const Vector3& d, double reach, const int* pieces, int count, int* active) const;
+  /// Appends the feet of d nearer than `reach`, given all pieces that are (more do no harm).
+  void feet(const Vector3& d, double reach, const int* pieces, int count, std::vector<Foot>& out) const;
+
+  /// Distance below which two points of a wall are the same [length].
+  double same_point() const { return same_point_; }
+
+ private:
+  const Surface& surface_;
+  PieceTree tree_;
+  SmoothNeighbours neighbours_;
+  double same_point_;
+};
+
+}  // namespace brep

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "brep/minima.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "brep/edge_foot.h"
+#include "brep/sector.h"
+
+namespace brep {
+
+void Minima::add_of_triangle(const Piece& piece) {
+  const Vector3& n = surface_.faces[piece.face].frame.z;
+  const Vector3* corner[3];
+  Vector3 from[3];
+  for (int i = 0; i < 3; ++i) {
+    corner[i] = &surface_.vertices[piece.vertex[i]].point;
+    from[i] = d_ - *corner[i];
+  }
+  const double height = n.dot(d_ - surface_.faces[piece.face].frame.origin);
+  if (std::abs(height) >= reach_) return;
+  double least = reach_ * reach_;
+  int side = -1, vertex = -1;
+  bool inside = true;
+  for (int i = 0; i < 3; ++i) {
+    const Vector3 way = *corner[(i + 1) % 3] - *corner[i];
+    const double in = n.cross(way).dot(from[i]), length2 = way.squaredNorm();
+    if (in >= 0.0) continue;
+    inside = inside && in * in <= slack_ * slack_ * length2;
+    const double along = from[i].dot(way);
+    const bool before = along <= 0.0, behind = along >= length2;
+    const double distance2 = before   ? from[i].squaredNorm()
+                             : behind ? from[(i + 1) % 3].squaredNorm()
+                                      : from[i].squaredNorm() - along * along / length2;
+    if (distance2 >= least) continue;
+    least = distance2;
+    side = i;
+    vertex = before ? piece.vertex[i] : behind ? piece.vertex[(i + 1) % 3] : -1;
+  }
+  if (inside)
+    add(piece.face, height < 0.0 ? -1 : 1, FootStatus::interior, piece.face, d_ - height * n);
+  else if (vertex >= 0)
+    add_of_vertex(vertex, piece.face);
+  else if (side >= 0 && piece.edge[side] >= 0)
+    add_of_edge(piece.edge[side]);
+}
+
+void Minima::add_of_face(const Piece& piece) {
+  const Face& face = surface_.faces[piece.face];
+  if (face.distance_of_whole(d_) >= reach_) return;
+  const Projection foot = face.project(d_);
+  if (foot.outside <= slack_)
+    keep({{foot.xi, foot.point, std::abs(foot.height), FootStatus::interior, 0, piece.face},
+          surface_.sheet(piece.face, foot.height < 0.0 ? -1 : 1),
+          foot.height < 0.0 ? -1 : 1,
+          piece.face});
+  const Borders& borders = surface_.borders[piece.edge[0]];
+  for (int i = 0; i < 4; ++i) {
+    if (borders.use[i] >= 0) add_of_edge(borders.use[i]);
+    if (borders.vertex[i] >= 0) add_of_vertex(borders.vertex[i], piece.face);
+  }
+}
+
+void Minima::add_of_edge(int use) {
+  const EdgeUse& visiting = surface_.uses[use];
+  const Edge& edge = surface_.edges[visiting.edge];
+  const EdgeFoot foot(edge, d_);
+  if (foot.distance2() >= reach_ * reach_ || foot.beyond_ends(slack_)) return;
+  const int u = use_at_wedge(surface_, edge, foot.q);
+  add_in_wedge(visiting, surface_.uses[u], surface_.next_use(edge, u), foot.q, foot.point);
+}
+
+void Minima::add_in_wedge(const EdgeUse& visiting, const EdgeUse& use, const EdgeUse& next, const double* q,
+                          const Vector3& point) {
+  const bool off_use = q[0] * use.conormal[0] + q[1] * use.conormal[1] <= slack_;
+  const bool off_next = q[0] * next.conormal[0] + q[1] * next.conormal[1] <= slack_;
+  if (joins(use.wedge)) {
+    if (off_use && off_next) add(use.face, use.side, FootStatus::edge, use.edge, point);
+    return;
+  }
+  if (off_use && &visiting == &use) add(use.face, use.side, FootStatus::edge, use.edge, point);
+  if (off_next && &visiting == &next) add(next.face, -next.side, FootStatus::edge, use.edge, point);
+}
+
+void Minima::add_of_vertex(int v, int face) {
+  const Vertex& vertex = surface_.vertices[v];
+  const Vector3 w = d_ - vertex.point;
+  if (w.squaredNorm() >= reach_ * reach_) return;
+  for (int c = vertex.first_corner; c < vertex.first_corner + vertex.corner_count; ++c) {
+    const Corner& corner = surface_.corners[c];
+    if (corner.face != face) continue;
+    for (int s = 0; s < 2; ++s) {
+      if (!corner.leads[s] || !in_group(vertex, corner.group[s], w)) continue;
+      if (corner.region[s] == region_of(vertex, w))
+        add(face, s == 0 ? 1 : -1, FootStatus::corner, v, vertex.point);
+    }
+  }
+}
+
+bool Minima::in_group(const Vertex& vertex, int group, const Vector3& w) const {
+  for (int c = vertex.first_corner; c < vertex.first_corner + vertex.corner_count; ++c) {
+    const Corner& corner = surface_.corners[c];
+    if (corner.group[0] != group && corner.group[1] != group) continue;
+    for (const int ray : corner.ray)
+      if (ray >= 0 && ray_direction(surface_, ray).dot(w) > slack_) return false;
+    if (!corner.reflex && surface_.faces[corner.face].kind != Kind::cone) continue;
+    if (Sector(surface_, vertex, corner).steepest(w, 0.0) > slack_) return false;
+  }
+  return true;
+}
+
+int Minima::region_of(const Vertex& vertex, const Vector3& w) const {
+  const Corner* corners = surface_.corners.data() + vertex.first_corner;
+  double steepest = -2.0 * w.norm();
+  int region = 0, nearest = -1;
+  for (int c = 0; c < vertex.corner_count; ++c) {
+    const Sector sector(surface_, vertex, corners[c]);
+    for (const int ray : corners[c].ray)
+      if (ray >= 0 && ray_direction(surface_, ray).dot(w) > steepest) {
+        steepest = ray_direction(surface_, ray).dot(w);
+        nearest = ray;
+      }
+    const double inside = sector.steepest(w, -4.0 * w.norm());
+    if (inside < steepest) continue;
+    steepest = inside;
+    nearest = -1;
+    region = corners[c].region[sector.side(w) < 0];
+  }
+  if (nearest < 0) return region;
+  const int use = use_at_wedge_of_ray(surface_, nearest, w);
+  for (int c = 0; c < vertex.corner_count; ++c)
+    for (const int ray : corners[c].ray)
+      if (ray == 2 * use + nearest % 2) return corners[c].region[surface_.uses[use].side < 0];
+  return region;
+}
+
+void Minima::add(int face, int side, FootStatus status, int entity, const Vector3& point) {
+  const Face& shape = surface_.faces[face];
+  Parameter<2> xi;
+  if (shape.kind == Kind::plane) {
+    const Vector3 from = point - shape.frame.origin;
+    xi = {from.dot(shape.frame.x), from.dot(shape.frame.y)};
+  } else {
+    xi = shape.project(point).xi;
+  }
+  keep({{xi, point, (d_ - point).norm(), status, 0, face}, surface_.sheet(face, side), side, entity});
+}
+
+// The face's foot wins over its edge's, and the first over others.
+void Minima::keep(const Foot& foot) {
+  for (size_t k = begin_; k < out_.size(); ++k) {
+    if (out_[k].sheet != foot.sheet || (out_[k].point - foot.point).squaredNorm() > same_point2_) continue;
+    if (foot.status < out_[k].status) out_[k] = foot;
+    return;
+  }
+  out_.push_back(foot);
+}
+
+}  // namespace brep

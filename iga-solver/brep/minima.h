@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// All feet of one point, piece by piece: the rules of the README.
+#pragma once
+
+#include <vector>
+
+#include "brep/foot_search.h"
+#include "brep/smooth_neighbours.h"
+
+namespace brep {
+
+class Minima {
+ public:
+  /// Appends feet of d that are nearer than `reach` to `out`.
+  Minima(const Surface& surface, double same_point, const Vector3& d, double reach, std::vector<Foot>& out)
+      : surface_(surface),
+        d_(d),
+        reach_(reach),
+        slack_(surface.slack),
+        same_point2_(same_point * same_point),
+        out_(out),
+        begin_(out.size()) {}
+
+  void add_of_piece(int piece) {
+    if (surface_.pieces[piece].triangle())
+      add_of_triangle(surface_.pieces[piece]);
+    else
+      add_of_face(surface_.pieces[piece]);
+  }
+  /// Of feet that slightly concave smooth edges join, leaves the nearest.
+  void join_over_smooth_edges(const SmoothNeighbours& neighbours);
+
+ private:
+  void add_of_triangle(const Piece& piece);
+  void add_of_face(const Piece& piece);
+  void add_of_edge(int use);
+  void add_in_wedge(const EdgeUse& visiting, const EdgeUse& use, const EdgeUse& next, const double* q,
+                    const Vector3& point);
+  void add_of_vertex(int vertex, int face);
+  bool in_group(const Vertex& vertex, int group, const Vector3& w) const;
+  int region_of(const Vertex& vertex, const Vector3& w) const;
+  void add(int face, int side, FootStatus status, int entity, const Vector3& point);
+  void keep(const Foot& foot);
+  bool gives_way(const Foot& foot, const Foot& nearer, const SmoothNeighbours& neighbours) const;
+
+  const Surface& surface_;
+  Vector3 d_;
+  double reach_, slack_, same_point2_;
+  std::vector<Foot>& out_;
+  size_t begin_;  // of this point's feet
+};
+
+}  // namespace brep

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "brep/piece_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "brep/bounds.h"
+
+namespace brep {
+namespace {
+
+constexpr int kLeaf = 4;            // pieces at most
+constexpr float kRoundOff = 5e-7f;  // of sums of three products, and of points in units, with room
+
+float rounded_up(double x) { return static_cast<float>(x) * (1.0f + kRoundOff) + kRoundOff; }
+
+}  // namespace
+
+struct PieceTree::Boxes {
+  std::vector<Eigen::Vector3f> low, high;
+};
+
+PieceTree::PieceTree(const Surface& surface) : discs_(surface.pieces.size()), order_(surface.pieces.size()) {
+  units_.set(surface.low, surface.high);
+  Boxes boxes;
+  const int count = static_cast<int>(surface.pieces.size());
+  boxes.low.reserve(count);
+  boxes.high.reserve(count);
+  for (int p = 0; p < count; ++p) {
+    set_disc(surface, p);
+    const Bounds box = bounds_of(surface, surface.pieces[p]);
+    boxes.low.emplace_back(units_.in_units(box.low).cast<float>().array() - kRoundOff);
+    boxes.high.emplace_back(units_.in_units(box.high).cast<float>().array() + kRoundOff);
+  }
+  std::iota(order_.begin(), order_.end(), 0);
+  nodes_.reserve(count / 2 + 1);
+  if (count > 0) build(boxes, 0, count);
+}
+
+void PieceTree::set_disc(const Surface& surface, int p) {
+  const Piece& piece = surface.pieces[p];
+  Circle circle;
+  Vector3 normal = Vector3::Zero();
+  double thickness = 0.0;
+  if (piece.triangle()) {
+    const auto corner = [&](int i) { return units_.in_units(surface.vertices[piece.vertex[i]].point); };
+    circle = circle_around(corner(0), corner(1), corner(2));
+    normal = surface.faces[piece.face].frame.z;
+    for (int i = 0; i < 3; ++i)
+      thickness = std::max(thickness, std::abs(normal.dot(corner(i) - circle.centre)));
+  } else {
+    const Bounds box = bounds_of(surface, piece);
+    circle = {units_.in_units(0.5 * (box.low + box.high)),
+              0.5 * (units_.in_units(box.high) - units_.in_units(box.low)).norm()};
+  }
+  Disc& disc = discs_[p];
+  for (int i = 0; i < 3; ++i) {
+    disc.centre[i] = static_cast<float>(circle.centre[i]);
+    disc.normal[i] = static_cast<float>(normal[i]);
+  }
+  disc.radius = rounded_up(circle.radius);
+  disc.thickness = rounded_up(thickness + kRoundOff * circle.radius);
+}
+
+void PieceTree::build(const Boxes& boxes, int first, int count) {
+  Eigen::Vector3f low = boxes.low[order_[first]], high = boxes.high[order_[first]];
+  Eigen::Vector3f middle_low = low + high, middle_high = middle_low;
+  for (int i = first + 1; i < first + count; ++i) {
+    const Eigen::Vector3f &a = boxes.low[order_[i]], &b = boxes.high[order_[i]];
+    low = low.cwiseMin(a);
+    high = high.cwiseMax(b);
+    middle_low = middle_low.cwiseMin(a + b);
+    middle_high = middle_high.cwiseMax(a + b);
+  }
+  const size_t node = nodes_.size();
+  nodes_.push_back({{low[0], low[1], low[2]}, {high[0], high[1], high[2]}, first, count});
+  if (count <= kLeaf) return;
+  int axis;
+  (middle_high - middle_low).maxCoeff(&axis);
+  const auto begin = order_.begin() + first;
+  const int half = count / 2;
+  std::nth_element(begin, begin + half, begin + count, [&](int p, int q) {
+    return boxes.low[p][axis] + boxes.high[p][axis] < boxes.low[q][axis] + boxes.high[q][axis];
+  });
+  build(boxes, first, half);
+  nodes_[node].first = static_cast<std::int32_t>(nodes_.size());
+  nodes_[node].count = 0;
+  build(boxes, first + half, count - half);
+}
+
+PieceTree::Query PieceTree::query(const Vector3& d, double reach) const {
+  const search::BoxUnits::Point point = units_.point(d);
+  const float limit = std::sqrt(units_.limit(point, reach)) * (1.0f + kRoundOff) + kRoundOff;
+  return {{point.d[0], point.d[1], point.d[2]}, limit};
+}
+
+void PieceTree::near(const Query& query, std::vector<int>& pieces) const {
+  if (nodes_.empty()) return;
+  std::int32_t stack[64];
+  int depth = 0;
+  stack[depth++] = 0;
+  const float far2 = query.reach * query.reach;
+  while (depth > 0) {
+    const std::int32_t n = stack[--depth];
+    const Node& node = nodes_[n];
+    float sum = 0.0f;
+    for (int i = 0; i < 3; ++i) {
+      const float off = std::max({node.low[i] - query.d[i], query.d[i] - node.high[i], 0.0f});
+      sum += off * off;
+    }
+    if (sum > far2) continue;
+    if (node.count == 0) {
+      stack[depth++] = node.first;
+      stack[depth++] = n + 1;
+      continue;
+    }
+    for (int i = node.first; i < node.first + node.count; ++i)
+      if (may_be_near(query, order_[i])) pieces.push_back(order_[i]);
+  }
+}
+
+}  // namespace brep
