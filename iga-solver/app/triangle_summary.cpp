@@ -3,38 +3,72 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <vector>
+
+#include "brep/builder.h"
+#include "brep/summary.h"
 
 namespace app {
 namespace {
 
+using geometry_io::GeometryFile;
+using geometry_io::JoinedMesh;
 using geometry_io::TriangleMesh;
 
 constexpr size_t kGapsShown = 5;
+constexpr double kEdgeAngle = 0.02;  // [rad], as of walls
 
-std::string gaps_text(const TriangleMesh& mesh) {
-  const std::vector<geometry_io::Gap> gaps = gaps_of(mesh);
+// "line 12 of patch 0": where a triangle stands in its file.
+std::string place_text(const GeometryFile& geometry, const JoinedMesh& all, int triangle) {
+  const int patch = all.part[triangle];
+  return fmt::format("{} {} of patch {}",
+                     std::get<TriangleMesh>(geometry.patches[patch]).binary ? "triangle" : "line",
+                     all.mesh.place[triangle], patch);
+}
+
+// Faces, edges, area and volume, as a wall has them.
+std::string wall_text(const GeometryFile& geometry, const JoinedMesh& all) {
+  brep::BuildReport report;
+  brep::Summary wall;
+  try {
+    wall = summary_of(brep::from_triangles(all.mesh.points, all.mesh.triangles, kEdgeAngle, &report));
+  } catch (const std::invalid_argument& error) {
+    return fmt::format("  no wall: {}\n", error.what());
+  }
+  std::string text = fmt::format("  {} plane faces; edges: {} convex, {} concave, {} smooth", wall.faces[0],
+                                 wall.convex, wall.concave, wall.smooth + wall.near_smooth);
+  text +=
+      fmt::format(", {} free, {} of more than two faces\n  area {:.6g}, ", wall.free, wall.many, wall.area);
+  text += wall.closed ? fmt::format("closed, volume {:.6g}\n", wall.volume) : "open: no volume\n";
+  text += fmt::format("  worst triangle: {}, height {:.3g}", place_text(geometry, all, report.worst_triangle),
+                      report.least_height);
+  return text + fmt::format("; {} are thinner than 1e-6 of the whole\n", report.thin + report.collapsed);
+}
+
+std::string gaps_text(const GeometryFile& geometry, const JoinedMesh& all) {
+  const std::vector<geometry_io::Gap> gaps = gaps_of(all.mesh);
   if (gaps.empty()) return "  gaps: none\n";
   std::string text = fmt::format("  gaps: {}\n", gaps.size());
   for (size_t g = 0; g < gaps.size() && g < kGapsShown; ++g)
-    text += fmt::format("    {} free edges, length {:.6g}, the first at triangle {}\n", gaps[g].edges,
-                        gaps[g].length, mesh.place[gaps[g].triangle]);
+    text += fmt::format("    {} free sides of triangles, length {:.6g}, one at {}\n", gaps[g].edges,
+                        gaps[g].length, place_text(geometry, all, gaps[g].triangle));
   if (gaps.size() > kGapsShown) text += fmt::format("    and {} shorter ones\n", gaps.size() - kGapsShown);
   return text;
 }
 
 }  // namespace
 
-std::string triangles_text(const geometry_io::GeometryFile& geometry) {
-  std::vector<const TriangleMesh*> meshes;
-  for (const geometry_io::Shape& patch : geometry.patches)
-    if (const auto* mesh = std::get_if<TriangleMesh>(&patch)) meshes.push_back(mesh);
-  if (meshes.empty()) return "";
-  const TriangleMesh all = geometry_io::joined(meshes).mesh;
-  std::string text = fmt::format(
-      "all triangles: {}, with {} points, after leaving out {} without an area and {} that lie twice\n",
-      all.count(), all.points.cols(), all.degenerate, all.repeated);
-  return text + gaps_text(all);
+std::string triangles_text(const GeometryFile& geometry) {
+  std::vector<geometry_io::SurfacePiece> pieces;
+  for (int p = 0; p < static_cast<int>(geometry.patches.size()); ++p)
+    if (is_triangles(geometry.patches[p])) pieces.push_back({p, std::nullopt});
+  if (pieces.empty()) return "";
+  const JoinedMesh all = joined_triangles(geometry, pieces);
+  return fmt::format(
+             "triangles of all patches: {}, {} points; left out: {} without an area, {} that lie twice\n",
+             all.mesh.count(), all.mesh.points.cols(), all.mesh.degenerate, all.mesh.repeated) +
+         wall_text(geometry, all) + gaps_text(geometry, all);
 }
 
 }  // namespace app

@@ -99,7 +99,7 @@ class Corners {
     Corner corner{};
     corner.face = face;
     corner.ray[0] = first, corner.ray[1] = second;
-    corner.reflex = turned >= kPi * (1.0 + 1e-12);
+    corner.reflex = turned >= kPi - 1e-6;
     found_.push_back({corner, vertex});
   }
 

@@ -50,7 +50,7 @@ struct Corner {
   std::int16_t group[2];   ///< sides that convex and smooth wedges join round the vertex
   std::int16_t region[2];  ///< sides that wedges of any kind join: what is in the same region of space
   bool leads[2];           ///< the first corner of its group
-  bool reflex;             ///< the sector's angle is pi or more
+  bool reflex;             ///< the sector's angle is pi or more, to 1e-6
 };
 
 /// Where two separate fans of faces touch in a point there are two vertices.

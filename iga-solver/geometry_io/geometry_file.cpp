@@ -111,19 +111,25 @@ const std::vector<SurfacePiece>& pieces_of(const GeometryFile& geometry, const s
                   names.empty() ? "(the file names none)" : fmt::format("{}", fmt::join(names, ", "))));
 }
 
-JoinedMesh named_triangles(const GeometryFile& geometry, const std::string& name, const std::string& file) {
+JoinedMesh joined_triangles(const GeometryFile& geometry, const std::vector<SurfacePiece>& pieces) {
   std::vector<const TriangleMesh*> meshes;
   std::vector<int> patch;
-  for (const SurfacePiece& piece : pieces_of(geometry, name, file))
+  for (const SurfacePiece& piece : pieces)
     if (const auto* mesh = std::get_if<TriangleMesh>(&geometry.patches[piece.patch])) {
       meshes.push_back(mesh);
       patch.push_back(piece.patch);
     }
   JoinedMesh all = joined(meshes);
-  if (!meshes.empty() && all.mesh.triangles.empty())
+  for (int& part : all.part) part = patch[part];
+  return all;
+}
+
+JoinedMesh named_triangles(const GeometryFile& geometry, const std::string& name, const std::string& file) {
+  const std::vector<SurfacePiece>& pieces = pieces_of(geometry, name, file);
+  JoinedMesh all = joined_triangles(geometry, pieces);
+  if (all.mesh.degenerate > 0 && all.mesh.triangles.empty())
     throw InputError(fmt::format(
         "{}: no triangle of surface '{}' has three different corners, expected one at least", file, name));
-  for (int& part : all.part) part = patch[part];
   return all;
 }
 

@@ -20,7 +20,7 @@
 //   surfaces: {top: zeta+}                      # a volume's face; `all` for surface patches
 //
 // Of several patches, counted from 0, a surface is a list of patches and of "PATCH FACE", as in
-// `surfaces: {shell: [0, 1], bore: [2 zeta-, 3 zeta-]}`.
+// `surfaces: {shell: [0, 1], bore: [2 zeta-, 3 zeta-]}`; blocks of STL files also by name: `[cone, lid]`.
 //
 // `degree` is one number or one per direction.  In a box or plane `breaks: [[0, .5, 1], ..]` (relative, from
 // 0 to 1) may stand in place of `elements` for graded meshes.
@@ -74,8 +74,9 @@ GeometryFile parse_geometry_file(const std::string& text, const std::string& fil
 /// What one surface is made of.  Throws InputError that lists the names there are.
 const std::vector<SurfacePiece>& pieces_of(const GeometryFile& geometry, const std::string& name,
                                            const std::string& file);
-/// The triangles of one named surface, as one mesh; `part` is the patch that each is from.  No triangles if
-/// all of its patches are NURBS.  Throws InputError as pieces_of does.
+/// The triangles of these pieces as one mesh; `part` is the patch that each is from.
+JoinedMesh joined_triangles(const GeometryFile& geometry, const std::vector<SurfacePiece>& pieces);
+/// Those of one named surface; none if all of its patches are NURBS.  Throws InputError as pieces_of does.
 JoinedMesh named_triangles(const GeometryFile& geometry, const std::string& name, const std::string& file);
 /// The patches of one named surface.  Throws InputError as pieces_of does, and if one of its patches is
 /// triangles.

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "trials.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <map>
+
+namespace brep::trials {
+namespace {
+
+std::mt19937 seeded(unsigned seed, int index) {
+  std::seed_seq seeds{seed, static_cast<unsigned>(index)};
+  return std::mt19937(seeds);
+}
+
+std::string text(const Vector3& x) { return fmt::format("({:.12g}, {:.12g}, {:.12g})", x[0], x[1], x[2]); }
+
+}  // namespace
+
+Trial::Trial(unsigned seed, int index)
+    : random_(seeded(seed, index)),
+      wall_(random_wall(random_, index % kFamilies)),
+      surface_(from_triangles(wall_.coordinates(), wall_.corners())),
+      search_(surface_),
+      judge_(wall_, surface_.edge_angle) {
+  for (const Piece& piece : surface_.pieces)
+    for (const int v : piece.vertex) {
+      const Frame& plane = surface_.faces[piece.face].frame;
+      uneven_ = std::max(uneven_, std::abs(plane.z.dot(surface_.vertices[v].point - plane.origin)));
+    }
+}
+
+std::string Trial::try_sheets() {
+  std::map<int, int> of_judge, back;
+  for (size_t t = 0; t < wall_.triangles.size(); ++t) {
+    const Vector3 &a = wall_.points[wall_.triangles[t][0]], &b = wall_.points[wall_.triangles[t][1]],
+                  &c = wall_.points[wall_.triangles[t][2]], n = (b - a).cross(c - a),
+                  middle = (a + b + c) / 3.0;
+    int face = -1;
+    for (const Piece& piece : surface_.pieces) {
+      Vector3 sum = Vector3::Zero();
+      for (const int v : piece.vertex) sum += surface_.vertices[v].point / 3.0;
+      if ((sum - middle).norm() < 1e-12) face = piece.face;
+    }
+    if (face < 0) return fmt::format("triangle {} is no piece", t);
+    const int turned = surface_.faces[face].frame.z.dot(n) > 0.0 ? 1 : -1;
+    for (int side = 0; side < 2; ++side) {
+      const int theirs = judge_.sheet(static_cast<int>(t), side),
+                ours = surface_.sheet(face, side == 0 ? turned : -turned);
+      if (of_judge.emplace(theirs, ours).first->second != ours ||
+          back.emplace(ours, theirs).first->second != theirs)
+        return fmt::format("sheets differ at triangle {}", t);
+    }
+  }
+  if (surface_.sheet_count != static_cast<int>(back.size())) return "number of sheets";
+  sheet_of_judge_.assign(2 * wall_.triangles.size(), -1);
+  for (const auto& [theirs, ours] : of_judge) sheet_of_judge_[theirs] = ours;
+  return {};
+}
+
+std::string Trial::try_point(int number, long& count) {
+  const Vector3 d = random_point(random_, wall_, number % kPlaces);
+  const double reach = std::uniform_real_distribution<double>(0.1, 1.2)(random_);
+  near_.clear(), feet_.clear(), from_active_.clear();
+  search_.near(d, reach, near_);
+  search_.feet(d, reach, near_.data(), static_cast<int>(near_.size()), feet_);
+  count += static_cast<long>(feet_.size());
+  if (std::string wrong = compare(d, reach, feet_); !wrong.empty()) return wrong + " of " + text(d);
+
+  // The same from a list that was made elsewhere.
+  near_.clear();
+  search_.near(d + 0.2 * random_direction(random_), reach + 0.21, near_);
+  active_.resize(near_.size());
+  const int active = search_.activate(d + 0.05 * random_direction(random_), reach + 0.051, near_.data(),
+                                      static_cast<int>(near_.size()), active_.data());
+  search_.feet(d, reach, active_.data(), active, from_active_);
+  if (from_active_.size() != feet_.size()) return "other feet from an active subset of " + text(d);
+  for (size_t k = 0; k < feet_.size(); ++k)
+    if (feet_[k].point != from_active_[k].point) return "other feet from an active subset of " + text(d);
+  return {};
+}
+
+// On borders of what is a minimum: whether it is one for points beside d.
+bool Trial::minimum_beside(const Vector3& d, double reach, const Foot& foot) const {
+  std::mt19937 random(1);
+  for (int k = 0; k < 30; ++k)
+    for (const auto& m : judge_.minima(d + 1e-6 * random_direction(random), reach + 1e-5, 1e-9))
+      if (foot.sheet == sheet_of_judge_[m.sheet] && (foot.point - m.point).norm() < 1e-4) return true;
+  return false;
+}
+
+std::string Trial::compare(const Vector3& d, double reach, const std::vector<Foot>& feet) const {
+  const auto same = [&](const Foot& foot, const Judge::Minimum& m) {
+    return foot.sheet == sheet_of_judge_[m.sheet] && (foot.point - m.point).norm() < 1e-7 + 3.0 * uneven_;
+  };
+  const auto lenient = judge_.minima(d, reach + 1e-9, 1e-9);
+  for (size_t k = 0; k < feet.size(); ++k) {
+    const Foot& foot = feet[k];
+    if (foot.distance < 1e-9) continue;  // on the wall, on either side
+    if (std::none_of(lenient.begin(), lenient.end(), [&](const auto& m) { return same(foot, m); }) &&
+        !minimum_beside(d, reach, foot))
+      return fmt::format("foot {} on sheet {} (status {}) is no minimum", text(foot.point), foot.sheet,
+                         static_cast<int>(foot.status));
+    for (size_t j = 0; j < k; ++j)
+      if (feet[j].sheet == foot.sheet && (feet[j].point - foot.point).norm() < 1e-8)
+        return "a foot counts twice";
+    const Face& face = surface_.faces[foot.patch];
+    if ((face.point(foot.xi) - foot.point).norm() > 3e-6 * surface_.size ||
+        std::abs((d - foot.point).norm() - foot.distance) > 1e-12)
+      return "a foot does not agree with its parameters";
+    if (surface_.sheet(foot.patch, foot.side) != foot.sheet) return "a foot is on another sheet";
+  }
+  for (const auto& m : lenient)
+    if (std::none_of(feet.begin(), feet.end(), [&](const Foot& foot) { return same(foot, m); }) &&
+        m.distance > 1e-9 && judge_.lasts(d, reach, m, 1e-6))
+      return fmt::format("minimum {} on sheet {} is missed", text(m.point), sheet_of_judge_[m.sheet]);
+  return {};
+}
+
+}  // namespace brep::trials
