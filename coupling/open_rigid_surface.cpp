@@ -31,10 +31,12 @@ std::unique_ptr<RigidSurface> wall_of_triangles(const geometry_io::TriangleMesh&
 }
 
 OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
-                                   double edge_angle) {
-  const geometry_io::GeometryFile file = geometry_io::read_geometry(path, reader_on_all_ranks(comm));
+                                   const RigidOptions& options) {
+  const bool is_stl = geometry_io::format_of_path(path) == geometry_io::format::stl;
+  const geometry_io::GeometryFile file = geometry_io::read_geometry(
+      path, reader_on_all_ranks(comm), is_stl ? options.units : geometry_io::Units::si);
   const geometry_io::TriangleMesh triangles = geometry_io::named_triangles(file, surface, path).mesh;
-  if (triangles.count() > 0) return {wall_of_triangles(triangles, edge_angle), file.units};
+  if (triangles.count() > 0) return {wall_of_triangles(triangles, options.edge_angle), file.units};
   std::vector<nurbs::Surface> patches;
   std::vector<int> outward_sign;
   for (geometry_io::OrientedSurface& patch : geometry_io::named_surface(file, surface, path)) {
@@ -48,9 +50,9 @@ OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const
 }  // namespace
 
 OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
-                                   RigidDrive drive, double edge_angle) {
-  OpenedStructure opened = parallel::on_every_rank(
-      comm, path, [&] { return read_rigid_surface(comm, path, surface, edge_angle); });
+                                   RigidDrive drive, const RigidOptions& options) {
+  OpenedStructure opened =
+      parallel::on_every_rank(comm, path, [&] { return read_rigid_surface(comm, path, surface, options); });
   static_cast<RigidSurface&>(*opened.solver).drive(std::move(drive));
   return opened;
 }

@@ -21,11 +21,15 @@ struct OpenedStructure {
   geometry_io::Units units;
 };
 
-/// Rigid wall: the named surface of a geometry file, and what moves it.  Edges between faces that turn by
-/// less than `edge_angle` [rad] are smooth.  Collective; throws geometry_io::InputError or
-/// std::invalid_argument on every rank.
+struct RigidOptions {
+  geometry_io::Units units = geometry_io::Units::si;  ///< of triangles, whose files have none
+  double edge_angle = brep::kEdgeAngle;  ///< edges between faces that turn by less are smooth [rad]
+};
+
+/// Rigid wall: the named surface of a geometry file, and what moves it.  Collective; throws
+/// geometry_io::InputError or std::invalid_argument on every rank.
 OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
-                                   RigidDrive drive = {}, double edge_angle = brep::kEdgeAngle);
+                                   RigidDrive drive = {}, const RigidOptions& options = {});
 
 /// Deforming solid of iga-solver: the named surface of a model file.  Collective; throws
 /// geometry_io::InputError on every rank.  Lives in the library coupling_iga, so that a rigid wall links no

@@ -56,6 +56,13 @@ void check_units(const WallNurbsOptions& options, geometry_io::Units units, cons
                                             options.file, geometry_io::units_name(units), deck_units));
 }
 
+// LIGGGHTS has others, which no geometry file is in.
+geometry_io::Units units_of_deck(const char* name) {
+  for (const geometry_io::Units units : {geometry_io::Units::si, geometry_io::Units::cgs})
+    if (std::strcmp(geometry_io::units_name(units), name) == 0) return units;
+  return geometry_io::Units::si;
+}
+
 // What needs control points.
 void check_face_wall(const WallNurbsOptions& options) {
   const auto refuse = [&](const char* what) {
@@ -70,7 +77,7 @@ liggghts_pkg::VariableLookup variables_of(LAMMPS* lmp, const std::string& fix_id
   return [=](const std::string& name) { return liggghts_pkg::deck_variable(lmp, fix_id, name); };
 }
 
-coupling::OpenedStructure open(MPI_Comm world, const WallNurbsOptions& options) {
+coupling::OpenedStructure open(MPI_Comm world, const WallNurbsOptions& options, const char* deck_units) {
   switch (options.body) {
     case WallNurbsOptions::Body::iga:
       return coupling::open_iga_structure(world, options.file, options.surface, options.solid);
@@ -80,7 +87,7 @@ coupling::OpenedStructure open(MPI_Comm world, const WallNurbsOptions& options) 
       break;
   }
   return coupling::open_rigid_surface(world, options.file, options.surface, options.drive,
-                                      options.edge_angle);
+                                      {units_of_deck(deck_units), options.edge_angle});
 }
 
 /// Of the particles of all ranks; infinite if there are none.
@@ -132,7 +139,7 @@ WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
                                               variables_of(lmp, arg[0]));
     if (options_.drive.servo) complete_servo(lmp, *options_.drive.servo);
     check_type(options_.atom_type, lmp->atom->ntypes);
-    opened_ = open(lmp->world, options_);
+    opened_ = open(lmp->world, options_, lmp->update->unit_style);
     if (options_.substeps) {
       options_.substeps->heaviest_particle = [lmp] { return heaviest_particle(*lmp); };
       opened_.solver = coupling::with_substeps(std::move(opened_.solver), *options_.substeps);
