@@ -85,6 +85,31 @@ TEST(FaceWall, RollsOverEdgesWithoutAJump) {
   }
 }
 
+// In a corner each side has a slot of its own: while the one lasts the other may end and begin anew.
+TEST(FaceWall, BranchesKeepTheirSlots) {
+  nurbs::NodalVectors points(3, 6);  // z = 0 for x > 0 and x = 0 for z > 0
+  points << 4, 0, 0, 4, 0, 0,        //
+      -4, -4, -4, 4, 4, 4,           //
+      0, 0, 4, 0, 0, 4;
+  RigidSurface wall = wall_of(points, {0, 1, 3, 1, 4, 3, 1, 2, 4, 2, 5, 4});
+  Balls balls(2, 1);
+  balls.add({0.45, 0.0, 0.45}, kRadius);
+  BallsOnWall scene(wall, balls, 1.0, 1.0);
+  const auto history_at = [&](int axis) {  // -1: no contact
+    for (const contact::Contact& c : scene.spring.seen)
+      if (c.delta[axis] > 0.4) return c.history[0];
+    return -1.0;
+  };
+  for (int step = 1; step < 40; ++step) {
+    const bool both = step < 10 || step >= 20;
+    scene.balls.centre(0) = Vector3(both ? 0.45 : 0.55, 0.01 * step, both ? 0.45 : 0.46);
+    scene.evaluate();
+    ASSERT_EQ(scene.spring.seen.size(), both ? 2u : 1u) << step;
+    EXPECT_EQ(history_at(2), step + 1);
+    EXPECT_EQ(history_at(0), step < 10 ? step + 1 : both ? step - 19 : -1);
+  }
+}
+
 // The nodes of such a wall, four, have the force and the torque that act at the foot.
 TEST(FaceWall, ForcesOnItsNodesAreThoseAtTheFoot) {
   RigidSurface wall = bent_sheet(0.3);
