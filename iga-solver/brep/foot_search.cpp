@@ -35,7 +35,7 @@ void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int cou
   Minima minima(surface_, same_point_, d, reach, out);
   for (int k = 0; k < count; ++k)
     if (tree_.may_be_near(query, pieces[k])) minima.add_of_piece(pieces[k]);
-  minima.join_over_smooth_edges(neighbours_);
+  minima.finish(neighbours_);
 }
 
 }  // namespace brep

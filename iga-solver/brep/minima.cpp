@@ -147,13 +147,9 @@ void Minima::add(int face, int side, FootStatus status, int entity, const Vector
   keep({{xi, point, (d_ - point).norm(), status, 0, face}, surface_.sheet(face, side), side, entity});
 }
 
-// The face's foot wins over its edge's, and the first over others.
 void Minima::keep(const Foot& foot) {
-  for (size_t k = begin_; k < out_.size(); ++k) {
-    if (out_[k].sheet != foot.sheet || (out_[k].point - foot.point).squaredNorm() > same_point2_) continue;
-    if (foot.status < out_[k].status) out_[k] = foot;
-    return;
-  }
+  for (size_t k = begin_; k < out_.size(); ++k)
+    if (out_[k].status == foot.status && out_[k].entity == foot.entity && out_[k].sheet == foot.sheet) return;
   out_.push_back(foot);
 }
 

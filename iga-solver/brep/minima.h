@@ -27,8 +27,9 @@ class Minima {
     else
       add_of_face(surface_.pieces[piece]);
   }
-  /// Of feet that slightly concave smooth edges join, leaves the nearest.
-  void join_over_smooth_edges(const SmoothNeighbours& neighbours);
+  /// Leaves one foot of several at one point, and of those that slightly concave smooth edges join the
+  /// nearest. Feet are by distance then.
+  void finish(const SmoothNeighbours& neighbours);
 
  private:
   void add_of_triangle(const Piece& piece);
@@ -41,6 +42,7 @@ class Minima {
   int region_of(const Vertex& vertex, const Vector3& w) const;
   void add(int face, int side, FootStatus status, int entity, const Vector3& point);
   void keep(const Foot& foot);
+  bool repeats(const Foot& foot, const Foot& other) const;
   bool gives_way(const Foot& foot, const Foot& nearer, const SmoothNeighbours& neighbours) const;
 
   const Surface& surface_;

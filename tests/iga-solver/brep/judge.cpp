@@ -257,7 +257,7 @@ bool Judge::lasts(const Vector3& d, double reach, const Minimum& minimum, double
   for (int k = 0; k < 10; ++k) {
     const auto moved = minima(d + by * random_direction(random), reach - 2.0 * by, -1e-9);
     if (std::none_of(moved.begin(), moved.end(), [&](const Minimum& m) {
-          return m.sheet == minimum.sheet && (m.point - minimum.point).norm() < 100.0 * by;
+          return m.sheet == minimum.sheet && (m.point - minimum.point).norm() < 3.0 * by;
         }))
       return false;
   }

@@ -15,7 +15,7 @@ std::mt19937 seeded(unsigned seed, int index) {
   return std::mt19937(seeds);
 }
 
-std::string text(const Vector3& x) { return fmt::format("({:.12g}, {:.12g}, {:.12g})", x[0], x[1], x[2]); }
+std::string text(const Vector3& x) { return fmt::format("({:.17g}, {:.17g}, {:.17g})", x[0], x[1], x[2]); }
 
 }  // namespace
 
@@ -93,7 +93,7 @@ bool Trial::minimum_beside(const Vector3& d, double reach, const Foot& foot) con
 
 std::string Trial::compare(const Vector3& d, double reach, const std::vector<Foot>& feet) const {
   const auto same = [&](const Foot& foot, const Judge::Minimum& m) {
-    return foot.sheet == sheet_of_judge_[m.sheet] && (foot.point - m.point).norm() < 1e-7 + 3.0 * uneven_;
+    return foot.sheet == sheet_of_judge_[m.sheet] && (foot.point - m.point).norm() < 1e-7 + 30.0 * uneven_;
   };
   const auto lenient = judge_.minima(d, reach + 1e-9, 1e-9);
   for (size_t k = 0; k < feet.size(); ++k) {

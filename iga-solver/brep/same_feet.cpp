@@ -34,18 +34,31 @@ bool Minima::gives_way(const Foot& foot, const Foot& nearer, const SmoothNeighbo
   return neighbours.joined(from, to);
 }
 
-void Minima::join_over_smooth_edges(const SmoothNeighbours& neighbours) {
+bool Minima::repeats(const Foot& foot, const Foot& other) const {
+  return foot.sheet == other.sheet && (foot.point - other.point).squaredNorm() <= same_point2_;
+}
+
+// On borders to within round-off a point can have the feet of a face, of its edge and of a vertex; which of
+// them may give way is not the same, so they are joined last.  The face's stays.
+void Minima::finish(const SmoothNeighbours& neighbours) {
   const auto begin = out_.begin() + static_cast<std::ptrdiff_t>(begin_);
-  if (out_.end() - begin < 2 || !neighbours.any()) return;
+  if (out_.end() - begin < 2) return;
   std::sort(begin, out_.end(), [](const Foot& a, const Foot& b) { return a.distance < b.distance; });
   auto end = begin;  // of those that stay; what has gone makes others go as well
-  for (auto foot = begin; foot != out_.end(); ++foot) {
+  for (auto foot = begin; neighbours.any() && foot != out_.end(); ++foot) {
     bool gone = false;
-    for (auto nearer = begin; nearer != foot && !gone; ++nearer) gone = gives_way(*foot, *nearer, neighbours);
-    if (!gone) {
-      std::swap(*end, *foot);
-      ++end;
-    }
+    for (auto nearer = begin; nearer != foot && !gone; ++nearer)
+      gone = !repeats(*foot, *nearer) && gives_way(*foot, *nearer, neighbours);
+    if (!gone) std::iter_swap(end++, foot);
+  }
+  if (neighbours.any()) out_.erase(end, out_.end());
+  end = begin;
+  for (auto foot = begin; foot != out_.end(); ++foot) {
+    const auto other = std::find_if(begin, end, [&](const Foot& kept) { return repeats(*foot, kept); });
+    if (other == end)
+      *end++ = *foot;
+    else if (foot->status < other->status)
+      *other = *foot;
   }
   out_.erase(end, out_.end());
 }
