@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 
 #include "geometry_io/file_kind.h"
 #include "geometry_io/formats.h"
 #include "geometry_io/input_error.h"
-#include "nurbs/usable_number.h"
 
 namespace geometry_io {
 namespace {
@@ -54,7 +54,7 @@ TriangleSoup read_stl_binary(const std::string& bytes, const std::string& file) 
     const std::size_t begin = kHeader + kTriangle * t + kNormal;
     for (int k = 0; k < 9; ++k) {
       const double x = float_at(bytes.data() + begin + 4 * k);
-      if (!nurbs::is_usable(x))
+      if (!std::isfinite(x))
         throw InputError(fmt::format("{}: byte {}: {} as a corner of triangle {}, expected a finite number",
                                      file, begin + 4 * k, x, t + 1));
       soup.corners.push_back(x);

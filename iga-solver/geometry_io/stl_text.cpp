@@ -3,11 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
 #include <string_view>
 
 #include "geometry_io/input_error.h"
 #include "geometry_io/parse_number.h"
-#include "nurbs/usable_number.h"
 
 namespace geometry_io {
 namespace {
@@ -77,8 +78,8 @@ class TextReader {
     const string_view word = next_word();
     double x = 0.0;
     if (!parse_number(word, x)) fail(word, "a number");
-    if (!nurbs::is_usable(x))
-      fail(word, fmt::format("a number of at most {:.0e} in size", nurbs::kLargestNumber));
+    if (!(std::abs(x) <= std::numeric_limits<float>::max()))
+      fail(word, "a number that single precision can hold");
     return x;
   }
 

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// STL files, ASCII and binary.  What is read are meshes as their header says.
+// STL files, ASCII and binary.  What is read are meshes as their header says, and
+// become walls.
 #include <algorithm>
 #include <array>
 #include <set>
 
+#include "brep/builder.h"
+#include "brep/summary.h"
 #include "fuzz_target.h"
 #include "geometry_io/geometry_io.h"
 
@@ -39,5 +42,7 @@ void fuzz_one(const std::string& input) {
     check_mesh(all.mesh);
     check_that(all.part.size() == all.mesh.place.size());
     geometry_io::gaps_of(all.mesh);
+    const brep::Summary wall = summary_of(brep::from_triangles(all.mesh.points, all.mesh.triangles));
+    check_that(wall.area > 0.0 && wall.volume >= 0.0);
   }
 }
