@@ -6,6 +6,7 @@
 #include "coupling/rigid/rigid_surface.h"
 #include "geometry_io/geometry_io.h"
 #include "nurbs/memory.h"
+#include "nurbs/usable_number.h"
 #include "parallel/all_or_none.h"
 
 namespace coupling {
@@ -24,11 +25,24 @@ void expect_room(const std::vector<nurbs::Surface>& patches, const std::string& 
   }
 }
 
-OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface) {
+void expect_usable(const nurbs::Surface& patch, const std::string& path) {
+  const double largest = patch.control_points.cwiseAbs().maxCoeff();
+  if (!nurbs::is_usable(largest))
+    throw geometry_io::InputError(fmt::format(
+        "{}: scaled and moved as the deck says it has a coordinate of size {:.6g}, expected at most {}", path,
+        largest, nurbs::kLargestNumber));
+}
+
+OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
+                                   const std::optional<geometry_io::Placement>& placement) {
   const geometry_io::GeometryFile file = geometry_io::read_geometry(path, reader_on_all_ranks(comm));
   std::vector<nurbs::Surface> patches;
   std::vector<int> outward_sign;
   for (geometry_io::OrientedSurface& patch : geometry_io::named_surface(file, surface, path)) {
+    if (placement) {
+      geometry_io::place(patch.surface.control_points, *placement);
+      expect_usable(patch.surface, path);
+    }
     patches.push_back(std::move(patch.surface));
     outward_sign.push_back(patch.outward_sign);
   }
@@ -39,9 +53,9 @@ OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const
 }  // namespace
 
 OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
-                                   RigidDrive drive) {
+                                   RigidDrive drive, const std::optional<geometry_io::Placement>& placement) {
   OpenedStructure opened =
-      parallel::on_every_rank(comm, path, [&] { return read_rigid_surface(comm, path, surface); });
+      parallel::on_every_rank(comm, path, [&] { return read_rigid_surface(comm, path, surface, placement); });
   static_cast<RigidSurface&>(*opened.solver).drive(std::move(drive));
   return opened;
 }

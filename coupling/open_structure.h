@@ -6,12 +6,14 @@
 #include <mpi.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "coupling/rigid/rigid_surface.h"
 #include "coupling/solid_options.h"
 #include "coupling/structure_solver.h"
 #include "geometry_io/geometry_file.h"
+#include "geometry_io/placement.h"
 
 namespace coupling {
 
@@ -21,10 +23,11 @@ struct OpenedStructure {
   geometry_io::Units units;
 };
 
-/// Rigid wall: the named surface of a geometry file, and what moves it.  Collective; throws
-/// geometry_io::InputError or std::invalid_argument on every rank.
+/// Rigid wall: the named surface of a geometry file, what moves it, and where it is placed before.
+/// Collective; throws geometry_io::InputError or std::invalid_argument on every rank.
 OpenedStructure open_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
-                                   RigidDrive drive = {});
+                                   RigidDrive drive = {},
+                                   const std::optional<geometry_io::Placement>& placement = {});
 
 /// Deforming solid of iga-solver: the named surface of a model file.  Collective; throws
 /// geometry_io::InputError on every rank.  Lives in the library coupling_iga, so that a rigid wall links no

@@ -34,6 +34,10 @@ std::vector<std::string> stock_command_line(char** arg, const liggghts_pkg::Wall
     words.push_back(word);
   if (options.store_force) words.insert(words.end(), {"store_force", "yes"});
   if (!options.temperature.empty()) words.insert(words.end(), {"temperature", options.temperature});
+  if (!options.contact_area.empty()) {
+    words.emplace_back("contact_area");
+    words.insert(words.end(), options.contact_area.begin(), options.contact_area.end());
+  }
   words.insert(words.end(), options.setting_words.begin(), options.setting_words.end());
   return words;
 }
@@ -69,7 +73,7 @@ coupling::OpenedStructure open(MPI_Comm world, const WallNurbsOptions& options) 
     case WallNurbsOptions::Body::rigid:
       break;
   }
-  return coupling::open_rigid_surface(world, options.file, options.surface, options.drive);
+  return coupling::open_rigid_surface(world, options.file, options.surface, options.drive, options.placement);
 }
 
 /// Of the particles of all ranks; infinite if there are none.

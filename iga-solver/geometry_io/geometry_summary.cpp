@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry_summary.h"
+#include "geometry_io/geometry_summary.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,10 +12,9 @@
 #include "nurbs/borders.h"
 #include "nurbs/gauss_legendre.h"
 
-namespace app {
+namespace geometry_io {
 namespace {
 
-using geometry_io::Shape;
 using nurbs::Border;
 using nurbs::KnotVector;
 using nurbs::Patch;
@@ -170,7 +169,7 @@ std::string borders_text(const std::vector<Surface>& patches, const std::vector<
 
 }  // namespace
 
-std::string summary(const geometry_io::GeometryFile& geometry) {
+std::string summary(const GeometryFile& geometry) {
   std::string text;
   std::vector<Surface> surfaces;
   std::vector<std::string> names;
@@ -185,19 +184,18 @@ std::string summary(const geometry_io::GeometryFile& geometry) {
   }
   if (!surfaces.empty()) text += "borders\n" + borders_text(surfaces, names);
   for (const auto& [name, pieces] : geometry.surfaces) {
-    text += fmt::format("surface '{}': {}\n", name,
-                        fmt::join(geometry_io::surface_words(pieces, geometry.patches), ", "));
+    text += fmt::format("surface '{}': {}\n", name, fmt::join(surface_words(pieces, geometry.patches), ", "));
     if (!std::any_of(pieces.begin(), pieces.end(), [](const auto& piece) { return piece.face.has_value(); }))
       continue;
     surfaces.clear();
     names.clear();
-    for (const geometry_io::SurfacePiece& piece : pieces) {
+    for (const SurfacePiece& piece : pieces) {
       surfaces.push_back(extract(piece, geometry.patches).surface);
-      names.push_back(geometry_io::surface_words({piece}, geometry.patches).front());
+      names.push_back(surface_words({piece}, geometry.patches).front());
     }
     text += borders_text(surfaces, names);
   }
   return text;
 }
 
-}  // namespace app
+}  // namespace geometry_io
