@@ -57,7 +57,15 @@ class Placement(unittest.TestCase):
         for name in ("vx", "vy"):
             self.assertLess(stock[name][-1] - stock[name][0], -0.1, "tilted along both")
         for name, column in stock.items():
-            self.assertLess(decks.largest_difference(ours[name], column), 1e-8, name)
+            self.assertLess(decks.largest_difference(ours[name], column), 1e-7, name)
+
+    def test_verbose_tells_what_the_wall_is(self):
+        words = "scale 2 move 0 0 -0.002 verbose"
+        told, silent = (decks.good(floor(f"{words} {yes}"), files={"floor.yaml": FLOOR}).text for yes in ("yes", "no"))
+        extents = "x -0.008 to 0.008, y -0.008 to 0.008, z -0.002 to -0.002"
+        for line in ("surface 'floor' of 'floor.yaml'", extents, "area 0.000256", "eta+: free"):
+            self.assertIn(line, told)
+            self.assertNotIn(line, silent)
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+import ball_on_block as bob
 import decks
 from prelude import INTEGRATION
 from test_wall_output import FLOOR, MODELS, START, STL
@@ -48,11 +49,16 @@ def local(group: str = "all", every: int = 20) -> str:
     )
 
 
-def rows(path: Path) -> np.ndarray:
-    """contacts x columns, in the order of particles."""
+def entries(path: Path, columns: int) -> np.ndarray:
+    """Rows of a dump local."""
     lines = path.read_text().splitlines()
-    table = np.array([line.split() for line in lines[lines.index(next(x for x in lines if x.startswith("ITEM: ENTRIES"))) + 1 :]])
-    table = table.astype(float).reshape(-1, COLUMNS)
+    (head,) = (k for k, line in enumerate(lines) if line.startswith("ITEM: ENTRIES"))
+    return np.array([line.split() for line in lines[head + 1 :]], dtype=float).reshape(-1, columns)
+
+
+def rows(path: Path) -> np.ndarray:
+    """contacts x columns, in the order of particles and walls."""
+    table = entries(path, COLUMNS)
     return table[np.lexsort((table[:, FIRST["id"]], table[:, PARTICLE]))]
 
 
@@ -114,6 +120,34 @@ thermo 100
         self.assertEqual({0.0, 1.0}, set(np.concatenate(stock)[:, FIRST["id"]]))
         ours = self.contacts(wall("temperature 400.") + wall(side, name="side") + some)
         self.assert_same(ours, stock, 1e-5)
+
+    def test_a_wall_that_moves(self):
+        """The wall's velocity is a column, too."""
+        verb = "wiggle amplitude 0 1e-5 2e-5 period 1e-3"
+        meshes = mesh("temperature 400.") + MESH + f"fix move all move/mesh mesh mesh {verb}\n"
+        stock = self.contacts(meshes + local(), program=decks.STOCK)
+        self.assertGreater(np.abs(np.concatenate(stock)[:, FIRST["vel"] : FIRST["vel"] + 3]).max(), 0.1)
+        self.assert_same(self.contacts(wall(f"temperature 400. motion {verb}") + local()), stock, 1e-9)
+
+    def test_a_solid(self):
+        """Without damping and friction nothing depends on velocities: foot, particle, force and overlap are those of f_plate."""
+        of_compute, of_fix = (1, 2, 3, 15, 16, 17, 18, 20), (5, 6, 7, 1, 8, 9, 10, 11)
+        columns = [f"c_contacts[{k}]" for k in of_compute] + [f"f_plate[{k}]" for k in of_fix]
+        deck = bob.prelude() + bob.wall() + f"""
+compute contacts all wall/gran/local pos vel id force contactArea delta
+dump rows all local 100 rows.* {" ".join(columns)}
+dump_modify rows format "{" ".join(["%.17g"] * 16)}"
+run 100
+"""
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "block.yaml").write_text(bob.block())
+            run = decks.run_in(Path(folder), deck, ranks=2)
+            self.assertEqual(run.code, 0, run.text[-2000:])
+            (row,) = entries(Path(folder) / "rows.100", 16)
+        compute, fix = row[:8], row[8:]
+        fix[4:7] *= -1.0  # on the wall
+        self.assertGreater(compute[6], 0.1)
+        np.testing.assert_allclose(compute, fix, rtol=1e-12, atol=1e-18)
 
     def test_asking_changes_nothing(self):
         """Motion, friction's memory, stored forces and heat are the same to the last digit as without the compute."""
