@@ -7,6 +7,7 @@
 #include "coupling/rigid/rigid_surface.h"
 #include "geometry_io/geometry_io.h"
 #include "nurbs/memory.h"
+#include "nurbs/usable_number.h"
 #include "parallel/all_or_none.h"
 
 namespace coupling {
@@ -25,6 +26,20 @@ void expect_room(const std::vector<nurbs::Surface>& patches, const std::string& 
   }
 }
 
+void expect_usable(const nurbs::NodalVectors& points, const std::string& path) {
+  const double largest = points.cwiseAbs().maxCoeff();
+  if (!nurbs::is_usable(largest))
+    throw geometry_io::InputError(fmt::format(
+        "{}: scaled and moved as the deck says it has a coordinate of size {:.6g}, expected at most {}", path,
+        largest, nurbs::kLargestNumber));
+}
+
+void place(nurbs::NodalVectors& points, const RigidOptions& options, const std::string& path) {
+  if (!options.placement) return;
+  geometry_io::place(points, *options.placement);
+  expect_usable(points, path);
+}
+
 std::unique_ptr<RigidSurface> wall_of_triangles(const geometry_io::TriangleMesh& mesh, double edge_angle) {
   return std::make_unique<RigidSurface>(
       std::make_shared<const brep::Surface>(brep::from_triangles(mesh.points, mesh.triangles, edge_angle)));
@@ -35,11 +50,15 @@ OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const
   const bool is_stl = geometry_io::format_of_path(path) == geometry_io::format::stl;
   const geometry_io::GeometryFile file = geometry_io::read_geometry(
       path, reader_on_all_ranks(comm), is_stl ? options.units : geometry_io::Units::si);
-  const geometry_io::TriangleMesh triangles = geometry_io::named_triangles(file, surface, path).mesh;
-  if (triangles.count() > 0) return {wall_of_triangles(triangles, options.edge_angle), file.units};
+  geometry_io::TriangleMesh triangles = geometry_io::named_triangles(file, surface, path).mesh;
+  if (triangles.count() > 0) {
+    place(triangles.points, options, path);
+    return {wall_of_triangles(triangles, options.edge_angle), file.units};
+  }
   std::vector<nurbs::Surface> patches;
   std::vector<int> outward_sign;
   for (geometry_io::OrientedSurface& patch : geometry_io::named_surface(file, surface, path)) {
+    place(patch.surface.control_points, options, path);
     patches.push_back(std::move(patch.surface));
     outward_sign.push_back(patch.outward_sign);
   }

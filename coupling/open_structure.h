@@ -6,12 +6,14 @@
 #include <mpi.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "coupling/rigid/rigid_surface.h"
 #include "coupling/solid_options.h"
 #include "coupling/structure_solver.h"
 #include "geometry_io/geometry_file.h"
+#include "geometry_io/placement.h"
 
 namespace coupling {
 
@@ -23,6 +25,7 @@ struct OpenedStructure {
 
 struct RigidOptions {
   geometry_io::Units units = geometry_io::Units::si;  ///< of triangles, whose files have none
+  std::optional<geometry_io::Placement> placement;    ///< where it is placed before it moves
   double edge_angle = brep::kEdgeAngle;  ///< edges between faces that turn by less are smooth [rad]
 };
 

@@ -5,13 +5,17 @@
 
 #include <cmath>
 #include <new>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "atom.h"
 #include "domain.h"
+#include "geometry_io/geometry_summary.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "primitive_wall.h"
+#include "setting.h"
 #include "update.h"
 #include "wall_nurbs_checks.h"
 
@@ -57,13 +61,10 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
   local_freq = 1;
   restart_global = 1;
   can_create_mesh_ = true;
+  meshwall_ = may_pose_as_mesh();
   or_fail([&] { liggghts_pkg::check_other_walls(*modify, world, options_); });
-  if (options_.output.file.empty()) return;
-  output_ = std::make_unique<liggghts_pkg::WallOutput>(world, options_.output, loop_.wall().surface(),
-                                                       exchange_.positions());
-  observer_ =
-      std::make_unique<liggghts_pkg::OutputObserver>(lmp, *output_, loop_.wall().frame(), atom_type_wall_);
-  nevery = output_->every();
+  if (options_.verbose) describe();
+  or_fail([&] { open_files(); });
 }
 
 template <class Action>
@@ -98,8 +99,34 @@ void FixWallNurbs::in_step(Action action) const {
   });
 }
 
+void FixWallNurbs::describe() {
+  geometry_io::GeometryFile surface{opened_.units, {}, {}};
+  for (nurbs::Surface& patch : nurbs::split(loop_.wall().surface(), exchange_.positions()))
+    surface.patches.emplace_back(std::move(patch));
+  messages_.print(fmt::format("surface '{}' of '{}'\n{}", options_.surface, options_.file,
+                              geometry_io::summary(surface)));
+}
+
+void FixWallNurbs::open_files() {
+  const nurbs::MultiPatch& surface = loop_.wall().surface();
+  int every = 0;
+  if (!options_.output.file.empty()) {
+    output_ =
+        std::make_unique<liggghts_pkg::WallOutput>(world, options_.output, surface, exchange_.positions());
+    observer_ =
+        std::make_unique<liggghts_pkg::OutputObserver>(lmp, *output_, loop_.wall().frame(), atom_type_wall_);
+    every = options_.output.every;
+  }
+  if (!options_.stl.file.empty()) {
+    stl_ = std::make_unique<liggghts_pkg::StlOutput>(world, options_.stl, surface, exchange_.positions(),
+                                                     options_.twin);
+    every = std::gcd(every, options_.stl.every);
+  }
+  if (every > 0) nevery = every;
+}
+
 int FixWallNurbs::setmask() {
-  return FixWallGran::setmask() | INITIAL_INTEGRATE | FINAL_INTEGRATE | (output_ ? END_OF_STEP : 0);
+  return FixWallGran::setmask() | INITIAL_INTEGRATE | FINAL_INTEGRATE | (output_ || stl_ ? END_OF_STEP : 0);
 }
 
 int FixWallNurbs::modify_param(int narg, char** arg) { return modify_drive(lmp, id, narg, arg); }
@@ -128,7 +155,11 @@ void FixWallNurbs::init() {
     liggghts_pkg::check_run_style(*update);
     memory_.find();
     fix_wallforce_ = memory_.force();
-    FixWallGran::init();
+    {
+      const liggghts_pkg::Setting<int> as_primitive(meshwall_, 0);
+      FixWallGran::init();
+    }
+    meshwall_ = may_pose_as_mesh();
     if (!options_.material_independent)
       liggghts_pkg::check_wall_material(*modify, atom_type_wall_, structure_.material(), options_.file);
     if (observer_) observer_->begin_run(style);
@@ -155,10 +186,15 @@ void FixWallNurbs::createMulticontactData() {
 void FixWallNurbs::setup(int vflag) {
   structure_.begin_run();  // not in init: LIGGGHTS knows only now which computes its variables need
   loop_.wall().import();
-  FixWallGran::setup(vflag);  // pre_neighbor, pre_force, post_force
+  keeps_contacts_ = false;
+  for (const FixWallNurbs* wall : walls_of_deck()) keeps_contacts_ |= wall->cwl_ != nullptr;
+  {
+    const liggghts_pkg::Setting<int> as_primitive(meshwall_, 0);
+    FixWallGran::setup(vflag);  // pre_neighbor, pre_force, post_force, heat transfer
+  }
   or_fail([&] { liggghts_pkg::give_gravity(*modify, structure_, options_.file); });
   if (structure_.moves()) in_step([&] { structure_.initialise_forces(*nodal_forces_); });
-  if (output_ && output_->at_beginning()) end_of_step();
+  write_files(output_ && output_->at_beginning(), stl_ && stl_->at_beginning());
   const std::string missing = liggghts_pkg::missing_gravity(*modify, structure_, options_.file);
   if (!missing.empty() && !warned_of_gravity_) messages_.warn(missing);
   warned_of_gravity_ = !missing.empty();
@@ -221,8 +257,9 @@ void FixWallNurbs::post_force_primitive(int) {
   try {
     const bool setup = update->setupflag != 0;
     model_.begin_step();
-    loop_.step(view, {update->ntimestep, dt_, neighbor->contactDistanceFactor, setup}, model_,
-               observer_.get());
+    contact::ContactObserver* observer = observer_.get();
+    if (keeps_contacts_) observer = keeper_.begin_step(observer);
+    loop_.step(view, {update->ntimestep, dt_, neighbor->contactDistanceFactor, setup}, model_, observer);
     model_.end_step(setup);
   } catch (const contact::TooManyContacts& problem) {
     messages_.fail_on_this_rank(fmt::format("{}; use 'contacts N' with a larger N", problem.what()));
@@ -247,9 +284,18 @@ void FixWallNurbs::final_integrate() {
 }
 
 void FixWallNurbs::end_of_step() {
+  const long step = update->ntimestep;
+  write_files(output_ && step % output_->every() == 0, stl_ && stl_->is_due(step));
+}
+
+void FixWallNurbs::write_files(bool fields, bool triangles) {
+  if (!fields && !triangles) return;
+  const long step = update->ntimestep;
   or_fail([&] {
     loop_.wall().import_all();
-    output_->write(update->ntimestep, update->get_cur_time(), exchange_.positions(), loop_.wall().frame());
+    const coupling::NodalVectors& points = exchange_.positions();
+    if (fields) output_->write(step, update->get_cur_time(), points, loop_.wall().frame());
+    if (triangles) stl_->write(step, loop_.wall().surface(), points, loop_.wall().frame());
   });
 }
 

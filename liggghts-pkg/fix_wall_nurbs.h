@@ -16,13 +16,16 @@ FixStyle(wall/nurbs,FixWallNurbs)
 
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "contact_report.h"
 #include "coupling/contact/contact_loop.h"
 #include "coupling/surface_exchange.h"
 #include "fix_wall_gran.h"
 #include "liggghts_contact_model.h"
 #include "output_observer.h"
 #include "particle_memory.h"
+#include "stl_output.h"
 #include "triangle_twin.h"
 #include "wall_columns.h"
 #include "wall_messages.h"
@@ -44,6 +47,7 @@ class FixWallNurbs : public WallNurbsSetup, public FixWallGran {
   void setup(int vflag) override;
   void initial_integrate(int vflag) override;
   void post_force(int vflag) override;
+  void post_force_pgl() override;
   void final_integrate() override;
   void end_of_step() override;
   void post_run() override;
@@ -60,6 +64,7 @@ class FixWallNurbs : public WallNurbsSetup, public FixWallGran {
   void pre_neighbor() override;
   void pre_force(int vflag) override;
   void post_force_primitive(int vflag) override;
+  void post_force_mesh(int vflag) override { post_force_primitive(vflag); }
 
  private:
   template <class Action>
@@ -68,6 +73,12 @@ class FixWallNurbs : public WallNurbsSetup, public FixWallGran {
   void in_step(Action action) const;  // likewise, with the step
   void build_list();
   contact::ParticleView particles();
+  bool may_pose_as_mesh() const;
+  std::vector<FixWallNurbs*> walls_of_deck() const;
+  void report(liggghts_pkg::ContactReport& rows, int number, ComputePairGranLocal* compute);
+  void describe();
+  void open_files();
+  void write_files(bool fields, bool triangles);
   liggghts_pkg::WallState::Origin origin() const;
 
   liggghts_pkg::WallMessages messages_;
@@ -80,10 +91,13 @@ class FixWallNurbs : public WallNurbsSetup, public FixWallGran {
   liggghts_pkg::WallRestart restart_;
   std::unique_ptr<liggghts_pkg::WallOutput> output_;        // null: none asked for
   std::unique_ptr<liggghts_pkg::OutputObserver> observer_;  // likewise
+  std::unique_ptr<liggghts_pkg::StlOutput> stl_;            // likewise
+  liggghts_pkg::ContactKeeper keeper_;
   liggghts_pkg::TriangleTwin twin_;
   const coupling::NodalForces* nodal_forces_ = nullptr;
   coupling::NodalForces no_forces_;
   bool rebuild_list_ = true, warned_of_gravity_ = false;
+  bool keeps_contacts_ = false;  // a compute wall/gran/local may ask for them
 };
 
 }  // namespace LAMMPS_NS

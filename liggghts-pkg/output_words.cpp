@@ -47,4 +47,16 @@ OutputOptions read_output(WordReader& words) {
   return options;
 }
 
+StlOptions read_stl(WordReader& words) {
+  StlOptions options;
+  options.file = words.value("the name of the files without _<step>.stl");
+  words.expect("every");
+  options.every = words.count("stl every", "a number of steps");
+  if (words.next_is_one_of({"chord"})) {
+    words.keyword();
+    options.chord = words.number_above_zero("stl chord");
+  }
+  return options;
+}
+
 }  // namespace liggghts_pkg

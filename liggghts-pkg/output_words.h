@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The words `output FILE every N [fields ...] [average yes|no]` of fix wall/nurbs.
+// The words `output FILE every N [fields ...] [average yes|no]` and `stl FILE every N [chord D]` of
+// fix wall/nurbs.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "coupling/surface_fields.h"
@@ -18,6 +20,15 @@ struct OutputOptions {
 
 /// Reads what stands after `output`.  Throws std::invalid_argument: what was given, what was expected.
 OutputOptions read_output(WordReader& words);
+
+struct StlOptions {
+  std::string file;             ///< without _<step>.stl; empty: none
+  int every = 0;                ///< steps
+  std::optional<double> chord;  ///< how far the triangles may be from the surface [length]
+};
+
+/// Reads what stands after `stl`.  Throws as above.
+StlOptions read_stl(WordReader& words);
 
 /// The words after `fields`.
 std::vector<std::string> output_fields();

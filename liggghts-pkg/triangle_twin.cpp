@@ -8,6 +8,14 @@
 
 namespace liggghts_pkg {
 
+nurbs::TriangleMesh triangles_in_space(const nurbs::MultiPatch& surface,
+                                       const nurbs::NodalVectors& control_points,
+                                       const coupling::RigidFrame& frame, int cells) {
+  nurbs::TriangleMesh mesh = nurbs::tessellate(nurbs::split(surface, control_points), cells);
+  mesh.vertices = (frame.rotation * mesh.vertices).colwise() + frame.origin;
+  return mesh;
+}
+
 void TriangleTwin::build(MPI_Comm comm, const std::string& file, const nurbs::MultiPatch& surface,
                          const nurbs::NodalVectors& control_points, const coupling::RigidFrame& frame,
                          int cells) {
@@ -21,8 +29,7 @@ void TriangleTwin::build(MPI_Comm comm, const std::string& file, const nurbs::Mu
                                      surface.element_count(), triangles));
     return true;
   });
-  mesh_ = nurbs::tessellate(nurbs::split(surface, control_points), cells);
-  mesh_.vertices = (frame.rotation * mesh_.vertices).colwise() + frame.origin;
+  mesh_ = triangles_in_space(surface, control_points, frame, cells);
 }
 
 }  // namespace liggghts_pkg

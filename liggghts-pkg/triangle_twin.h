@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fix mesh/surface ... fix ID: the wall in triangles, as it stands when that fix is created.
+// The wall in triangles; fix mesh/surface ... fix ID takes it as it stands when that fix is created.
 #ifndef LMP_TRIANGLE_TWIN_H
 #define LMP_TRIANGLE_TWIN_H
 
@@ -12,6 +12,11 @@
 #include "nurbs/tessellation.h"
 
 namespace liggghts_pkg {
+
+/// `cells` per element and direction; control points in the wall's frame.
+nurbs::TriangleMesh triangles_in_space(const nurbs::MultiPatch& surface,
+                                       const nurbs::NodalVectors& control_points,
+                                       const coupling::RigidFrame& frame, int cells);
 
 class TriangleTwin {
  public:

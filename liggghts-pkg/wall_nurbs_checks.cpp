@@ -59,11 +59,15 @@ void refuse_second_solid(MPI_Comm world, const WallNurbsOptions& options, const 
 void refuse_shared_output(const WallNurbsOptions& options, const WallNurbsOptions& other,
                           const char* other_id) {
   const auto normal = [](const std::string& file) { return std::filesystem::path(file).lexically_normal(); };
-  if (options.output.file.empty() || other.output.file.empty()) return;
-  if (normal(options.output.file) == normal(other.output.file))
-    throw std::invalid_argument(
-        fmt::format("output '{}': {}.pvd is being written by fix {}, expected another name",
-                    options.output.file, options.output.file, other_id));
+  const auto refuse = [&](const char* word, const std::string& mine, const std::string& others,
+                          const char* ending) {
+    if (!mine.empty() && !others.empty() && normal(mine) == normal(others))
+      throw std::invalid_argument(
+          fmt::format("{} '{}': {}{} is being written by fix {}, expected another name", word, mine, mine,
+                      ending, other_id));
+  };
+  refuse("output", options.output.file, other.output.file, ".pvd");
+  refuse("stl", options.stl.file, other.stl.file, "_<step>.stl");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "keyword_table.h"
 #include "model_words.h"
 #include "motion_words.h"
+#include "placement_words.h"
 #include "structure_words.h"
 
 namespace liggghts_pkg {
@@ -81,9 +82,17 @@ void read_substeps(const Reading& in) {
   in.options.substeps = std::move(substeps);
 }
 
+void read_contact_area(const Reading& in) {
+  in.options.contact_area = {in.words.value_of(in.keyword, {"overlap", "projection", "constant"})};
+  if (in.options.contact_area.front() == "constant")
+    in.options.contact_area.push_back(fmt::format("{}", in.words.number_above_zero(in.keyword)));
+}
+
 void read_drive_of_wall(const Reading& in) {
   read_drive(in.keyword, in.words, in.variable, in.options.drive);
 }
+
+void read_placement_of_wall(const Reading& in) { read_placement(in.keyword, in.words, in.options.placement); }
 
 constexpr Keyword<void(const Reading&)> kKeywords[] = {
     {"type", "type T",
@@ -96,6 +105,9 @@ constexpr Keyword<void(const Reading&)> kKeywords[] = {
      [](const Reading& in) { in.options.surface = in.words.value("the name of a surface in the file"); }},
     {"edge_angle", "edge_angle A",
      [](const Reading& in) { in.options.edge_angle = in.words.number_at_least_zero(in.keyword); }},
+    {"scale", "scale S", read_placement_of_wall},
+    {"move", "move X Y Z", read_placement_of_wall},
+    {"rotate", "rotate axis X Y Z angle A", read_placement_of_wall},
     {"material", "material independent",
      [](const Reading& in) {
        in.words.value_of(in.keyword, {"independent"});
@@ -115,6 +127,7 @@ constexpr Keyword<void(const Reading&)> kKeywords[] = {
      [](const Reading& in) {
        in.options.temperature = fmt::format("{}", in.words.number_at_least_zero(in.keyword));
      }},
+    {"contact_area", "contact_area overlap|projection|constant A", read_contact_area},
     {"substeps", "substeps [particles|structure] N|auto", read_substeps},
     {"motion", "motion VERB ...", read_drive_of_wall},
     {"servo", "servo ...", read_drive_of_wall},
@@ -122,7 +135,12 @@ constexpr Keyword<void(const Reading&)> kKeywords[] = {
     {"surface_ang_vel", "surface_ang_vel ...", read_drive_of_wall},
     {"output", "output FILE every N [fields F ...] [average yes|no]",
      [](const Reading& in) { in.options.output = read_output(in.words); }},
+    {"stl", "stl FILE every N [chord D]", [](const Reading& in) { in.options.stl = read_stl(in.words); }},
     {"twin", "twin N", read_twin},
+    {"verbose", "verbose yes|no",
+     [](const Reading& in) {
+       in.options.verbose = in.words.value_of(in.keyword, {"yes", "no"}) == "yes";
+     }},
 };
 
 [[noreturn]] void fail_unknown(const std::string& word) {
@@ -146,6 +164,15 @@ void check_complete(const WallNurbsOptions& options) {
     fail(
         "keyword 'surface' is missing, expected 'surface NAME' after the file, a name under 'surfaces' in "
         "that file");
+  if (!options.contact_area.empty() && options.temperature.empty())
+    fail("'contact_area' is that of heat, expected 'temperature T' of the wall beside it");
+  if (options.placement && options.body != WallNurbsOptions::Body::rigid)
+    fail(
+        "'scale', 'move' and 'rotate' place a rigid wall, given 'structure', expected them in the solid's "
+        "model "
+        "file, as in 'geometry: {file: part.h5, scale: 0.001, rotate: {axis: [1, 0, 0], angle: 90}, move: "
+        "[0, "
+        "0, 1]}'");
   if (options.substeps && options.body == WallNurbsOptions::Body::rigid)
     fail("'substeps' are those of a deforming wall, given 'geometry', expected 'structure FILE'");
   if (options.substeps && options.solid.modes)
@@ -174,7 +201,8 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const V
   WordReader reader(words, model_count);
   while (!reader.at_end()) {
     const std::string keyword = reader.keyword();
-    if (contains(seen, keyword) && !contains(drive_keywords(), keyword))
+    if (contains(seen, keyword) && !contains(drive_keywords(), keyword) &&
+        !contains(placement_keywords(), keyword))
       fail(fmt::format("keyword '{}' is given twice, expected once", keyword));
     seen.push_back(keyword);
 

@@ -10,6 +10,7 @@
 #include "coupling/rigid/rigid_surface.h"
 #include "coupling/solid_options.h"
 #include "coupling/substep_options.h"
+#include "geometry_io/placement.h"
 #include "output_words.h"
 #include "word_reader.h"
 
@@ -30,13 +31,17 @@ struct WallNurbsOptions {
   bool material_independent = false;     ///< the deck's E and nu may differ from the model file's
   bool store_force = false;
   contact::SearchMethod search = contact::SearchMethod::newton;
-  int slots = 4;                  ///< contacts that one particle may have at a time
-  bool curvature_radius = false;  ///< the effective radius takes the wall's curvature into account
-  std::string temperature;        ///< of the wall, as LIGGGHTS reads it; empty: no heat transfer
-  coupling::RigidDrive drive;     ///< what moves a rigid wall
+  int slots = 4;                          ///< contacts that one particle may have at a time
+  bool curvature_radius = false;          ///< the effective radius takes the wall's curvature into account
+  std::string temperature;                ///< of the wall, as LIGGGHTS reads it; empty: no heat transfer
+  std::vector<std::string> contact_area;  ///< that heat goes through, likewise: "constant", "1e-6"
+  std::optional<geometry_io::Placement> placement;   ///< of a rigid wall: what is done to its geometry first
+  coupling::RigidDrive drive;                        ///< what moves it
   std::optional<coupling::SubstepOptions> substeps;  ///< of a deforming one
   OutputOptions output;
+  StlOptions stl;
   int twin = 2;  ///< cells per element and direction of the triangle twin
+  bool verbose = false;
 };
 
 /// Parses the words after `wall/nurbs`.  Throws std::invalid_argument: what was given, what was expected.

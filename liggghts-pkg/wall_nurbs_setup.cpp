@@ -34,6 +34,10 @@ std::vector<std::string> stock_command_line(char** arg, const liggghts_pkg::Wall
     words.push_back(word);
   if (options.store_force) words.insert(words.end(), {"store_force", "yes"});
   if (!options.temperature.empty()) words.insert(words.end(), {"temperature", options.temperature});
+  if (!options.contact_area.empty()) {
+    words.emplace_back("contact_area");
+    words.insert(words.end(), options.contact_area.begin(), options.contact_area.end());
+  }
   words.insert(words.end(), options.setting_words.begin(), options.setting_words.end());
   return words;
 }
@@ -87,7 +91,7 @@ coupling::OpenedStructure open(MPI_Comm world, const WallNurbsOptions& options, 
       break;
   }
   return coupling::open_rigid_surface(world, options.file, options.surface, options.drive,
-                                      {units_of_deck(deck_units), options.edge_angle});
+                                      {units_of_deck(deck_units), options.placement, options.edge_angle});
 }
 
 /// Of the particles of all ranks; infinite if there are none.

@@ -9,8 +9,8 @@
 
 #include "command.h"
 #include "geometry_io/geometry_io.h"
+#include "geometry_io/geometry_summary.h"
 #include "geometry_io/regular_file.h"
-#include "geometry_summary.h"
 
 namespace {
 
@@ -63,7 +63,8 @@ void run(const Options& options) {
       geometry_io::read_geometry(options.in, read_and_note, geometry_io::units_from_name(options.units));
   if (!options.surface.empty()) geometry = only(geometry, options.surface, options.in);
   fmt::print("{}: units {}, {} patch{}\n{}", options.in, geometry_io::units_name(geometry.units),
-             geometry.patches.size(), geometry.patches.size() == 1 ? "" : "es", app::summary(geometry));
+             geometry.patches.size(), geometry.patches.size() == 1 ? "" : "es",
+             geometry_io::summary(geometry));
   if (!options.out.empty()) write(geometry, options.out, inputs);
 }
 

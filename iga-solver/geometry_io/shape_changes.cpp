@@ -3,9 +3,7 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-#include <cmath>
-
+#include "geometry_io/placement.h"
 #include "geometry_io/shape_limits.h"
 #include "nurbs/refinement.h"
 
@@ -16,8 +14,6 @@ using nurbs::Patch;
 using nurbs::Vector3;
 
 namespace {
-
-using Affine = Eigen::Transform<double, 3, Eigen::Affine>;
 
 /// One whole number for all directions or one for each.
 std::vector<int> per_direction(const YamlMap& map, const std::string& key, int dim, int high) {
@@ -91,7 +87,7 @@ void refine(const YamlMap& map, Patch<Dim>& patch) {
   if (map.has("knots")) insert_knots(map, patch);
 }
 
-Affine read_scale(const YamlMap& geometry) {
+Placement read_scale(const YamlMap& geometry) {
   Vector3 factors;
   if (geometry.is_list("scale"))
     factors = geometry.vector3("scale");
@@ -100,17 +96,15 @@ Affine read_scale(const YamlMap& geometry) {
   if (!(factors.minCoeff() > 0.0))
     geometry.fail("scale", fmt::format("scale is [{}, {}, {}], expected numbers > 0", factors[0], factors[1],
                                        factors[2]));
-  return Affine(Eigen::Scaling(factors));
+  return scaling(factors);
 }
 
-Affine read_rotation(const YamlMap& map) {
+Placement read_rotation(const YamlMap& map) {
   map.allow_only({"origin", "axis", "angle"});
   const Vector3 axis = map.vector3("axis"),
                 origin = map.has("origin") ? map.vector3("origin") : Vector3(Vector3::Zero());
   if (!(axis.stableNorm() > 0.0)) map.fail("axis", "axis is [0, 0, 0], expected a direction");
-  const double angle = map.number("angle") * std::acos(-1.0) / 180.0;
-  return Eigen::Translation3d(origin) * Eigen::AngleAxisd(angle, axis.stableNormalized()) *
-         Eigen::Translation3d(-origin);
+  return turning(axis, map.number("angle"), origin);
 }
 
 template <int Dim>
@@ -134,13 +128,12 @@ void change_shapes(const YamlMap& geometry, std::vector<Shape>& patches) {
       blame(geometry, "refine",
             "refine: ", [&] { visit_nurbs(shape, [&](auto& patch) { refine(map, patch); }); });
   }
-  Affine change = Affine::Identity();
+  Placement change = Placement::Identity();
   if (geometry.has("scale")) change = read_scale(geometry);
   if (geometry.has("rotate")) change = read_rotation(geometry.map("rotate")) * change;
-  if (geometry.has("move")) change = Eigen::Translation3d(geometry.vector3("move")) * change;
+  if (geometry.has("move")) change = shifting(geometry.vector3("move")) * change;
   if (!geometry.has("scale") && !geometry.has("rotate") && !geometry.has("move")) return;
-  for (Shape& shape : patches)
-    std::visit([&](auto& patch) { points_of(patch) = (change * points_of(patch)).eval(); }, shape);
+  for (Shape& shape : patches) std::visit([&](auto& patch) { place(points_of(patch), change); }, shape);
 }
 
 }  // namespace geometry_io

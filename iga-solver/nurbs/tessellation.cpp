@@ -3,12 +3,25 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "nurbs/coincident.h"
 
 namespace nurbs {
 namespace {
+
+// Of p from a and b's line, or from a where they are one point.
+double distance_to_line(const Vector3& p, const Vector3& a, const Vector3& b) {
+  const Vector3 along = (b - a).stableNormalized();
+  return (p - a - along.dot(p - a) * along).norm();
+}
+
+double distance_to_plane(const Vector3& p, const Vector3& a, const Vector3& b, const Vector3& c) {
+  return std::abs((b - a).cross(c - a).stableNormalized().dot(p - a));
+}
 
 // The ends of the cells of one direction.
 std::vector<double> divide(const KnotVector& knots, int cells) {
@@ -19,6 +32,35 @@ std::vector<double> divide(const KnotVector& knots, int cells) {
     ends.push_back(breaks[e]);
   }
   return ends;
+}
+
+// The largest distance between a patch and its triangles, in the middle of these and of their edges.
+double chord_error(const Surface& patch, int cells) {
+  constexpr int kParts = 6;  // of a cell, in each direction
+  constexpr double kOnePoint = 1e-9;
+  const std::vector<double> u = divide(patch.space.knots(0), kParts * cells),
+                            v = divide(patch.space.knots(1), kParts * cells);
+  const auto at = [&](std::size_t i, std::size_t j) {
+    return interpolate(patch.space, patch.control_points, {u[i], v[j]});
+  };
+  double largest = 0.0;
+  for (std::size_t j = 0; j + 1 < v.size(); j += kParts)
+    for (std::size_t i = 0; i + 1 < u.size(); i += kParts) {
+      const Vector3 a = at(i, j), b = at(i + kParts, j), c = at(i + kParts, j + kParts),
+                    d = at(i, j + kParts);
+      const auto are_apart = [least = kOnePoint * (c - a).norm()](const Vector3& p, const Vector3& q) {
+        return (p - q).norm() > least;
+      };
+      // At a pole one triangle is left, and the diagonal one of its sides.
+      const bool has_abc = are_apart(a, b) && are_apart(b, c), has_acd = are_apart(c, d) && are_apart(d, a);
+      largest = std::max(
+          {largest, distance_to_line(at(i + 3, j), a, b), distance_to_line(at(i + kParts, j + 3), b, c),
+           distance_to_line(at(i + 3, j + kParts), c, d), distance_to_line(at(i, j + 3), d, a)});
+      if (has_abc && has_acd) largest = std::max(largest, distance_to_line(at(i + 3, j + 3), a, c));
+      if (has_abc) largest = std::max(largest, distance_to_plane(at(i + 4, j + 2), a, b, c));
+      if (has_acd) largest = std::max(largest, distance_to_plane(at(i + 2, j + 4), a, c, d));
+    }
+  return largest;
 }
 
 // Grid of vertices of one patch, index first + i + n j.
@@ -44,6 +86,22 @@ std::vector<int> merge_rims(const NodalVectors& vertices, const std::vector<Grid
 }
 
 }  // namespace
+
+int cells_within(const std::vector<Surface>& patches, double chord) {
+  if (!(chord > 0.0)) throw std::invalid_argument(fmt::format("chord {}, expected a length above 0", chord));
+  int cells = 1;
+  for (const Surface& patch : patches)
+    // The error falls with the square of the cells' size.
+    for (double error = chord_error(patch, cells); error > chord; error = chord_error(patch, cells)) {
+      const double wanted = std::max(cells + 1.0, std::ceil(cells * std::sqrt(error / chord)));
+      if (wanted > kMostCells)
+        throw std::invalid_argument(fmt::format(
+            "chord {:.3g} takes about {:.3g} cells per element, expected one that takes at most {}", chord,
+            wanted, kMostCells));
+      cells = static_cast<int>(wanted);
+    }
+  return cells;
+}
 
 TriangleMesh tessellate(const std::vector<Surface>& patches, int cells) {
   if (cells < 1) throw std::invalid_argument(fmt::format("{} cells per element, expected 1 or more", cells));

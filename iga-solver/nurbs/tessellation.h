@@ -19,4 +19,10 @@ struct TriangleMesh {
 /// division.  Throws std::invalid_argument unless cells >= 1.
 TriangleMesh tessellate(const std::vector<Surface>& patches, int cells);
 
+/// How many cells per element keep the triangles within `chord` of the surface [length], as measured in the
+/// middle of each triangle and of its edges; hardly more than it takes.  Throws std::invalid_argument unless
+/// chord > 0, or if it takes more than kMostCells.
+constexpr int kMostCells = 1000;
+int cells_within(const std::vector<Surface>& patches, double chord);
+
 }  // namespace nurbs

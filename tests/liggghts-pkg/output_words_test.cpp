@@ -60,4 +60,20 @@ TEST(OutputWords, SayWhatIsWrong) {
   expect("wall every 5 average maybe", "average is 'maybe', expected 'yes' or 'no'");
 }
 
+TEST(StlWords, AreReadAndRefused) {
+  const auto parse = [](const std::string& text) {
+    const std::vector<std::string> words = split(text);
+    liggghts_pkg::WordReader reader(words, 0);
+    return liggghts_pkg::read_stl(reader);
+  };
+  EXPECT_EQ(parse("out/wall every 20 chord 1e-4").file, "out/wall");
+  EXPECT_EQ(parse("out/wall every 20 chord 1e-4").every, 20);
+  EXPECT_EQ(parse("out/wall every 20 chord 1e-4").chord, 1e-4);
+  EXPECT_FALSE(parse("out/wall every 20").chord);
+  EXPECT_THAT([&] { parse("wall every 5 chord 0"); }, testing::ThrowsMessage<std::invalid_argument>(HasSubstr(
+                                                          "stl chord is '0', expected a number above 0")));
+  EXPECT_THAT([&] { parse("wall 5"); }, testing::ThrowsMessage<std::invalid_argument>(
+                                            HasSubstr("'5' stands where 'every' is expected")));
+}
+
 }  // namespace

@@ -147,6 +147,9 @@ damping: {mass: 1e4}
             with self.subTest(new):
                 run = self.read(reader(RIGID), self.of_floor, floor=FLOOR.replace(old, new))
                 self.check_refused(run, "geometry: 4 x 4 elements of degree 2 2 .* then")
+        for words in ("move 0 0 1e-5", "scale 1.01", "rotate axis 0 0 1 angle 5"):
+            with self.subTest(words):
+                self.check_refused(self.read(reader(f"{RIGID} {words}"), self.of_floor), "geometry: 4 x 4 elements .* then")
         self.check_refused(self.read(reader(RIGID), self.of_solid), "material: .* then, none now")
 
     def test_loads_output_and_the_name_of_the_file_may_differ(self):

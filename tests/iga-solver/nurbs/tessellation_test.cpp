@@ -95,5 +95,46 @@ TEST(Tessellation, NeedsACell) {
 
 TEST(Tessellation, OfNothingIsEmpty) { EXPECT_TRUE(tessellate({}, 1).triangles.empty()); }
 
+/// The farthest that the triangles are from a sphere of this radius, from points all over them.
+double sagitta(const TriangleMesh& mesh, double radius) {
+  constexpr int kPoints = 12;
+  double largest = 0.0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    for (int i = 0; i <= kPoints; ++i)
+      for (int j = 0; i + j <= kPoints; ++j) {
+        const Vector3 point =
+            (i * mesh.vertices.col(a) + j * mesh.vertices.col(b) + (kPoints - i - j) * mesh.vertices.col(c)) /
+            kPoints;
+        largest = std::max(largest, radius - (point - kUpright.origin).norm());
+      }
+  return largest;
+}
+
+TEST(Tessellation, KeepsWithinAChord) {
+  const Surface sphere =
+      nurbs::sphere(kUpright, 2.0, refined(arc(0, 360), 8, 2), refined(arc(-60, 90), 2, 2));
+  for (const double chord : {0.1, 0.03, 0.01, 0.003}) {
+    const int cells = cells_within({sphere}, chord);
+    EXPECT_LE(sagitta(tessellate({sphere}, cells), 2.0), 1.01 * chord) << chord;
+    EXPECT_GT(cells, 1);
+    EXPECT_GT(sagitta(tessellate({sphere}, cells - 1), 2.0), 0.9 * chord) << chord << ": more than it takes";
+  }
+}
+
+TEST(Tessellation, OfAPlaneKeepsWithinAnyChord) {
+  const std::array<KnotVector, 2> knots = {KnotVector::uniform(2, 3), KnotVector::uniform(1, 2)};
+  const Surface plane =
+      nurbs::plane(Vector3(1.0, 2.0, 3.0), Vector3(1.0, 0.5, 0.0), Vector3(0.0, 0.3, 2.0), knots);
+  EXPECT_EQ(cells_within({plane}, 1e-12), 1);
+}
+
+TEST(Tessellation, RefusesChordsThatTakeTooMuch) {
+  const Surface sphere =
+      nurbs::sphere(kUpright, 2.0, refined(arc(0, 360), 4, 2), refined(arc(-90, 90), 2, 2));
+  EXPECT_THAT([&] { cells_within({sphere}, 1e-9); }, testing::ThrowsMessage<std::invalid_argument>(
+                                                         testing::HasSubstr("cells per element, expected")));
+  EXPECT_THROW(cells_within({sphere}, 0.0), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace nurbs

@@ -6,10 +6,10 @@
 
 #include "geometry_io/geometry_file.h"
 
-namespace app {
+namespace geometry_io {
 
 /// Patches with degrees, sizes, extents, area or volume and continuity at interior knots; how their edges
 /// meet; and the named surfaces.  Several lines.
-std::string summary(const geometry_io::GeometryFile& geometry);
+std::string summary(const GeometryFile& geometry);
 
-}  // namespace app
+}  // namespace geometry_io

@@ -6,9 +6,9 @@
 
 #include "geometry_io/geometry_file.h"
 
-namespace app {
+namespace geometry_io {
 
 /// All of them as one wall, lines that end with a newline; empty if there are none.
-std::string triangles_text(const geometry_io::GeometryFile& geometry);
+std::string triangles_text(const GeometryFile& geometry);
 
-}  // namespace app
+}  // namespace geometry_io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry_summary.h"
+#include "geometry_io/geometry_summary.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,14 +9,13 @@
 #include <cmath>
 #include <map>
 
+#include "geometry_io/triangle_summary.h"
 #include "nurbs/borders.h"
 #include "nurbs/gauss_legendre.h"
-#include "triangle_summary.h"
 
-namespace app {
+namespace geometry_io {
 namespace {
 
-using geometry_io::Shape;
 using nurbs::Border;
 using nurbs::KnotVector;
 using nurbs::Patch;
@@ -182,7 +181,7 @@ std::string borders_text(const std::vector<Surface>& patches, const std::vector<
 
 }  // namespace
 
-std::string summary(const geometry_io::GeometryFile& geometry) {
+std::string summary(const GeometryFile& geometry) {
   std::string text;
   std::vector<Surface> surfaces;
   std::vector<std::string> names;
@@ -198,20 +197,19 @@ std::string summary(const geometry_io::GeometryFile& geometry) {
   if (!surfaces.empty()) text += "borders\n" + borders_text(surfaces, names);
   text += triangles_text(geometry);
   for (const auto& [name, pieces] : geometry.surfaces) {
-    text += fmt::format("surface '{}': {}\n", name,
-                        fmt::join(geometry_io::surface_words(pieces, geometry.patches), ", "));
+    text += fmt::format("surface '{}': {}\n", name, fmt::join(surface_words(pieces, geometry.patches), ", "));
     if (!std::any_of(pieces.begin(), pieces.end(), [](const auto& piece) { return piece.face.has_value(); }))
       continue;
     surfaces.clear();
     names.clear();
-    for (const geometry_io::SurfacePiece& piece : pieces) {
+    for (const SurfacePiece& piece : pieces) {
       if (is_triangles(geometry.patches[piece.patch])) continue;
       surfaces.push_back(extract(piece, geometry.patches).surface);
-      names.push_back(geometry_io::surface_words({piece}, geometry.patches).front());
+      names.push_back(surface_words({piece}, geometry.patches).front());
     }
     text += borders_text(surfaces, names);
   }
   return text;
 }
 
-}  // namespace app
+}  // namespace geometry_io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "triangle_summary.h"
+#include "geometry_io/triangle_summary.h"
 
 #include <fmt/format.h>
 
@@ -9,15 +9,10 @@
 #include "brep/builder.h"
 #include "brep/summary.h"
 
-namespace app {
+namespace geometry_io {
 namespace {
 
-using geometry_io::GeometryFile;
-using geometry_io::JoinedMesh;
-using geometry_io::TriangleMesh;
-
 constexpr size_t kGapsShown = 5;
-constexpr double kEdgeAngle = 0.02;  // [rad], as of walls
 
 // "line 12 of patch 0": where a triangle stands in its file.
 std::string place_text(const GeometryFile& geometry, const JoinedMesh& all, int triangle) {
@@ -32,7 +27,7 @@ std::string wall_text(const GeometryFile& geometry, const JoinedMesh& all) {
   brep::BuildReport report;
   brep::Summary wall;
   try {
-    wall = summary_of(brep::from_triangles(all.mesh.points, all.mesh.triangles, kEdgeAngle, &report));
+    wall = summary_of(brep::from_triangles(all.mesh.points, all.mesh.triangles, brep::kEdgeAngle, &report));
   } catch (const std::invalid_argument& error) {
     return fmt::format("  no wall: {}\n", error.what());
   }
@@ -47,7 +42,7 @@ std::string wall_text(const GeometryFile& geometry, const JoinedMesh& all) {
 }
 
 std::string gaps_text(const GeometryFile& geometry, const JoinedMesh& all) {
-  const std::vector<geometry_io::Gap> gaps = gaps_of(all.mesh);
+  const std::vector<Gap> gaps = gaps_of(all.mesh);
   if (gaps.empty()) return "  gaps: none\n";
   std::string text = fmt::format("  gaps: {}\n", gaps.size());
   for (size_t g = 0; g < gaps.size() && g < kGapsShown; ++g)
@@ -71,4 +66,4 @@ std::string triangles_text(const GeometryFile& geometry) {
          wall_text(geometry, all) + gaps_text(geometry, all);
 }
 
-}  // namespace app
+}  // namespace geometry_io

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The wall in triangles, as it stands every so many steps: FILE_<step>.stl.
+#ifndef LMP_STL_OUTPUT_H
+#define LMP_STL_OUTPUT_H
+
+#include <mpi.h>
+
+#include <string>
+
+#include "coupling/rigid_frame.h"
+#include "nurbs/multi_patch.h"
+#include "output_words.h"
+
+namespace liggghts_pkg {
+
+class StlOutput {
+ public:
+  /// Every rank, from the surface at the beginning (3 x n): as many triangles as keep within the chord that
+  /// `options` ask for then, else `cells` per element and direction.  Throws std::invalid_argument if these
+  /// are too many.
+  StlOutput(MPI_Comm comm, StlOptions options, const nurbs::MultiPatch& surface,
+            const nurbs::NodalVectors& control_points, int cells);
+
+  bool is_due(long step) const { return step % options_.every == 0; }
+  /// Nothing has been written yet.
+  bool at_beginning() const { return at_beginning_; }
+  /// Collective.  Control points in the wall's frame.  Throws std::runtime_error on every rank if rank 0
+  /// cannot write.
+  void write(long step, const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points,
+             const coupling::RigidFrame& frame);
+
+ private:
+  MPI_Comm comm_;
+  StlOptions options_;
+  int cells_;
+  bool at_beginning_ = true;
+};
+
+}  // namespace liggghts_pkg
+
+#endif
