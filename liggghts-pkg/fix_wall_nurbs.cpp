@@ -101,6 +101,8 @@ void FixWallNurbs::in_step(Action action) const {
 
 void FixWallNurbs::describe() {
   geometry_io::GeometryFile surface{opened_.units, {}, {}};
+  if (const auto& faces = structure_.surface().faces)
+    surface.patches.emplace_back(geometry_io::mesh_of(liggghts_pkg::triangles_of(*faces)));
   for (nurbs::Surface& patch : nurbs::split(loop_.wall().surface(), exchange_.positions()))
     surface.patches.emplace_back(std::move(patch));
   messages_.print(fmt::format("surface '{}' of '{}'\n{}", options_.surface, options_.file,
@@ -118,8 +120,8 @@ void FixWallNurbs::open_files() {
     every = options_.output.every;
   }
   if (!options_.stl.file.empty()) {
-    stl_ = std::make_unique<liggghts_pkg::StlOutput>(world, options_.stl, surface, exchange_.positions(),
-                                                     options_.twin);
+    stl_ = std::make_unique<liggghts_pkg::StlOutput>(
+        world, options_.stl, liggghts_pkg::WallTriangles(structure_, exchange_), options_.twin);
     every = std::gcd(every, options_.stl.every);
   }
   if (every > 0) nevery = every;
@@ -293,9 +295,8 @@ void FixWallNurbs::write_files(bool fields, bool triangles) {
   const long step = update->ntimestep;
   or_fail([&] {
     loop_.wall().import_all();
-    const coupling::NodalVectors& points = exchange_.positions();
-    if (fields) output_->write(step, update->get_cur_time(), points, loop_.wall().frame());
-    if (triangles) stl_->write(step, loop_.wall().surface(), points, loop_.wall().frame());
+    if (fields) output_->write(step, update->get_cur_time(), exchange_.positions(), loop_.wall().frame());
+    if (triangles) stl_->write(step);
   });
 }
 
@@ -334,8 +335,7 @@ void FixWallNurbs::restart(char* buffer) {
 int FixWallNurbs::getCreateMeshTriCount() {
   or_fail([&] {
     loop_.wall().import_all();
-    twin_.build(world, options_.file, loop_.wall().surface(), exchange_.positions(), structure_.frame(),
-                options_.twin);
+    twin_.build(world, options_.file, liggghts_pkg::WallTriangles(structure_, exchange_), options_.twin);
   });
   return twin_.triangle_count();
 }

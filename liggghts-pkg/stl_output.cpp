@@ -8,26 +8,22 @@
 
 #include "nurbs/memory.h"
 #include "parallel/all_or_none.h"
-#include "triangle_twin.h"
 #include "vtk/stl_file.h"
 
 namespace liggghts_pkg {
 
-StlOutput::StlOutput(MPI_Comm comm, StlOptions options, const nurbs::MultiPatch& surface,
-                     const nurbs::NodalVectors& control_points, int cells)
-    : comm_(comm), options_(std::move(options)), cells_(cells) {
-  if (options_.chord) cells_ = nurbs::cells_within(nurbs::split(surface, control_points), *options_.chord);
+StlOutput::StlOutput(MPI_Comm comm, StlOptions options, const WallTriangles& triangles, int cells)
+    : comm_(comm), options_(std::move(options)), triangles_(triangles), cells_(cells) {
+  if (options_.chord) cells_ = triangles_.cells_within(*options_.chord);
   constexpr double kBytesPerTriangle = 100.0;
-  const double triangles = 2.0 * cells_ * cells_ * surface.element_count();
-  nurbs::expect_memory(kBytesPerTriangle * triangles, fmt::format("stl of {:.3g} triangles", triangles));
+  const double count = triangles_.count(cells_);
+  nurbs::expect_memory(kBytesPerTriangle * count, fmt::format("stl of {:.3g} triangles", count));
 }
 
-void StlOutput::write(long step, const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points,
-                      const coupling::RigidFrame& frame) {
+void StlOutput::write(long step) {
   parallel::on_first_rank(comm_, [&] {
     vtk::write_stl(fmt::format("{}_{}.stl", options_.file, step),
-                   std::filesystem::path(options_.file).filename().string(),
-                   triangles_in_space(surface, control_points, frame, cells_));
+                   std::filesystem::path(options_.file).filename().string(), triangles_.in_space(cells_));
   });
   at_beginning_ = false;
 }

@@ -7,31 +7,27 @@
 
 #include <string>
 
-#include "coupling/rigid_frame.h"
-#include "nurbs/multi_patch.h"
 #include "output_words.h"
+#include "wall_triangles.h"
 
 namespace liggghts_pkg {
 
 class StlOutput {
  public:
-  /// Every rank, from the surface at the beginning (3 x n): as many triangles as keep within the chord that
-  /// `options` ask for then, else `cells` per element and direction.  Throws std::invalid_argument if these
-  /// are too many.
-  StlOutput(MPI_Comm comm, StlOptions options, const nurbs::MultiPatch& surface,
-            const nurbs::NodalVectors& control_points, int cells);
+  /// Every rank: as many triangles as keep within the chord that `options` ask for now, else `cells` per
+  /// element and direction.  Throws std::invalid_argument if these are too many.
+  StlOutput(MPI_Comm comm, StlOptions options, const WallTriangles& triangles, int cells);
 
   bool is_due(long step) const { return step % options_.every == 0; }
   /// Nothing has been written yet.
   bool at_beginning() const { return at_beginning_; }
-  /// Collective.  Control points in the wall's frame.  Throws std::runtime_error on every rank if rank 0
-  /// cannot write.
-  void write(long step, const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points,
-             const coupling::RigidFrame& frame);
+  /// Collective.  Throws std::runtime_error on every rank if rank 0 cannot write.
+  void write(long step);
 
  private:
   MPI_Comm comm_;
   StlOptions options_;
+  WallTriangles triangles_;
   int cells_;
   bool at_beginning_ = true;
 };

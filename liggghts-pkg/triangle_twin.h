@@ -7,23 +7,15 @@
 
 #include <string>
 
-#include "coupling/rigid_frame.h"
-#include "nurbs/multi_patch.h"
-#include "nurbs/tessellation.h"
+#include "wall_triangles.h"
 
 namespace liggghts_pkg {
 
-/// `cells` per element and direction; control points in the wall's frame.
-nurbs::TriangleMesh triangles_in_space(const nurbs::MultiPatch& surface,
-                                       const nurbs::NodalVectors& control_points,
-                                       const coupling::RigidFrame& frame, int cells);
-
 class TriangleTwin {
  public:
-  /// Collective; `cells` per element and direction, control points in the wall's frame.  Throws
-  /// std::runtime_error if LIGGGHTS has no memory for so many; `file`: of the wall, for the message.
-  void build(MPI_Comm comm, const std::string& file, const nurbs::MultiPatch& surface,
-             const nurbs::NodalVectors& control_points, const coupling::RigidFrame& frame, int cells);
+  /// Collective; `cells` per element and direction of a wall of patches.  Throws std::runtime_error if
+  /// LIGGGHTS has no memory for so many; `file`: of the wall, for the message.
+  void build(MPI_Comm comm, const std::string& file, const WallTriangles& triangles, int cells);
 
   int triangle_count() const { return static_cast<int>(mesh_.triangles.size()); }
   /// Three numbers of corner i, three corners to a triangle.

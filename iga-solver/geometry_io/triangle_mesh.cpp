@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 #include <utility>
 
 #include "nurbs/coincident.h"
@@ -84,6 +85,17 @@ class PointNumbers {
 };
 
 }  // namespace
+
+TriangleMesh mesh_of(const nurbs::TriangleMesh& triangles) {
+  TriangleMesh mesh;
+  mesh.points = triangles.vertices;
+  for (const std::array<int, 3>& corners : triangles.triangles)
+    mesh.triangles.insert(mesh.triangles.end(), corners.begin(), corners.end());
+  mesh.place.resize(triangles.triangles.size());
+  std::iota(mesh.place.begin(), mesh.place.end(), 1);
+  mesh.binary = true;
+  return mesh;
+}
 
 std::vector<TriangleMesh> meshes_of(const TriangleSoup& soup) {
   const int count = static_cast<int>(soup.place.size()), blocks = static_cast<int>(soup.blocks.size());

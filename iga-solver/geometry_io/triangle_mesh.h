@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "nurbs/types.h"
+#include "nurbs/tessellation.h"
 
 namespace geometry_io {
 
@@ -26,6 +26,9 @@ struct TriangleMesh {
 
   int count() const { return static_cast<int>(place.size()); }
 };
+
+/// Of triangles that did not come from a file: their places are their numbers.
+TriangleMesh mesh_of(const nurbs::TriangleMesh& triangles);
 
 /// Triangles as a file has them, one after the other.
 struct TriangleSoup {
