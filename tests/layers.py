@@ -19,11 +19,12 @@ from source_tree import (
 
 LIGGGHTS_HEADERS = {path.name for path in Path("/usr/include/liggghts").glob("*.h")}
 KERNEL = "iga-solver/nurbs"
-SOLVER = [f"iga-solver/{room}" for room in ("nurbs", "search", "geometry_io", "vtk", "structure", "parallel", "io")]
+SOLVER = [f"iga-solver/{room}" for room in ("nurbs", "search", "brep", "geometry_io", "vtk", "structure", "parallel", "io")]
 # folder of targets -> those that it may link, directly or not
 MAY_LINK = {
     "iga-solver/nurbs": [],
     "iga-solver/search": [KERNEL],
+    "iga-solver/brep": [KERNEL, "iga-solver/search"],
     "iga-solver/geometry_io": [KERNEL],
     "iga-solver/vtk": [KERNEL, "iga-solver/geometry_io"],
     "iga-solver/structure": [KERNEL],

@@ -102,7 +102,7 @@ Projection Face::project(const Vector3& d) const {
   if (kind == Kind::plane) {
     const Vector3 from = d - frame.origin;
     const double height = from.dot(frame.z);
-    return {{from.dot(frame.x), from.dot(frame.y)}, d - height * frame.z, frame.z, height, 0.0};
+    return {{from.dot(frame.x), from.dot(frame.y)}, d - height * frame.z, frame.z, height, 0.0, false};
   }
   const Cylindrical at(frame, d);
   const double nothing = kOnAxis * (kind == Kind::cone ? std::abs(at.z) : R);
@@ -114,7 +114,8 @@ Projection Face::project(const Vector3& d) const {
             frame.origin + R * e + at.z * frame.z,
             e,
             at.rho - R,
-            std::max(R * turned, out_of(at.z, low[1], high[1]))};
+            std::max(R * turned, out_of(at.z, low[1], high[1])),
+            at.rho <= nothing};
   const double cos = std::cos(r), sin = std::sin(r);
   if (kind == Kind::cone) {
     const double length = at.z * cos + at.rho * sin;
@@ -122,7 +123,8 @@ Projection Face::project(const Vector3& d) const {
             frame.origin + length * (cos * frame.z + sin * e),
             cos * e - sin * frame.z,
             at.rho * cos - at.z * sin,
-            std::max(length * sin * turned, out_of(length, low[1], high[1]))};
+            std::max(length * sin * turned, out_of(length, low[1], high[1])),
+            at.rho <= nothing};
   }
   const double tube = kind == Kind::torus ? r : R, ring = kind == Kind::torus ? R : 0.0;
   const double off = at.rho - ring, from = std::sqrt(off * off + at.z * at.z);
@@ -132,7 +134,12 @@ Projection Face::project(const Vector3& d) const {
                                                 : Vector3((off / from) * e + (at.z / from) * frame.z);
   const Vector3 point = frame.origin + ring * e + tube * normal;
   const double radius = ring + tube * std::cos(second);
-  return {{angle, second}, point, normal, from - tube, std::max(radius * turned, tube * second_turned)};
+  return {{angle, second},
+          point,
+          normal,
+          from - tube,
+          std::max(radius * turned, tube * second_turned),
+          at.rho <= nothing || from <= kOnAxis * tube};
 }
 
 double Face::distance_of_whole(const Vector3& d) const {

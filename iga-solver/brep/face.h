@@ -35,6 +35,7 @@ struct Projection {
   Vector3 point, normal;
   double height;   ///< signed distance along the normal [length]
   double outside;  ///< how far xi is from the range, 0 inside it and for planes, which have pieces [length]
+  bool many;       ///< points round an axis or a centre are as near
 };
 
 struct Face {

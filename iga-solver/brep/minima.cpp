@@ -55,6 +55,7 @@ void Minima::add_of_face(const Piece& piece) {
           surface_.sheet(piece.face, foot.height < 0.0 ? -1 : 1),
           foot.height < 0.0 ? -1 : 1,
           piece.face});
+  if (foot.many && foot.outside <= slack_) return;  // its borders are no nearer
   const Borders& borders = surface_.borders[piece.edge[0]];
   for (int i = 0; i < 4; ++i) {
     if (borders.use[i] >= 0) add_of_edge(borders.use[i]);

@@ -29,7 +29,7 @@ class Trial {
   Surface surface_;
   FootSearch search_;
   Judge judge_;
-  double uneven_ = 0.0;              // how far points are off the planes of their faces, below 1e-6 of the size
+  double uneven_ = 0.0;  // how far points are off the planes of their faces, below 1e-6 of the size
   std::vector<int> sheet_of_judge_;  // the wall's
   std::vector<int> near_, active_;
   std::vector<Foot> feet_, from_active_;

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Faces in closed form against a search on a grid of their parameters; borders of several.
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+
+#include "brep/builder.h"
+#include "brep/foot_search.h"
+#include "brep/summary.h"
+#include "trial_walls.h"
+
+namespace brep {
+namespace {
+
+constexpr double kPi = 3.141592653589793;
+
+Face face_of(Kind kind, const Frame& frame, double R, double r, Parameter<2> low, Parameter<2> high) {
+  Face face;
+  face.kind = kind;
+  face.frame = frame;
+  face.R = R, face.r = r;
+  face.low = low, face.high = high;
+  return face;
+}
+
+std::vector<Foot> feet(const Surface& surface, const Vector3& d, double reach) {
+  const FootSearch search(surface);
+  std::vector<int> near;
+  std::vector<Foot> found;
+  search.near(d, reach, near);
+  search.feet(d, reach, near.data(), static_cast<int>(near.size()), found);
+  return found;
+}
+
+// Points of a face, its range closed, written from the table in brep/face.h.
+Vector3 point(const Face& face, double a, double b) {
+  const Frame& f = face.frame;
+  const Vector3 e = std::cos(a) * f.x + std::sin(a) * f.y;
+  switch (face.kind) {
+    case Kind::plane:
+      return f.origin + a * f.x + b * f.y;
+    case Kind::cylinder:
+      return f.origin + face.R * e + b * f.z;
+    case Kind::cone:
+      return f.origin + b * (std::cos(face.r) * f.z + std::sin(face.r) * e);
+    case Kind::sphere:
+      return f.origin + face.R * (std::cos(b) * e + std::sin(b) * f.z);
+    default:
+      return f.origin + (face.R + face.r * std::cos(b)) * e + face.r * std::sin(b) * f.z;
+  }
+}
+
+// Local minima of the distance on the closed face: from the lowest points of a grid downhill, by ever smaller
+// steps.
+class Grid {
+ public:
+  explicit Grid(const Face& face) : face_(face) {
+    for (int i = 0; i < 2; ++i)
+      turn_[i] = face.high[i] - face.low[i] > 2.0 * kPi - 1e-6 && (i == 0 || face.kind == Kind::torus) &&
+                 face.kind != Kind::plane;
+  }
+  std::vector<Vector3> minima(const Vector3& d, double reach) const {
+    constexpr int n = 40;
+    std::vector<double> value((n + 1) * (n + 1));
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) value[i + (n + 1) * j] = (at({step(0, i, n), step(1, j, n)}) - d).norm();
+    std::vector<Vector3> found;
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= n; ++j) {
+        bool lowest = true;
+        for (int k = 0; k < 9; ++k) {
+          const int p = next(0, i + k % 3 - 1, n), q = next(1, j + k / 3 - 1, n);
+          if (p >= 0 && q >= 0 && !(j == q && pole(j, n)))
+            lowest = lowest && value[i + (n + 1) * j] <= value[p + (n + 1) * q];
+        }
+        int angle = i;  // at a pole the one at which it goes down if it does
+        for (int p = 0; p <= n && pole(j, n); ++p) {
+          const int row = (n + 1) * (j == 0 ? 1 : n - 1);
+          lowest = lowest && value[i + (n + 1) * j] <= value[p + row];
+          if (value[p + row] < value[angle + row]) angle = p;
+        }
+        if (!lowest) continue;
+        const Vector3 x = descend(d, {step(0, angle, n), step(1, j, n)}, n);
+        if ((x - d).norm() < reach &&
+            std::none_of(found.begin(), found.end(), [&](const Vector3& y) { return (x - y).norm() < 1e-4; }))
+          found.push_back(x);
+      }
+    return found;
+  }
+
+ private:
+  double step(int i, int k, int n) const { return face_.low[i] + (face_.high[i] - face_.low[i]) * k / n; }
+  // Where all of a side is one point.
+  bool pole(int j, int n) const {
+    return (j == 0 || j == n) &&
+           (at({step(0, 0, n), step(1, j, n)}) - at({step(0, 1, n), step(1, j, n)})).norm() < 1e-12;
+  }
+  int next(int i, int k, int n) const {
+    if (turn_[i]) return (k + n) % n;
+    return k < 0 || k > n ? -1 : k;
+  }
+  Vector3 at(const Parameter<2>& xi) const { return point(face_, xi[0], xi[1]); }
+  Vector3 descend(const Vector3& d, Parameter<2> xi, int n) const {
+    double size = 1.0 / n, best = (at(xi) - d).norm();
+    while (size > 1e-10) {
+      bool lower = false;
+      for (int k = 0; k < 9; ++k) {
+        Parameter<2> to = xi;
+        for (int i = 0; i < 2; ++i) {
+          to[i] += ((i == 0 ? k % 3 : k / 3) - 1) * size * (face_.high[i] - face_.low[i]);
+          if (!turn_[i]) to[i] = std::clamp(to[i], face_.low[i], face_.high[i]);
+        }
+        if (const double value = (at(to) - d).norm(); value < best) {
+          best = value, xi = to, lower = true;
+          break;
+        }
+      }
+      if (!lower) size *= 0.5;
+    }
+    return at(xi);
+  }
+
+  Face face_;
+  bool turn_[2];
+};
+
+class OneFace : public testing::TestWithParam<int> {};
+
+TEST_P(OneFace, HasTheMinimaThatAGridHas) {
+  const Frame frame = frame_at({0.3, -0.2, 0.1}, {0.2, 0.5, 1.0}, {1.0, 0.3, 0.0});
+  const Face faces[] = {
+      face_of(Kind::plane, frame, 0.0, 0.0, {-0.5, 0.2}, {1.0, 1.5}),
+      face_of(Kind::cylinder, frame, 1.0, 0.0, {0.0, -0.5}, {2.0 * kPi, 0.8}),
+      face_of(Kind::cylinder, frame, 1.0, 0.0, {0.4, -0.5}, {2.0, 0.8}),
+      face_of(Kind::cylinder, frame, 1.0, 0.0, {0.4, -0.5}, {5.0, 0.8}),
+      face_of(Kind::cone, frame, 0.0, 0.6, {-1.0, 0.0}, {2.0 * kPi - 1.0, 1.2}),
+      face_of(Kind::cone, frame, 0.0, 0.6, {0.2, 0.3}, {1.7, 1.2}),
+      face_of(Kind::cone, frame, 0.0, 1.1, {0.2, 0.0}, {4.0, 1.2}),
+      face_of(Kind::sphere, frame, 1.0, 0.0, {0.0, -0.5 * kPi}, {2.0 * kPi, 0.5 * kPi}),
+      face_of(Kind::sphere, frame, 1.0, 0.0, {0.3, -0.4}, {2.0, 1.1}),
+      face_of(Kind::sphere, frame, 1.0, 0.0, {0.3, 0.1}, {2.5, 0.5 * kPi}),
+      face_of(Kind::torus, frame, 1.0, 0.4, {0.0, 0.0}, {2.0 * kPi, 2.0 * kPi}),
+      face_of(Kind::torus, frame, 1.0, 0.4, {0.3, -1.0}, {2.3, 2.0}),
+      face_of(Kind::torus, frame, 1.0, 0.4, {0.0, 1.0}, {2.0 * kPi, 2.9}),
+  };
+  const Face& face = faces[GetParam()];
+  const Surface surface = from_faces({face});
+  const Grid grid(face);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.6, 1.6), share(0.0, 1.0);
+  int count = 0;
+  for (int k = 0; k < 60; ++k) {
+    Vector3 d = frame.origin + Vector3(uniform(random), uniform(random), uniform(random));
+    if (k % 2 == 0)
+      d = point(face, face.low[0] + share(random) * (face.high[0] - face.low[0]),
+                face.low[1] + share(random) * (face.high[1] - face.low[1])) +
+          0.3 * uniform(random) * trials::random_direction(random);
+    const double reach = 0.3 + share(random);
+    const auto expected = grid.minima(d, reach);
+    const auto found = feet(surface, d, reach);
+    EXPECT_EQ(found.size(), expected.size()) << "d = " << d.transpose();
+    for (const Foot& foot : found) {
+      double nearest = 1.0;
+      for (const Vector3& x : expected) nearest = std::min(nearest, (x - foot.point).norm());
+      EXPECT_LT(nearest, 1e-6) << "d = " << d.transpose() << ", foot " << foot.point.transpose();
+      EXPECT_LT((point(face, foot.xi[0], foot.xi[1]) - foot.point).norm(), 1e-12);
+      EXPECT_NEAR((d - foot.point).norm(), foot.distance, 1e-14);
+      if (foot.status == FootStatus::interior) {
+        EXPECT_GT(foot.side * face.normal(foot.xi).dot(d - foot.point),
+                  (1.0 - 1e-12) * foot.distance - 1e-15);
+      }
+    }
+    count += static_cast<int>(found.size());
+  }
+  EXPECT_GT(count, 30);
+}
+INSTANTIATE_TEST_SUITE_P(Faces, OneFace, testing::Range(0, 13));
+
+TEST(Faces, NormalsAndCurvaturesAreThoseOfDifferences) {
+  const Frame frame = frame_at({0.3, -0.2, 0.1}, {0.2, 0.5, 1.0}, {1.0, 0.3, 0.0});
+  for (const Kind kind : {Kind::plane, Kind::cylinder, Kind::cone, Kind::sphere, Kind::torus}) {
+    const Face face = face_of(kind, frame, 1.3, 0.4, {0.0, 0.0}, {1.0, 1.0});
+    const Parameter<2> xi{0.7, 0.5};
+    const double h = 1e-4;
+    const auto at = [&](double a, double b) { return point(face, xi[0] + a, xi[1] + b); };
+    const Vector3 n = (at(h, 0) - at(-h, 0)).cross(at(0, h) - at(0, -h)).normalized();
+    EXPECT_LT((face.normal(xi) - n).norm(), 1e-7);
+    EXPECT_LT((face.point(xi) - at(0, 0)).norm(), 1e-14);
+    const Parameter<2> curvatures = face.curvatures(xi);
+    for (int i = 0; i < 2; ++i) {
+      const Vector3 before = i == 0 ? at(-h, 0) : at(0, -h), behind = i == 0 ? at(h, 0) : at(0, h);
+      const double curvature =
+          (behind + before - 2.0 * at(0, 0)).dot(n) / (0.25 * (behind - before).squaredNorm());
+      EXPECT_NEAR(curvatures[i], curvature, 1e-5);
+    }
+  }
+}
+
+TEST(Faces, WhereAllPointsAreEquallyFarThereIsOneFoot) {
+  const Frame frame;
+  const Surface pipe = from_faces({face_of(Kind::cylinder, frame, 1.0, 0.0, {0.0, -1.0}, {2.0 * kPi, 1.0})});
+  EXPECT_EQ(feet(pipe, {0.0, 0.0, 0.2}, 1.5).size(), 1u);
+  const Surface part = from_faces({face_of(Kind::cylinder, frame, 1.0, 0.0, {1.0, -1.0}, {2.0, 1.0})});
+  EXPECT_EQ(feet(part, {0.0, 0.0, 0.2}, 1.5).size(), 1u);
+  const Surface ball =
+      from_faces({face_of(Kind::sphere, frame, 1.0, 0.0, {0.0, -0.5 * kPi}, {2.0 * kPi, 0.5 * kPi})});
+  EXPECT_EQ(feet(ball, {0.0, 0.0, 0.0}, 1.5).size(), 1u);
+  EXPECT_EQ(feet(ball, {0.0, 0.0, 0.5}, 1.5).size(), 1u);
+  const Surface ring =
+      from_faces({face_of(Kind::torus, frame, 1.0, 0.3, {0.0, 0.0}, {2.0 * kPi, 2.0 * kPi})});
+  EXPECT_EQ(feet(ring, {1.0, 0.0, 0.0}, 1.5).size(), 1u);
+}
+
+// A rounded edge: a plane, a quarter of a cylinder, a plane.
+std::vector<Face> rounded_edge(double radius) {
+  const Frame low = frame_at({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0}, {1.0, 0.0, 0.0});
+  const Frame side = frame_at({radius, 0.0, radius}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0});
+  const Frame axis = frame_at({0.0, 0.0, radius}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0});
+  return {face_of(Kind::plane, low, 0.0, 0.0, {-1.0, -1.0}, {0.0, 0.0}),
+          face_of(Kind::cylinder, axis, radius, 0.0, {0.0, 0.0}, {0.5 * kPi, 1.0}),
+          face_of(Kind::plane, side, 0.0, 0.0, {0.0, 0.0}, {1.0, 1.0})};
+}
+
+TEST(Faces, AcrossSmoothEdgesThereIsOneFootThroughout) {
+  const double radius = 0.2, ball = 0.1, overlap = 0.003;
+  const Surface surface = from_faces(rounded_edge(radius));
+  const Summary summary = summary_of(surface);
+  EXPECT_EQ(summary.smooth, 2);
+  EXPECT_EQ(surface.sheet_count, 1);  // both sides, over the free edges
+  for (const double far : {ball - overlap, -(ball - overlap)}) {
+    double last = 0.0;
+    for (int k = 0; k <= 4000; ++k) {
+      // Along the offset: the plane below, the arc, the plane at the side.
+      const double s = -0.3 + 0.0002 * k, bent = 0.5 * kPi * radius;
+      Vector3 d(s, 0.4, -far), n(0.0, 0.0, -1.0);
+      if (s > 0.0) {
+        const double angle = std::min(s, bent) / radius;
+        n = Vector3(std::sin(angle), 0.0, -std::cos(angle));
+        d = Vector3(0.0, 0.4, radius) + (radius + far) * n + std::max(0.0, s - bent) * Vector3(0.0, 0.0, 1.0);
+      }
+      const auto found = feet(surface, d, ball);
+      ASSERT_EQ(found.size(), 1u) << "s = " << s << ", " << far;
+      EXPECT_NEAR(found[0].distance, ball - overlap, 1e-12);
+      EXPECT_LT(std::abs(n.dot((d - found[0].point).normalized()) - (far > 0.0 ? 1.0 : -1.0)), 1e-12);
+      last = s;
+    }
+    EXPECT_GT(last, 0.49);
+  }
+}
+
+TEST(Faces, CirclesOfFacesRoundOneAxisAreOneEdge) {
+  const Frame frame = frame_at({0.1, 0.2, 0.3}, {0.0, 0.6, 0.8}, {1.0, 0.0, 0.0});
+  const Frame turned = frame_at({0.1, 0.2, 0.3}, {0.0, 0.6, 0.8}, {0.3, 0.8, -0.6});
+  Frame tip = turned;
+  tip.origin -= 1.0 / std::tan(0.5) * tip.z;
+  const Surface silo =
+      from_faces({face_of(Kind::cylinder, frame, 1.0, 0.0, {0.0, 0.0}, {2.0 * kPi, 2.0}),
+                  face_of(Kind::cone, tip, 0.0, 0.5, {0.0, 0.4}, {2.0 * kPi, 1.0 / std::sin(0.5)})});
+  const Summary summary = summary_of(silo);
+  EXPECT_EQ(summary.free, 2);
+  EXPECT_EQ(summary.convex, 1);
+  EXPECT_EQ(silo.edges.size(), 3u);
+  EXPECT_NEAR(summary.area, 2.0 * kPi * 2.0 + kPi * std::sin(0.5) * (std::pow(1.0 / std::sin(0.5), 2) - 0.16),
+              1e-9);
+  // Inside, over the concave edge: the cylinder's foot and the cone's.
+  const auto found = feet(silo, frame.origin + 0.9 * frame.x + 0.1 * frame.z, 0.3);
+  EXPECT_EQ(found.size(), 2u);
+}
+
+TEST(Faces, AreRefusedWithTheirNumber) {
+  const auto refused = [](const Face& face) -> std::string {
+    try {
+      from_faces({face_of(Kind::plane, Frame(), 0.0, 0.0, {0.0, 0.0}, {1.0, 1.0}), face});
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(refused(face_of(Kind::cylinder, Frame(), 0.0, 0.0, {0.0, 0.0}, {1.0, 1.0})),
+              testing::HasSubstr("face 1 (cylinder): radius 0"));
+  EXPECT_THAT(refused(face_of(Kind::torus, Frame(), 1.0, 1.5, {0.0, 0.0}, {1.0, 1.0})),
+              testing::HasSubstr("tube"));
+  EXPECT_THAT(refused(face_of(Kind::cylinder, Frame(), 1.0, 0.0, {0.0, 0.0}, {7.0, 1.0})),
+              testing::HasSubstr("more than a whole turn"));
+}
+
+}  // namespace
+}  // namespace brep

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Sheets, edges and vertices of simple walls of triangles.
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <set>
+
+#include "brep/builder.h"
+#include "brep/foot_search.h"
+#include "brep/summary.h"
+#include "trial_walls.h"
+#include "trials.h"
+
+namespace brep {
+namespace {
+
+using testing::HasSubstr;
+using trials::Wall;
+
+Surface built(const Wall& wall) { return from_triangles(wall.coordinates(), wall.corners()); }
+
+std::vector<Foot> feet(const Surface& surface, const Vector3& d, double reach) {
+  const FootSearch search(surface);
+  std::vector<int> near;
+  std::vector<Foot> found;
+  search.near(d, reach, near);
+  search.feet(d, reach, near.data(), static_cast<int>(near.size()), found);
+  return found;
+}
+
+TEST(Sheets, ACubeHasOneOutsideAndSixInside) {
+  const Surface cube = built(trials::cube());
+  EXPECT_EQ(cube.faces.size(), 6u);
+  EXPECT_EQ(cube.edges.size(), 12u);
+  EXPECT_EQ(cube.sheet_count, 7);
+  std::set<int> outside;
+  for (int f = 0; f < 6; ++f) outside.insert(cube.sheet(f, 1));
+  EXPECT_EQ(outside.size(), 1u);
+}
+
+TEST(Sheets, AnLProfileIsOneSheetAroundItsEnds) {
+  const Surface profile = built(trials::l_profile());
+  EXPECT_EQ(profile.faces.size(), 8u);   // ends are L-shaped plane faces
+  EXPECT_EQ(profile.edges.size(), 22u);  // with collinear pieces
+  std::set<int> outside;
+  for (size_t f = 0; f < profile.faces.size(); ++f) outside.insert(profile.sheet(static_cast<int>(f), 1));
+  EXPECT_EQ(outside.size(), 1u);
+  EXPECT_EQ(profile.sheet_count, 1 + 7);  // inside, the two faces of the corner are one
+}
+
+TEST(Sheets, AnOpenBoxHasItsInsidesJoinedOverTheRim) {
+  const Surface box = built(trials::open_box());
+  EXPECT_EQ(box.sheet_count, 2);  // the bottom's inside apart
+}
+
+TEST(Sheets, TwoPlatesThatCrossHaveASheetForEachSideOfEachWing) {
+  const double right = 0.5 * 3.141592653589793;
+  const Surface plates = built(trials::plates({0.0, right, 2.0 * right, 3.0 * right}));
+  EXPECT_EQ(plates.edges.size(), 4u * 3 + 1);
+  EXPECT_EQ(plates.sheet_count, 4);  // the wings' sides joined over their rims
+  EXPECT_EQ(feet(plates, {0.1, 0.2, 0.5}, 0.3).size(), 2u);
+  EXPECT_EQ(feet(plates, {-0.1, 0.2, 0.5}, 0.3).size(), 2u);
+}
+
+TEST(Sheets, AFootThatLeavesAFaceOfAConcaveEdgeStaysOnTheEdge) {
+  // A blunt corner, 150 degrees: to the left of the edge's plane over one face, the other's foot is on the
+  // edge.
+  const double angle = 150.0 / 180.0 * 3.141592653589793;
+  const Surface corner = built(trials::plates({0.0, angle}));
+  const auto found = feet(corner, {-0.01, 0.05, 0.5}, 0.2);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].status, FootStatus::interior);
+  EXPECT_EQ(found[1].status, FootStatus::edge);
+  EXPECT_NEAR((found[1].point - Vector3(0.0, 0.0, 0.5)).norm(), 0.0, 1e-14);
+  EXPECT_EQ(found[1].patch, 0);
+}
+
+TEST(Builder, LeavesOutWhatHasCollapsedAndReportsIt) {
+  Wall wall = trials::cube();
+  wall.triangles.push_back({0, 0, 1});
+  wall.triangles.push_back(wall.triangles[3]);
+  BuildReport report;
+  const Surface cube = from_triangles(wall.coordinates(), wall.corners(), 0.02, &report);
+  EXPECT_EQ(report.collapsed, 1);
+  EXPECT_EQ(report.duplicates, 1);
+  EXPECT_EQ(cube.edges.size(), 12u);
+}
+
+TEST(Builder, TakesAThinTriangleIntoThePlaneBesideIt) {
+  // The square's lower side has a point on it that only the thin triangle has.
+  Wall wall;
+  wall.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5, -1e-9, 1e-9}, {0, -1, 1}, {1, -1, 1}};
+  wall.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}, {0, 5, 4}, {4, 5, 6}, {4, 6, 1}};
+  BuildReport report;
+  const Surface surface = from_triangles(wall.coordinates(), wall.corners(), 0.02, &report);
+  EXPECT_EQ(report.thin, 1);
+  EXPECT_EQ(surface.faces.size(), 2u);
+  EXPECT_EQ(summary_of(surface).free, 6);
+  EXPECT_EQ(feet(surface, {0.3, -0.01, -0.05}, 0.1).size(), 1u);  // on the convex edge, not twice
+}
+
+TEST(Builder, RefusesWhatItCannotUse) {
+  const Wall cube = trials::cube();
+  const auto refused = [&](std::vector<int> corners, NodalVectors points) -> std::string {
+    try {
+      from_triangles(points, corners);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_THAT(refused({0, 1, 8}, cube.coordinates()), HasSubstr("point 8 is not among the 8"));
+  EXPECT_THAT(refused({0, 1}, cube.coordinates()), HasSubstr("not 3 each"));
+  NodalVectors points = cube.coordinates();
+  points(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(refused(cube.corners(), points), HasSubstr("finite"));
+}
+
+TEST(Summary, CountsEdgesAndMeasures) {
+  const Summary cube = summary_of(built(trials::cube()));
+  EXPECT_EQ(cube.faces[0], 6);
+  EXPECT_EQ(cube.pieces, 12);
+  EXPECT_EQ(cube.convex, 12);
+  EXPECT_TRUE(cube.closed);
+  EXPECT_NEAR(cube.area, 6.0, 1e-12);
+  EXPECT_NEAR(cube.volume, 1.0, 1e-12);
+  const Summary profile = summary_of(built(trials::l_profile()));
+  EXPECT_EQ(profile.concave, 1);
+  EXPECT_NEAR(profile.volume, 3.0, 1e-12);
+  const Summary box = summary_of(built(trials::open_box()));
+  EXPECT_EQ(box.free, 4);
+  EXPECT_FALSE(box.closed);
+  EXPECT_NEAR(box.free_length, 4.0, 1e-12);
+  EXPECT_EQ(summary_of(built(trials::plates({0.0, 1.0, 2.0}))).many, 1);
+}
+
+TEST(Trials, RandomWallsAgreeWithTheJudge) {
+  long count = 0;
+  for (int index = 0; index < 48; ++index) {
+    trials::Trial trial(7, index);
+    EXPECT_EQ(trial.try_sheets(), "") << index;
+    for (int k = 0; k < 210; ++k) EXPECT_EQ(trial.try_point(k, count), "") << index << ", point " << k;
+  }
+  EXPECT_GT(count, 20000);
+}
+
+}  // namespace
+}  // namespace brep
