@@ -2,42 +2,53 @@
 #include "brep/summary.h"
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
-#include <stdexcept>
-#include <vector>
-
-#include "brep/disjoint_sets.h"
 
 namespace brep {
 namespace {
 
-constexpr double kSmooth = 1e-3;  // [rad]
+constexpr double kPi = 3.141592653589793;
+constexpr double kNearSmooth = 1e-3;  // [rad]
 
-// Of a wall of triangles: six times the volume between each face and the centre of the box around the wall,
-// positive if the face looks away from it, and twice its area.
-struct Measures {
-  std::vector<double> volume, area;
-
-  explicit Measures(const Surface& surface) : volume(surface.faces.size()), area(surface.faces.size()) {
-    const Vector3 centre = 0.5 * (surface.low + surface.high);
-    for (const Piece& piece : surface.pieces) {
-      if (!piece.triangle())
-        throw std::invalid_argument("the summary of a wall: a face is round, expected triangles");
-      Eigen::Matrix3d corners;
-      for (int k = 0; k < 3; ++k) corners.col(k) = surface.vertices[piece.vertex[k]].point - centre;
-      volume[piece.face] += corners.determinant();
-      area[piece.face] += (corners.col(1) - corners.col(0)).cross(corners.col(2) - corners.col(0)).norm();
-    }
-  }
+// Area, and the flux of x / 3 through it, which sums up to the volume.
+struct Content {
+  double area, flux;
 };
 
-// The angle between two faces that meet at an edge, less pi, without its sign [rad].
-double turn(const EdgeUse& a, const EdgeUse& b) {
-  const double cross = a.conormal[0] * b.conormal[1] - a.conormal[1] * b.conormal[0];
-  const double dot = a.conormal[0] * b.conormal[0] + a.conormal[1] * b.conormal[1];
-  return std::atan2(std::abs(cross), -dot);
+// |dS/dxi0 x dS/dxi1|.
+double stretch(const Face& face, double second) {
+  switch (face.kind) {
+    case Kind::cylinder:
+      return face.R;
+    case Kind::cone:
+      return second * std::sin(face.r);
+    case Kind::sphere:
+      return face.R * face.R * std::cos(second);
+    case Kind::torus:
+      return face.r * (face.R + face.r * std::cos(second));
+    default:
+      return 1.0;
+  }
+}
+
+Content content_of(const Surface& surface, const Piece& piece, const Vector3& from) {
+  const Face& face = surface.faces[piece.face];
+  if (piece.triangle()) {
+    const Vector3 &a = surface.vertices[piece.vertex[0]].point, &b = surface.vertices[piece.vertex[1]].point,
+                  &c = surface.vertices[piece.vertex[2]].point;
+    return {0.5 * (b - a).cross(c - a).norm(), (a - from).dot((b - from).cross(c - from)) / 6.0};
+  }
+  constexpr int kPoints = 64;  // the midpoint rule: exact round whole turns, to 1e-4 elsewhere
+  Content content{0.0, 0.0};
+  const double step[2] = {(face.high[0] - face.low[0]) / kPoints, (face.high[1] - face.low[1]) / kPoints};
+  for (int i = 0; i < kPoints; ++i)
+    for (int j = 0; j < kPoints; ++j) {
+      const Parameter<2> xi{face.low[0] + (i + 0.5) * step[0], face.low[1] + (j + 0.5) * step[1]};
+      const double area = stretch(face, xi[1]) * step[0] * step[1];
+      content.area += area;
+      content.flux += area * face.normal(xi).dot(face.point(xi) - from) / 3.0;
+    }
+  return content;
 }
 
 void count_edge(const Surface& surface, const Edge& edge, Summary& summary) {
@@ -51,52 +62,45 @@ void count_edge(const Surface& surface, const Edge& edge, Summary& summary) {
     ++summary.many;
     return;
   }
-  const Wedge before_normal = use[0].side > 0 ? use[0].wedge : use[1].wedge;
-  if (before_normal == Wedge::convex)
-    ++summary.convex;
-  else if (before_normal == Wedge::concave)
-    ++summary.concave;
-  else
-    ++(turn(use[0], use[1]) < kSmooth ? summary.smooth : summary.near_smooth);
+  if (joins(use[0].wedge) && joins(use[1].wedge)) {
+    const double turned = std::abs(
+        std::atan2(use[0].conormal[0] * use[1].conormal[1] - use[0].conormal[1] * use[1].conormal[0],
+                   use[0].conormal[0] * use[1].conormal[0] + use[0].conormal[1] * use[1].conormal[1]));
+    ++(kPi - turned <= kNearSmooth ? summary.smooth : summary.near_smooth);
+    return;
+  }
+  const Wedge seen = use[0].side > 0 ? use[0].wedge : use[1].wedge;
+  ++(seen == Wedge::convex ? summary.convex : summary.concave);
 }
 
-// Where all faces are turned alike: what their normals say, cavities included.  Else the regions that the
-// wall cuts off from the rest of space, each once.
-double enclosed(const Surface& surface, const std::vector<double>& volume) {
-  const int sides = 2 * static_cast<int>(surface.faces.size());
-  DisjointSets regions(sides);
-  const auto side_number = [](int face, int side) { return 2 * face + (side < 0); };
-  bool alike = true;
-  for (const Edge& edge : surface.edges)
-    for (int u = edge.first_use; u < edge.first_use + edge.use_count; ++u) {
-      const EdgeUse &begin = surface.uses[u], &end = surface.next_use(edge, u);
-      regions.join(side_number(begin.face, begin.side), side_number(end.face, -end.side));
-      alike &= begin.side == -end.side;
-    }
-  std::vector<double> of_region(sides, 0.0);
-  double sum = 0.0, cut_off = 0.0;
-  for (int face = 0; 2 * face < sides; ++face) {
-    sum += volume[face];
-    of_region[regions.find(2 * face)] += volume[face];
-    of_region[regions.find(2 * face + 1)] -= volume[face];
-  }
-  for (const double one : of_region) cut_off += std::max(-one, 0.0);
-  return (alike ? std::abs(sum) : cut_off) / 6.0;
+// Whether the + sides of all faces that meet see one another.
+bool turned_alike(const Surface& surface, const Edge& edge) {
+  const EdgeUse* use = &surface.uses[edge.first_use];
+  return edge.use_count == 2 && use[0].side == -use[1].side;
 }
 
 }  // namespace
 
 Summary summary_of(const Surface& surface) {
   Summary summary;
-  const Measures measures(surface);
   for (const Face& face : surface.faces) ++summary.faces[static_cast<int>(face.kind)];
-  for (const double twice : measures.area) summary.area += 0.5 * twice;
   summary.pieces = static_cast<int>(surface.pieces.size());
-  summary.vertices = static_cast<int>(surface.vertices.size());
+  for (const Vertex& vertex : surface.vertices) summary.vertices += vertex.corner_count > 0;
   summary.sheets = surface.sheet_count;
-  for (const Edge& edge : surface.edges) count_edge(surface, edge, summary);
+  bool alike = true;
+  for (const Edge& edge : surface.edges) {
+    count_edge(surface, edge, summary);
+    alike = alike && turned_alike(surface, edge);
+  }
   summary.closed = summary.free == 0;
-  if (summary.closed) summary.volume = enclosed(surface, measures.volume);
+  const Vector3 middle = 0.5 * (surface.low + surface.high);
+  double volume = 0.0;
+  for (const Piece& piece : surface.pieces) {
+    const Content content = content_of(surface, piece, middle);
+    summary.area += content.area;
+    volume += content.flux;
+  }
+  if (summary.closed && alike) summary.volume = volume;
   return summary;
 }
 
