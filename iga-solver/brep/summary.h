@@ -14,7 +14,7 @@ struct Summary {
   int free = 0, many = 0;           ///< edges of one face; of three or more
   double area = 0.0;                ///< [length^2]
   bool closed = false;              ///< no free edges: it encloses a volume
-  double volume = 0.0;              ///< if closed, all that is cut off where normals differ [length^3]
+  double volume = 0.0;              ///< if closed, with the faces turned alike, else 0 [length^3]
   double free_length = 0.0;         ///< of free edges [length]
 };
 

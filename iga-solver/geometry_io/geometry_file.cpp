@@ -42,23 +42,23 @@ GeometryFile read_changed(const YamlMap& map, Units units, const OpenGeometry& o
 /// `shapes`, patch after patch; surfaces that files among them name stay named.
 GeometryFile read_several(const YamlMap& geometry, Units units, const OpenGeometry& open) {
   GeometryFile all{units, {}, {}};
-  bool some_say_all = false;  // of files that offer it, such as STL
+  std::vector<SurfacePiece> said_all;  // of files that offer it, such as STL
   for (const YamlMap& map : geometry.list_of_maps("shapes")) {
     GeometryFile part = read_changed(map, units, open);
     for (auto& [name, pieces] : part.surfaces) {
-      if (name == kAllPatches && pieces.size() == part.patches.size()) {
-        some_say_all = true;
-        continue;
-      }
       for (SurfacePiece& piece : pieces) piece.patch += static_cast<int>(all.patches.size());
-      if (!all.surfaces.emplace(name, pieces).second)
+      if (name == kAllPatches && pieces.size() == part.patches.size())
+        said_all.insert(said_all.end(), pieces.begin(), pieces.end());
+      else if (!all.surfaces.emplace(name, pieces).second)
         map.fail("file", fmt::format("surface '{}' is named by two files, expected one", name));
     }
     all.patches.insert(all.patches.end(), part.patches.begin(), part.patches.end());
   }
   if (all.patches.empty()) geometry.fail("shapes", "shapes is empty, expected one shape at least");
-  if (some_say_all && std::none_of(all.patches.begin(), all.patches.end(), is_volume))
-    all.surfaces[kAllPatches] = parse_surface({kAllPatches}, all.patches);
+  if (!said_all.empty())
+    all.surfaces[kAllPatches] = std::any_of(all.patches.begin(), all.patches.end(), is_volume)
+                                    ? said_all
+                                    : parse_surface({kAllPatches}, all.patches);
   return all;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -35,7 +36,13 @@ std::string wall_text(const GeometryFile& geometry, const JoinedMesh& all) {
                                  wall.convex, wall.concave, wall.smooth + wall.near_smooth);
   text +=
       fmt::format(", {} free, {} of more than two faces\n  area {:.6g}, ", wall.free, wall.many, wall.area);
-  text += wall.closed ? fmt::format("closed, volume {:.6g}\n", wall.volume) : "open: no volume\n";
+  if (!wall.closed)
+    text += "open: no volume\n";
+  else if (wall.volume == 0.0)
+    text += "closed, but turned in and out: no volume\n";
+  else
+    text += fmt::format("closed, volume {:.6g}{}\n", std::abs(wall.volume),
+                        wall.volume < 0.0 ? ", normals inwards" : "");
   text += fmt::format("  worst triangle: {}, height {:.3g}", place_text(geometry, all, report.worst_triangle),
                       report.least_height);
   return text + fmt::format("; {} are thinner than 1e-6 of the whole\n", report.thin + report.collapsed);

@@ -43,6 +43,6 @@ void fuzz_one(const std::string& input) {
     check_that(all.part.size() == all.mesh.place.size());
     geometry_io::gaps_of(all.mesh);
     const brep::Summary wall = summary_of(brep::from_triangles(all.mesh.points, all.mesh.triangles));
-    check_that(wall.area > 0.0 && wall.volume >= 0.0);
+    check_that(wall.area > 0.0);
   }
 }

@@ -49,12 +49,14 @@ class Stl(ConvertCase):
         self.assertIn("  area 30, closed, volume 7\n", printed)
         self.assertIn("surface 'cavity': 1\nsurface 'shell': 0\n", printed)
         alone = self.convert("part.stl", "--surface", "cavity")
-        self.assertIn("  area 6, closed, volume 1\n", alone)
+        self.assertIn("  area 6, closed, volume 1, normals inwards\n", alone)
         self.assertNotIn("shell", alone)
 
-    def test_triangles_turned_at_random(self):
-        turned = [t[::-1] if i % 3 == 0 else t for i, t in enumerate(box(0, 2))]
-        self.assertIn("  area 24, closed, volume 8\n", self.printed(cube=turned))
+    def test_triangles_that_are_turned_over(self):
+        cube = box(0, 2)
+        self.assertIn("  area 24, closed, volume 8, normals inwards\n", self.printed(cube=[t[::-1] for t in cube]))
+        one_side = [t[::-1] if i < 2 else t for i, t in enumerate(cube)]
+        self.assertIn("  area 24, closed, but turned in and out: no volume\n", self.printed(cube=one_side))
 
     def test_holes_and_overlaps(self):
         cube = box(0, 2)
