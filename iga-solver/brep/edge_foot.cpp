@@ -19,24 +19,29 @@ Vector3 Edge::tangent(double t) const {
   return std::cos(t) * axis.cross(radial) - std::sin(t) * radial;
 }
 
-EdgeFoot::EdgeFoot(const Edge& edge, const Vector3& d) {
+EdgeFoot::EdgeFoot(const Edge& edge, const Vector3& d) : edge_(edge) {
   const Vector3 from = d - edge.origin, across = edge.axis.cross(edge.radial);
-  if (edge.line()) {
-    t = from.dot(edge.axis);
-    q[0] = from.dot(edge.radial), q[1] = from.dot(across);
-    point = edge.origin + t * edge.axis;
-    beyond = std::max(-t, t - edge.length);
-    return;
-  }
-  const double x = from.dot(edge.radial), y = from.dot(across), rho = std::hypot(x, y);
-  const bool on_axis = rho <= 1e-12 * edge.R;
-  const Vector3 e = on_axis ? edge.point(0.5 * edge.length) - edge.origin
-                            : Vector3(edge.R * ((x / rho) * edge.radial + (y / rho) * across));
-  point = edge.origin + e;
-  q[0] = rho - edge.R, q[1] = from.dot(edge.axis);
-  t = on_axis ? 0.5 * edge.length : std::atan2(y, x);
-  if (t < 0.0) t += kTurn;
-  beyond = edge.closed() ? 0.0 : edge.R * std::min(t - edge.length, kTurn - t);
+  along_ = from.dot(edge.axis);
+  x_ = from.dot(edge.radial), y_ = from.dot(across);
+  q[0] = x_, q[1] = y_;
+  if (edge.line()) return;
+  rho_ = std::sqrt(x_ * x_ + y_ * y_);
+  q[0] = rho_ - edge.R, q[1] = along_;
+}
+
+double EdgeFoot::beyond() const {
+  if (edge_.line()) return std::max(-along_, along_ - edge_.length);
+  if (edge_.closed() || on_axis()) return 0.0;
+  double angle = std::atan2(y_, x_);
+  if (angle < 0.0) angle += kTurn;
+  return edge_.R * std::min(angle - edge_.length, kTurn - angle);
+}
+
+Vector3 EdgeFoot::point() const {
+  if (edge_.line()) return edge_.origin + along_ * edge_.axis;
+  if (on_axis()) return edge_.point(0.5 * edge_.length);
+  const double scale = edge_.R / rho_;
+  return edge_.origin + scale * (x_ * edge_.radial + y_ * edge_.axis.cross(edge_.radial));
 }
 
 int use_at_wedge(const Surface& surface, const Edge& edge, const double* q) {

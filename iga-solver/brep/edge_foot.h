@@ -6,16 +6,23 @@
 
 namespace brep {
 
-struct EdgeFoot {
+/// On the whole line or circle.
+class EdgeFoot {
+ public:
+  /// Keeps a reference to the edge.
   EdgeFoot(const Edge& edge, const Vector3& d);
 
-  double q[2];    ///< d from the foot, in the plane across the edge [length]
-  Vector3 point;  ///< of the whole line or circle
-  double t;       ///< along the edge, of arcs to the nearer end beyond
-  double beyond;  ///< how far it is beyond an end, 0 or less inside [length]
-
+  double q[2];  ///< d from the foot, in the plane across the edge [length]
   double distance2() const { return q[0] * q[0] + q[1] * q[1]; }
-  bool beyond_ends(double slack) const { return beyond > slack; }
+  /// How far it is beyond the nearer end of the edge, 0 or less inside [length].
+  double beyond() const;
+  Vector3 point() const;
+
+ private:
+  bool on_axis() const { return rho_ <= 1e-12 * edge_.R; }
+
+  const Edge& edge_;
+  double x_, y_, along_, rho_ = 0.0;  // of d, in the edge's own axes
 };
 
 /// The use of an edge at which the wedge begins that q is in.

@@ -8,6 +8,8 @@
 
 namespace brep {
 
+constexpr int kFew = 3;  // pieces, which are looked at without a filter
+
 FootSearch::FootSearch(const Surface& surface)
     : surface_(surface), tree_(surface), neighbours_(surface), same_point_(10.0 * surface.slack) {}
 
@@ -43,10 +45,14 @@ double FootSearch::nearest(const Vector3& d, double reach, const int* pieces, in
 
 void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int count,
                       std::vector<Foot>& out) const {
-  const PieceTree::Query query = tree_.query(d, reach);
   Minima minima(surface_, same_point_, d, reach, out);
-  for (int k = 0; k < count; ++k)
-    if (tree_.may_be_near(query, pieces[k])) minima.add_of_piece(pieces[k]);
+  if (count <= kFew) {
+    for (int k = 0; k < count; ++k) minima.add_of_piece(pieces[k]);
+  } else {
+    const PieceTree::Query query = tree_.query(d, reach);
+    for (int k = 0; k < count; ++k)
+      if (tree_.may_be_near(query, pieces[k])) minima.add_of_piece(pieces[k]);
+  }
   minima.finish(neighbours_);
 }
 

@@ -5,18 +5,12 @@
 
 #include <vector>
 
+#include "brep/foot.h"
 #include "brep/piece_tree.h"
 #include "brep/smooth_neighbours.h"
 #include "brep/surface.h"
 
 namespace brep {
-
-/// patch: number of the face through which the sheet claims the foot, xi on that face.
-struct Foot : search::Foot {
-  int sheet;
-  int side;    ///< +1 or -1: of the face, which looks to d
-  int entity;  ///< number of the face, edge or vertex on which it is, by its status
-};
 
 class FootSearch {
  public:

@@ -67,9 +67,9 @@ void Minima::add_of_edge(int use) {
   const EdgeUse& visiting = surface_.uses[use];
   const Edge& edge = surface_.edges[visiting.edge];
   const EdgeFoot foot(edge, d_);
-  if (foot.distance2() >= reach_ * reach_ || foot.beyond_ends(slack_)) return;
+  if (foot.distance2() >= reach_ * reach_ || foot.beyond() > slack_) return;
   const int u = use_at_wedge(surface_, edge, foot.q);
-  add_in_wedge(visiting, surface_.uses[u], surface_.next_use(edge, u), foot.q, foot.point);
+  add_in_wedge(visiting, surface_.uses[u], surface_.next_use(edge, u), foot.q, foot.point());
 }
 
 void Minima::add_in_wedge(const EdgeUse& visiting, const EdgeUse& use, const EdgeUse& next, const double* q,

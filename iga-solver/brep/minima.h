@@ -4,8 +4,9 @@
 
 #include <vector>
 
-#include "brep/foot_search.h"
+#include "brep/foot.h"
 #include "brep/smooth_neighbours.h"
+#include "brep/surface.h"
 
 namespace brep {
 

@@ -30,6 +30,7 @@ SmoothNeighbours::SmoothNeighbours(const Surface& surface) {
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   first_.assign(surface.faces.size() + 1, 0);
+  beyond_.reserve(pairs.size());
   for (const auto& [from, to] : pairs) {
     ++first_[from + 1];
     beyond_.push_back(to);

@@ -157,6 +157,7 @@ class FromTriangles {
 
   // Faces are numbered as their first triangles are.
   void add_faces(Surface& surface) const {
+    surface.faces.reserve(seeds_.size());
     std::vector<int> face(seeds_.size(), -1), count;
     for (const int plane : plane_) {
       if (plane < 0) continue;
