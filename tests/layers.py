@@ -20,16 +20,17 @@ from source_tree import (
 LIGGGHTS_HEADERS = {path.name for path in Path("/usr/include/liggghts").glob("*.h")}
 KERNEL = "iga-solver/nurbs"
 SOLVER = [f"iga-solver/{room}" for room in ("nurbs", "search", "brep", "geometry_io", "vtk", "structure", "parallel", "io")]
+GEOMETRY = [KERNEL, "iga-solver/search", "iga-solver/brep"]
 # folder of targets -> those that it may link, directly or not
 MAY_LINK = {
     "iga-solver/nurbs": [],
     "iga-solver/search": [KERNEL],
     "iga-solver/brep": [KERNEL, "iga-solver/search"],
-    "iga-solver/geometry_io": [KERNEL],
-    "iga-solver/vtk": [KERNEL, "iga-solver/geometry_io"],
+    "iga-solver/geometry_io": GEOMETRY,
+    "iga-solver/vtk": [*GEOMETRY, "iga-solver/geometry_io"],
     "iga-solver/structure": [KERNEL],
-    "iga-solver/parallel": [KERNEL, *(f"iga-solver/{room}" for room in ("geometry_io", "vtk", "structure", "io"))],
-    "iga-solver/io": [KERNEL, "iga-solver/geometry_io", "iga-solver/vtk", "iga-solver/structure"],
+    "iga-solver/parallel": [*GEOMETRY, *(f"iga-solver/{room}" for room in ("geometry_io", "vtk", "structure", "io"))],
+    "iga-solver/io": [*GEOMETRY, "iga-solver/geometry_io", "iga-solver/vtk", "iga-solver/structure"],
     "iga-solver/app": SOLVER,
     "coupling": SOLVER,
     "liggghts-pkg": [*SOLVER, "coupling"],

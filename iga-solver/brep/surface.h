@@ -87,9 +87,9 @@ struct Surface {
   std::vector<int> sheets;      ///< of (face, side): 2 * face, 2 * face + 1 for side -
   int sheet_count = 0;
   double edge_angle = kEdgeAngle;  ///< [rad]
-  double size = 0.0;         ///< diagonal of the box around the wall [length]
-  Vector3 low, high;         ///< that box
-  double slack = 0.0;        ///< how far borders of two faces may be apart [length]
+  double size = 0.0;               ///< diagonal of the box around the wall [length]
+  Vector3 low, high;               ///< that box
+  double slack = 0.0;              ///< how far borders of two faces may be apart [length]
 
   int sheet(int face, int side) const { return sheets[2 * face + (side < 0)]; }
   const EdgeUse& next_use(const Edge& edge, int use) const {
