@@ -7,6 +7,7 @@ import unittest
 import numpy as np
 from scipy.spatial.distance import pdist
 
+import wall_runs
 import wavy_bench
 import wavy_memory
 import wavy_wall
@@ -47,7 +48,7 @@ class Spheres(unittest.TestCase):
 
 class Timers(unittest.TestCase):
     def test_fixes_of_the_wall_in_the_last_run(self):
-        wall, loop = wavy_wall.fix_times(LOG)
+        wall, loop = wall_runs.fix_times(LOG)
         self.assertEqual(wall, {"mesh": 0.25, "wall": 1.5, "wall_neighlist_mesh": 0.125})
         self.assertEqual(loop, 2.5)
 
@@ -57,7 +58,7 @@ class Timers(unittest.TestCase):
 
     def test_decks_exist(self):
         for wall in wavy_wall.WALLS.values():
-            text = (wavy_bench.DECKS / f"in.{wall.deck}").read_text(encoding="utf-8")
+            text = (wall_runs.DECKS / f"in.{wall.deck}").read_text(encoding="utf-8")
             self.assertTrue(re.search(r"^fix (wall|\$\{id\}) all wall/", text, re.MULTILINE))
             self.assertIn(wall.settled_on, wavy_wall.WALLS)
 

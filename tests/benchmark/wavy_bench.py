@@ -1,19 +1,17 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the benchmarks of the wavy wall share: its spheres, its files, runs of the decks in wavy_wall/."""
+"""What the benchmarks of the wavy wall share: its spheres and its files."""
 
 from __future__ import annotations
 
-import os
 import subprocess
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from study.build.waves import K, SIDE, SplineWave, model_file
+from wall_runs import WallRuns, data_file
 
-DECKS = Path(__file__).parent / "wavy_wall"
 AMPLITUDE = 2e-3  # [m]
 DEGREE = 3
 ELEMENTS = 62  # in a row, under the spheres
@@ -47,13 +45,8 @@ def spheres(layers: Layers, around: float = 0.0) -> str:
     z = AMPLITUDE * np.sin(K * x) * np.sin(K * y) + 0.9e-3 + 1.25e-3 * layer
     radii = random.uniform(0.4e-3, 0.6e-3, x.size)
     z = lift(x, y, z, radii)
-    rows = (f"{n} 1 {2 * r!r} 2500 {a!r} {b!r} {c!r}" for n, (r, a, b, c) in enumerate(zip(radii, x, y, z), 1))
-    low, high = -around, SIDE + around
-    return (
-        f"spheres above the wavy wall\n\n{layers.count} atoms\n2 atom types\n\n"
-        f"{low!r} {high!r} xlo xhi\n{low!r} {high!r} ylo yhi\n-0.004 {z.max() + 4e-3!r} zlo zhi\n\n"
-        "Atoms\n\n" + "\n".join(rows) + "\n"
-    )
+    box = [(-around, SIDE + around), (-around, SIDE + around), (-0.004, float(z.max()) + 4e-3)]
+    return data_file(box, radii, np.stack([x, y, z], axis=1))
 
 
 def lift(x: np.ndarray, y: np.ndarray, z: np.ndarray, radii: np.ndarray) -> np.ndarray:
@@ -73,33 +66,10 @@ def lift(x: np.ndarray, y: np.ndarray, z: np.ndarray, radii: np.ndarray) -> np.n
 
 
 @dataclass
-class Bench:
-    """Runs decks in a folder of its own that holds decks, walls and states."""
+class Bench(WallRuns):
+    """Runs of the wavy wall."""
 
-    program: str
     convert: str  # nurbs-convert
-    clock: str  # libcpu_clock.so
-    folder: Path
-
-    def run(self, deck: str, settings: dict[str, str] | None = None, **variables: object) -> str:
-        """Runs a deck, with settings of the environment; what it printed.  Raises if it fails."""
-        words = [word for name, value in variables.items() for word in ("-var", name, str(value))]
-        environment = dict(os.environ, LD_PRELOAD=self.clock, **(settings or {}))
-        if os.geteuid() == 0:
-            environment |= {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
-        done = subprocess.run(
-            [self.program, "-in", deck, "-log", "none", *words],
-            cwd=self.folder,
-            env=environment,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            errors="replace",
-            check=False,
-        )
-        if done.returncode != 0:
-            raise RuntimeError(f"{deck} {words} failed:\n{done.stdout[-1500:]}")
-        return done.stdout
 
     def continued_wall(self, elements: int) -> None:
         """Writes continued_N.yaml and continued_N.h5: the wall of 62 x 62 elements, continued around the spheres to

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import re
 import shutil
 import statistics
 import sys
@@ -22,7 +21,8 @@ from bounds import AtMost
 from study.build.waves import SIDE, SplineWave, model_file, triangles
 from study.reference.hertz import sphere_mass
 from study.run.summary import Row, table, write_json
-from wavy_bench import AMPLITUDE, DECKS, DEGREE, ELEMENTS, LAYERS, Bench, spheres
+from wall_runs import DECKS, fix_times, touching
+from wavy_bench import AMPLITUDE, DEGREE, ELEMENTS, LAYERS, Bench, spheres
 
 REPEATS = 5
 SQUARES = 124  # in a row, of two triangles each
@@ -77,8 +77,7 @@ def settle(bench: Bench, name: str, particles: int) -> int:
     variables = dict(wall=wall.deck, geometry=wall.geometry, sides="f" if wall.open else "p")
     variables |= dict(spheres=spheres_file(particles, wall), state=f"state_{name}_{particles}")
     log = bench.run("in.settle", steps=LAYERS[particles].settle, **variables)
-    rows = re.findall(r"^\s*\d+\s+\d+\s+\S+\s+(\d+)\s*$", log, re.MULTILINE)
-    return int(rows[-1])
+    return touching(log)
 
 
 def time(bench: Bench, name: str, particles: int) -> Timing:
@@ -91,20 +90,12 @@ def time(bench: Bench, name: str, particles: int) -> Timing:
     return Timing(sum(seconds.values()) / layers.timed, loop / layers.timed)
 
 
-def fix_times(log: str) -> tuple[dict[str, float], float]:
-    """Of the last run: seconds of each fix that belongs to the wall, and of the whole loop."""
-    last = log[log.rindex("Loop time of") :]
-    fixes = re.findall(r"^Fix (\S+) \S+ time \(%\) = (\S+)", last, re.MULTILINE)
-    wall = {name: float(seconds) for name, seconds in fixes if re.search("wall|mesh|motion", name)}
-    return wall, float(last.split()[3])
-
-
 def measure(bench: Bench, particles: int) -> list[Row]:
     """Rows of one number of particles; walls take turns."""
     timed = TIMED[particles]
     settled = [name for name in timed if WALLS[name].settled_on == name]
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:  # not timed, so all cores may work
-        touching = dict(zip(settled, pool.map(lambda name: settle(bench, name, particles), settled)))
+        touch = dict(zip(settled, pool.map(lambda name: settle(bench, name, particles), settled)))
     times: dict[str, list[Timing]] = {name: [] for name in timed}
     for _ in range(REPEATS):
         for name in timed:
@@ -112,7 +103,7 @@ def measure(bench: Bench, particles: int) -> list[Row]:
     wall = {name: statistics.median(t.wall for t in taken) for name, taken in times.items()}
     step = {name: statistics.median(t.step for t in taken) for name, taken in times.items()}
     case = f"{LAYERS[particles].count} particles"
-    rows = [Row(case, f"{name}_touching", count, "1") for name, count in touching.items()]
+    rows = [Row(case, f"{name}_touching", count, "1") for name, count in touch.items()]
     for name in timed:
         spread = [1e3 * t.wall for t in times[name]]
         note = f"{min(spread):.3g} to {max(spread):.3g}"
@@ -164,16 +155,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     add = parser.add_argument
     add("program")
-    add("convert", help="nurbs-convert")
     add("clock", help="libcpu_clock.so")
     add("out", type=Path)
+    add("--convert", required=True, help="nurbs-convert")
     add("--particles", type=int, action="append", choices=list(LAYERS))
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     rows: list[Row] = []
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(DECKS, folder, dirs_exist_ok=True)
-        bench = Bench(args.program, args.convert, args.clock, Path(folder))
+        bench = Bench(args.program, args.clock, Path(folder), args.convert)
         write_files(bench)
         rows += wavy_memory.rows(bench, "spheres_3500_open.data")
         for particles in args.particles or LAYERS:

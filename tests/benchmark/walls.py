@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What walls of planes, pipes and triangles cost beside LIGGGHTS' own: prints the table and writes OUT/summary.json in
+the shape of the studies' summaries.  Slow is reported, never an error."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import shutil
+import sys
+import tempfile
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Sequence
+
+import wall_shapes
+import wavy_bench
+from bounds import AtMost
+from study.build.stl import stl
+from study.build.waves import triangles
+from study.run.summary import Row, table, write_json
+from wall_runs import DECKS, WallRuns, fix_times, touching
+from wavy_memory import memory
+
+REPEATS = 3
+SETTLE, BEFORE, STEPS = 4000, 50, 200
+BOX = 12
+DRUMS = {BOX: (4, 1), 92: (24, 1), 1616: (54, 14)}  # triangles: sides, bands
+PLATES = {30752: 124, 123008: 248}  # triangles: squares in a row of the wavy plate
+LARGEST = max(PLATES)
+FLAT, HOLLOW, WAVY, OPEN = "flat.data", "hollow.data", "wavy.data", "open.data"
+
+
+@dataclass(frozen=True)
+class Wall:
+    """The file in.DECK that makes it, and what it makes it of."""
+
+    deck: str
+    geometry: str
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A wall of ours and LIGGGHTS' in its place, with the same spheres, from the same state: that of ours at rest."""
+
+    case: str
+    ours: Wall
+    stock: Wall
+    spheres: str
+    aim: float | None  # of ours over stock's
+
+
+def stl_pairs(count: int) -> list[Pair]:
+    """At rest and moving."""
+    file, spheres = f"{count}.stl", WAVY if count in PLATES else FLAT if count == BOX else HOLLOW
+    aim = 0.15 if count in PLATES else 0.8
+    return [
+        Pair(f"{count} triangles{how}", Wall("nurbs" + deck, file), Wall("triangles" + deck, file), spheres, aim)
+        for how, deck in (("", ""), (", moving", "_moving"))
+    ]
+
+
+ZPLANE = Wall("primitive", "zplane 0.")
+XCYLINDER = Wall("primitive", f"xcylinder {wall_shapes.RADIUS} 0. {wall_shapes.RADIUS}")
+PAIRS = [
+    Pair("plane, NURBS", Wall("nurbs", "plane.yaml"), ZPLANE, FLAT, 1.5),
+    Pair("plane, 2 triangles", Wall("nurbs", "plane.stl"), ZPLANE, FLAT, 1.5),
+    Pair("plane, 2 triangles, beside mesh", Wall("nurbs", "plane.stl"), Wall("triangles", "plane.stl"), FLAT, 0.8),
+    Pair("cylinder, NURBS", Wall("nurbs", "pipe.yaml"), XCYLINDER, HOLLOW, 1.5),
+    *(pair for count in (*DRUMS, *PLATES) for pair in stl_pairs(count)),
+]
+
+
+@dataclass(frozen=True)
+class Measured:
+    """Of one wall: CPU time of its fixes per step [s] in each run; spheres that touch it."""
+
+    seconds: list[float]
+    touching: int
+
+
+def write_files(folder: Path) -> None:
+    """Walls and spheres."""
+    files = {"plane.yaml": wall_shapes.PLANE, "pipe.yaml": wall_shapes.PIPE, "plane.stl": stl(wall_shapes.plane())}
+    files |= {f"{count}.stl": stl(wall_shapes.drum(*of)) for count, of in DRUMS.items()}
+    files |= {f"{count}.stl": triangles(n, wavy_bench.AMPLITUDE) for count, n in PLATES.items()}
+    files |= {FLAT: wall_shapes.spheres(hollow=False), HOLLOW: wall_shapes.spheres(hollow=True)}
+    layer = wavy_bench.LAYERS[3500]
+    files |= {WAVY: wavy_bench.spheres(layer), OPEN: wavy_bench.spheres(layer, wall_shapes.MARGIN)}
+    for name, text in files.items():
+        (folder / name).write_text(text)
+
+
+def settle(runs: WallRuns, pairs: Sequence[Pair]) -> None:
+    """Lets the spheres come down on each wall of ours; not timed, so all cores may work."""
+
+    def run(pair: Pair) -> None:
+        file, sides = pair.ours.geometry, "p" if pair.spheres == WAVY else "f"
+        variables = dict(wall="nurbs", geometry=file, spheres=pair.spheres, sides=sides, state=state(file))
+        runs.run("in.settle", steps=SETTLE, **variables)
+
+    with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
+        list(pool.map(run, {pair.ours.geometry: pair for pair in pairs}.values()))
+
+
+def state(geometry: str) -> str:
+    """Restart file of spheres at rest on a wall of ours."""
+    return f"state_{geometry}"
+
+
+def measure(runs: WallRuns, pairs: Sequence[Pair]) -> list[Row]:
+    """Rows of all pairs; walls take turns."""
+    settle(runs, pairs)
+    # Walls, and what they start from: pairs share runs.
+    timed = dict.fromkeys((wall, state(pair.ours.geometry)) for pair in pairs for wall in (pair.ours, pair.stock))
+    words = {key: dict(wall=key[0].deck, geometry=key[0].geometry, state=key[1], before=BEFORE) for key in timed}
+    found = {key: Measured([], touching(runs.run("in.touch", **words[key]))) for key in timed}
+    for _ in range(REPEATS):
+        for key in timed:
+            fixes, _ = fix_times(runs.run("in.time", **words[key], steps=STEPS, end="end.txt"))
+            found[key].seconds.append(sum(fixes.values()) / STEPS)
+    return [
+        row
+        for pair in pairs
+        for row in rows(pair, *(found[wall, state(pair.ours.geometry)] for wall in (pair.ours, pair.stock)))
+    ]
+
+
+def rows(pair: Pair, ours: Measured, stock: Measured) -> list[Row]:
+    """Least times of a step and of a contact, and the ratio of the steps'."""
+    found = []
+    for name, wall in (("ours", ours), ("stock", stock)):
+        least, most = min(wall.seconds), max(wall.seconds)
+        note = f"up to {1e6 * most:.3g} us; {1e9 * least / wall.touching:.3g} ns for each of {wall.touching} that touch"
+        found.append(Row(pair.case, f"{name}_per_step", 1e6 * least, "us", note=note))
+    ratio = min(ours.seconds) / min(stock.seconds)
+    return found + [AtMost(pair.case, "ours_over_stock", ratio, "1", pair.aim)]
+
+
+def reading(runs: WallRuns) -> list[Row]:
+    """CPU time and peak memory of `run 0` with the largest wall of triangles; walls take turns."""
+    seconds: dict[str, list[float]] = {"nurbs": [], "triangles": []}
+    peak: dict[str, float] = {}
+    for _ in range(REPEATS):
+        for deck, taken in seconds.items():
+            time, log = runs.seconds("in.memory", wall=deck, geometry=f"{LARGEST}.stl", spheres=OPEN, steps=0)
+            taken.append(time)
+            peak[deck] = memory(log).peak
+    return reading_rows({deck: min(taken) for deck, taken in seconds.items()}, peak)
+
+
+def reading_rows(seconds: dict[str, float], peak: dict[str, float]) -> list[Row]:
+    """Of CPU times [s] and memory [bytes] by deck."""
+    case = f"{LARGEST} triangles, read"
+    found = []
+    for quantity, unit, value, aim in (
+        ("time", "s", seconds, 2.0),
+        ("memory", "MiB", {deck: size / 2**20 for deck, size in peak.items()}, 1.5),
+    ):
+        ours, stock = value["nurbs"], value["triangles"]
+        found += [Row(case, f"ours_{quantity}", ours, unit), Row(case, f"stock_{quantity}", stock, unit)]
+        found.append(AtMost(case, f"{quantity}_ours_over_stock", ours / stock, "1", aim))
+    return found
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    add = parser.add_argument
+    add("program")
+    add("clock", help="libcpu_clock.so")
+    add("out", type=Path)
+    add("--only", metavar="WORD", default="", help="walls with this in their name, as '1616 triangles'")
+    args = parser.parse_args()
+    args.out.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(DECKS, folder, dirs_exist_ok=True)
+        runs = WallRuns(args.program, args.clock, Path(folder))
+        write_files(runs.folder)
+        found = measure(runs, [pair for pair in PAIRS if args.only in pair.case])
+        found += [] if args.only else reading(runs)
+    write_json(args.out / "summary.json", "walls", found)
+    print(table(found))
+    print(f"\nLeast of {REPEATS} thread CPU times, by LIGGGHTS' modify_timing.")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
