@@ -132,7 +132,7 @@ double FaceTracker::squared_way(const Query& query, const Vector3& last, const V
 void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
   feet_.clear();
   pairs_.clear();
-  for (const brep::Foot& foot : found_) feet_.push_back({foot, -1});
+  for (const search::Foot& foot : found_) feet_.push_back({foot, -1});
   for (int s = 0; s < slots.slot_count(); ++s) {
     if (slots.slot(s).empty()) continue;
     const nurbs::SurfacePoint at = slots.slot(s).foot();
