@@ -23,12 +23,12 @@ from study.run.summary import Row, table, write_json
 from wall_runs import DECKS, WallRuns, fix_times, touching
 from wavy_memory import memory
 
-REPEATS = 3
 SETTLE, BEFORE, STEPS = 4000, 50, 200
 BOX = 12
 DRUMS = {BOX: (4, 1), 92: (24, 1), 1616: (54, 14)}  # triangles: sides, bands
 PLATES = {30752: 124, 123008: 248}  # triangles: squares in a row of the wavy plate
 LARGEST = max(PLATES)
+READ = f"{LARGEST} triangles, read"
 FLAT, HOLLOW, WAVY, OPEN = "flat.data", "hollow.data", "wavy.data", "open.data"
 
 
@@ -109,14 +109,14 @@ def state(geometry: str) -> str:
     return f"state_{geometry}"
 
 
-def measure(runs: WallRuns, pairs: Sequence[Pair]) -> list[Row]:
+def measure(runs: WallRuns, pairs: Sequence[Pair], repeats: int) -> list[Row]:
     """Rows of all pairs; walls take turns."""
     settle(runs, pairs)
     # Walls, and what they start from: pairs share runs.
     timed = dict.fromkeys((wall, state(pair.ours.geometry)) for pair in pairs for wall in (pair.ours, pair.stock))
     words = {key: dict(wall=key[0].deck, geometry=key[0].geometry, state=key[1], before=BEFORE) for key in timed}
     found = {key: Measured([], touching(runs.run("in.touch", **words[key]))) for key in timed}
-    for _ in range(REPEATS):
+    for _ in range(repeats):
         for key in timed:
             fixes, _ = fix_times(runs.run("in.time", **words[key], steps=STEPS, end="end.txt"))
             found[key].seconds.append(sum(fixes.values()) / STEPS)
@@ -138,11 +138,11 @@ def rows(pair: Pair, ours: Measured, stock: Measured) -> list[Row]:
     return found + [AtMost(pair.case, "ours_over_stock", ratio, "1", pair.aim)]
 
 
-def reading(runs: WallRuns) -> list[Row]:
+def reading(runs: WallRuns, repeats: int) -> list[Row]:
     """CPU time and peak memory of `run 0` with the largest wall of triangles; walls take turns."""
     seconds: dict[str, list[float]] = {"nurbs": [], "triangles": []}
     peak: dict[str, float] = {}
-    for _ in range(REPEATS):
+    for _ in range(repeats):
         for deck, taken in seconds.items():
             time, log = runs.seconds("in.memory", wall=deck, geometry=f"{LARGEST}.stl", spheres=OPEN, steps=0)
             taken.append(time)
@@ -152,15 +152,14 @@ def reading(runs: WallRuns) -> list[Row]:
 
 def reading_rows(seconds: dict[str, float], peak: dict[str, float]) -> list[Row]:
     """Of CPU times [s] and memory [bytes] by deck."""
-    case = f"{LARGEST} triangles, read"
     found = []
     for quantity, unit, value, aim in (
         ("time", "s", seconds, 2.0),
         ("memory", "MiB", {deck: size / 2**20 for deck, size in peak.items()}, 1.5),
     ):
         ours, stock = value["nurbs"], value["triangles"]
-        found += [Row(case, f"ours_{quantity}", ours, unit), Row(case, f"stock_{quantity}", stock, unit)]
-        found.append(AtMost(case, f"{quantity}_ours_over_stock", ours / stock, "1", aim))
+        found += [Row(READ, f"ours_{quantity}", ours, unit), Row(READ, f"stock_{quantity}", stock, unit)]
+        found.append(AtMost(READ, f"{quantity}_ours_over_stock", ours / stock, "1", aim))
     return found
 
 
@@ -170,18 +169,19 @@ def main() -> None:
     add("program")
     add("clock", help="libcpu_clock.so")
     add("out", type=Path)
-    add("--only", metavar="WORD", default="", help="walls with this in their name, as '1616 triangles'")
+    add("--only", metavar="WORD", default="", help="rows with this in their name, as '1616 triangles'")
+    add("--repeats", metavar="N", type=int, default=3)
     args = parser.parse_args()
     args.out.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(DECKS, folder, dirs_exist_ok=True)
         runs = WallRuns(args.program, args.clock, Path(folder))
         write_files(runs.folder)
-        found = measure(runs, [pair for pair in PAIRS if args.only in pair.case])
-        found += [] if args.only else reading(runs)
+        found = measure(runs, [pair for pair in PAIRS if args.only in pair.case], args.repeats)
+        found += reading(runs, args.repeats) if args.only in READ else []
     write_json(args.out / "summary.json", "walls", found)
     print(table(found))
-    print(f"\nLeast of {REPEATS} thread CPU times, by LIGGGHTS' modify_timing.")
+    print(f"\nLeast of {args.repeats} thread CPU times, by LIGGGHTS' modify_timing.")
 
 
 if __name__ == "__main__":
