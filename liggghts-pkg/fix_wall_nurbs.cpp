@@ -103,8 +103,9 @@ void FixWallNurbs::describe() {
   geometry_io::GeometryFile surface{opened_.units, {}, {}};
   if (const auto& faces = structure_.surface().faces)
     surface.patches.emplace_back(geometry_io::mesh_of(liggghts_pkg::triangles_of(*faces)));
-  for (nurbs::Surface& patch : nurbs::split(loop_.wall().surface(), exchange_.positions()))
-    surface.patches.emplace_back(std::move(patch));
+  else
+    for (nurbs::Surface& patch : nurbs::split(loop_.wall().surface(), exchange_.positions()))
+      surface.patches.emplace_back(std::move(patch));
   messages_.print(fmt::format("surface '{}' of '{}'\n{}", options_.surface, options_.file,
                               geometry_io::summary(surface)));
 }

@@ -29,6 +29,7 @@ Wall::Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange
 }
 
 void Wall::weld_across(const std::vector<Vector3>& periods) {
+  if (structure_.surface().faces) return;  // their tracker sees seams itself
   std::vector<Vector3> in_frame;
   for (const Vector3& period : periods) in_frame.push_back(structure_.frame().rotation.transpose() * period);
   constexpr double kTolerance = 1e-9;
