@@ -67,6 +67,7 @@ void Minima::add_of_face(const Piece& piece) {
 void Minima::add_of_edge(int use) {
   const EdgeUse& visiting = surface_.uses[use];
   const Edge& edge = surface_.edges[visiting.edge];
+  if (!edge.line() && std::abs(edge.axis.dot(d_ - edge.origin)) >= reach_) return;  // spares a root
   const EdgeFoot foot(edge, d_);
   if (foot.distance2() >= reach_ * reach_ || foot.beyond() > slack_) return;
   const int u = use_at_wedge(surface_, edge, foot.q);
