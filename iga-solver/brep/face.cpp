@@ -116,8 +116,8 @@ Projection Face::project(const Vector3& d) const {
             at.rho - R,
             std::max(R * turned, out_of(at.z, low[1], high[1])),
             at.rho <= nothing};
-  const double cos = std::cos(r), sin = std::sin(r);
   if (kind == Kind::cone) {
+    const double cos = std::cos(r), sin = std::sin(r);
     const double length = at.z * cos + at.rho * sin;
     return {{angle, length},
             frame.origin + length * (cos * frame.z + sin * e),
@@ -133,7 +133,7 @@ Projection Face::project(const Vector3& d) const {
   const Vector3 normal = from <= kOnAxis * tube ? Vector3(std::cos(second) * e + std::sin(second) * frame.z)
                                                 : Vector3((off / from) * e + (at.z / from) * frame.z);
   const Vector3 point = frame.origin + ring * e + tube * normal;
-  const double radius = ring + tube * std::cos(second);
+  const double radius = ring + tube * (from <= kOnAxis * tube ? std::cos(second) : off / from);
   return {{angle, second},
           point,
           normal,

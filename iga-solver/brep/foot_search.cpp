@@ -8,7 +8,8 @@
 
 namespace brep {
 
-constexpr int kFew = 3;  // pieces, which are looked at without a filter
+constexpr int kFew = 3;     // pieces, which are looked at without a filter
+constexpr int kChunk = 32;  // pieces that are filtered together
 
 FootSearch::FootSearch(const Surface& surface)
     : surface_(surface), tree_(surface), neighbours_(surface), same_point_(10.0 * surface.slack) {}
@@ -23,22 +24,16 @@ void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) 
 }
 
 int FootSearch::activate(const Vector3& d, double reach, const int* pieces, int count, int* active) const {
-  const PieceTree::Query query = tree_.query(d, reach);
-  int kept = 0;
-  for (int k = 0; k < count; ++k)
-    if (tree_.may_be_near(query, pieces[k]) && distance_of_piece(surface_, pieces[k], d) <= reach)
-      active[kept++] = pieces[k];
-  return kept;
+  const int maybe = tree_.filter(tree_.query(d, reach), pieces, count, active);
+  const auto far = [&](int p) { return distance_of_piece(surface_, p, d) > reach; };
+  return static_cast<int>(std::remove_if(active, active + maybe, far) - active);
 }
 
 double FootSearch::nearest(const Vector3& d, double reach, const int* pieces, int count) const {
-  PieceTree::Query query = tree_.query(d, reach);
-  for (int k = 0; k < count; ++k) {
-    if (!tree_.may_be_near(query, pieces[k])) continue;
-    const double distance = distance_of_piece(surface_, pieces[k], d);
-    if (distance >= reach) continue;
-    reach = distance;
-    query = tree_.query(d, reach);
+  for (int k = 0; k < count; k += kChunk) {
+    int kept[kChunk];
+    const int maybe = tree_.filter(tree_.query(d, reach), pieces + k, std::min(kChunk, count - k), kept);
+    for (int i = 0; i < maybe; ++i) reach = std::min(reach, distance_of_piece(surface_, kept[i], d));
   }
   return reach;
 }
@@ -50,8 +45,11 @@ void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int cou
     for (int k = 0; k < count; ++k) minima.add_of_piece(pieces[k]);
   } else {
     const PieceTree::Query query = tree_.query(d, reach);
-    for (int k = 0; k < count; ++k)
-      if (tree_.may_be_near(query, pieces[k])) minima.add_of_piece(pieces[k]);
+    for (int k = 0; k < count; k += kChunk) {
+      int kept[kChunk];
+      const int maybe = tree_.filter(query, pieces + k, std::min(kChunk, count - k), kept);
+      for (int i = 0; i < maybe; ++i) minima.add_of_piece(kept[i]);
+    }
   }
   minima.finish(neighbours_);
 }

@@ -10,40 +10,41 @@
 
 namespace brep {
 
+constexpr double kTie = 1e-12;  // sides of a triangle that are nearest alike, relative to a square
+
 void Minima::add_of_triangle(const Piece& piece) {
-  const Vector3& n = surface_.faces[piece.face].frame.z;
-  const Vector3* corner[3];
-  Vector3 from[3];
-  for (int i = 0; i < 3; ++i) {
-    corner[i] = &surface_.vertices[piece.vertex[i]].point;
-    from[i] = d_ - *corner[i];
-  }
-  const double height = n.dot(d_ - surface_.faces[piece.face].frame.origin);
+  const Frame& plane = surface_.faces[piece.face].frame;
+  const double height = plane.z.dot(d_ - plane.origin);
   if (std::abs(height) >= reach_) return;
+  const Vector3* corner[3];
+  for (int i = 0; i < 3; ++i) corner[i] = &surface_.vertices[piece.vertex[i]].point;
   double least = reach_ * reach_;
-  int side = -1, vertex = -1;
+  BesideSide beside[3];
   bool inside = true;
   for (int i = 0; i < 3; ++i) {
-    const Vector3 way = *corner[(i + 1) % 3] - *corner[i];
-    const double in = n.cross(way).dot(from[i]), length2 = way.squaredNorm();
+    const Vector3 from = d_ - *corner[i], way = *corner[(i + 1) % 3] - *corner[i];
+    const double in = plane.z.cross(way).dot(from);
     if (in >= 0.0) continue;
+    const double length2 = way.squaredNorm();
     inside = inside && in * in <= slack_ * slack_ * length2;
-    const double along = from[i].dot(way);
-    const bool before = along <= 0.0, behind = along >= length2;
-    const double distance2 = before   ? from[i].squaredNorm()
-                             : behind ? from[(i + 1) % 3].squaredNorm()
-                                      : from[i].squaredNorm() - along * along / length2;
-    if (distance2 >= least) continue;
-    least = distance2;
-    side = i;
-    vertex = before ? piece.vertex[i] : behind ? piece.vertex[(i + 1) % 3] : -1;
+    beside[i] = {from.dot(way), length2, 0.0};
+    beside[i].distance2 = (from - std::clamp(beside[i].along / length2, 0.0, 1.0) * way).squaredNorm();
+    least = std::min(least, beside[i].distance2);
   }
   if (inside)
-    add(piece.face, height < 0.0 ? -1 : 1, FootStatus::interior, piece.face, d_ - height * n);
-  else if (vertex >= 0)
-    add_of_vertex(vertex, piece.face);
-  else if (side >= 0 && piece.edge[side] >= 0)
-    add_of_edge(piece.edge[side]);
+    return add(piece.face, height < 0.0 ? -1 : 1, FootStatus::interior, piece.face, d_ - height * plane.z);
+  for (int i = 0; i < 3; ++i)
+    if (beside[i].distance2 < reach_ * reach_ && beside[i].distance2 <= least * (1.0 + kTie))
+      add_of_side(piece, i, beside[i]);
+}
+
+// Near an end to within round-off, the edge and the vertex: the pieces round it may see it as either.
+void Minima::add_of_side(const Piece& piece, int i, const BesideSide& beside) {
+  const double leeway = slack_ * std::sqrt(beside.length2);
+  const double before = -beside.along, behind = beside.along - beside.length2;
+  if (piece.edge[i] >= 0 && before <= leeway && behind <= leeway) add_of_edge(piece.edge[i]);
+  if (before >= -leeway) add_of_vertex(piece.vertex[i], piece.face);
+  if (behind >= -leeway) add_of_vertex(piece.vertex[(i + 1) % 3], piece.face);
 }
 
 void Minima::add_of_face(const Piece& piece) {
@@ -66,6 +67,7 @@ void Minima::add_of_face(const Piece& piece) {
 void Minima::add_of_edge(int use) {
   const EdgeUse& visiting = surface_.uses[use];
   const Edge& edge = surface_.edges[visiting.edge];
+  if (!edge.line() && std::abs(edge.axis.dot(d_ - edge.origin)) >= reach_) return;  // spares a root
   const EdgeFoot foot(edge, d_);
   if (foot.distance2() >= reach_ * reach_ || foot.beyond() > slack_) return;
   const int u = use_at_wedge(surface_, edge, foot.q);

@@ -2,6 +2,7 @@
 // All feet of one point, piece by piece: the rules of the README.
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "brep/foot.h"
@@ -33,7 +34,13 @@ class Minima {
   void finish(const SmoothNeighbours& neighbours);
 
  private:
+  // Where d is beside a side of a triangle whose plane across it d is beyond.
+  struct BesideSide {
+    double along, length2;  // of the side's length, times that
+    double distance2 = std::numeric_limits<double>::infinity();
+  };
   void add_of_triangle(const Piece& piece);
+  void add_of_side(const Piece& piece, int i, const BesideSide& beside);
   void add_of_face(const Piece& piece);
   void add_of_edge(int use);
   void add_in_wedge(const EdgeUse& visiting, const EdgeUse& use, const EdgeUse& next, const double* q,

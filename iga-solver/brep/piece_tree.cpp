@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kLeaf = 4;            // pieces at most
 constexpr float kRoundOff = 5e-7f;  // of sums of three products, and of points in units, with room
+constexpr float kRoundOffOfSquares = 4.0f * kRoundOff;
 
 float rounded_up(double x) { return static_cast<float>(x) * (1.0f + kRoundOff) + kRoundOff; }
 
@@ -91,7 +92,7 @@ void PieceTree::build(const Boxes& boxes, int first, int count) {
 
 PieceTree::Query PieceTree::query(const Vector3& d, double reach) const {
   const search::BoxUnits::Point point = units_.point(d);
-  const float limit = std::sqrt(units_.limit(point, reach)) * (1.0f + kRoundOff) + kRoundOff;
+  const float limit = std::sqrt(units_.limit(point, reach)) * (1.0f + kRoundOffOfSquares) + kRoundOff;
   return {{point.d[0], point.d[1], point.d[2]}, limit};
 }
 
@@ -116,7 +117,7 @@ void PieceTree::near(const Query& query, std::vector<int>& pieces) const {
       continue;
     }
     for (int i = node.first; i < node.first + node.count; ++i)
-      if (may_be_near(query, order_[i])) pieces.push_back(order_[i]);
+      if (may_be_near(query, discs_[order_[i]])) pieces.push_back(order_[i]);
   }
 }
 

@@ -25,19 +25,33 @@ class PieceTree {
 
   /// Appends the pieces that may be within reach, in no order.
   void near(const Query& query, std::vector<int>& pieces) const;
-  /// False if the piece is farther than the reach for certain.
-  bool may_be_near(const Query& query, int piece) const {
-    const Disc& disc = discs_[piece];
-    const float x = query.d[0] - disc.centre[0], y = query.d[1] - disc.centre[1],
-                z = query.d[2] - disc.centre[2], far = query.reach + disc.radius;
-    const float height = x * disc.normal[0] + y * disc.normal[1] + z * disc.normal[2];
-    return std::abs(height) <= query.reach + disc.thickness && x * x + y * y + z * z <= far * far;
+  /// Those of these pieces that are not farther than the reach for certain.  Returns their number; `kept` has
+  /// room for `count`, and may be `pieces`.
+  int filter(const Query& query, const int* pieces, int count, int* kept) const {
+    int number = 0;
+    for (int k = 0; k < count; ++k) {  // without branches: which pieces are near follows no pattern
+      const int piece = pieces[k];
+      kept[number] = piece;
+      number += static_cast<int>(may_be_near(query, discs_[piece]));
+    }
+    return number;
   }
 
  private:
-  struct Disc {
+  struct alignas(32) Disc {
     float centre[3], radius, normal[3], thickness;  // half; no normal: a ball
   };
+  // At a height h over the disc's plane, d is within `far` of it if it is within R + sqrt(far^2 - h^2) of its
+  // axis; here without the root.
+  static bool may_be_near(const Query& query, const Disc& disc) {
+    const float x = query.d[0] - disc.centre[0], y = query.d[1] - disc.centre[1],
+                z = query.d[2] - disc.centre[2];
+    const float far = query.reach + disc.thickness, R2 = disc.radius * disc.radius;
+    const float h = x * disc.normal[0] + y * disc.normal[1] + z * disc.normal[2];
+    const float left = far * far - h * h, beyond = x * x + y * y + z * z - R2 - far * far;
+    return static_cast<int>(left >= 0.0f) &
+           (static_cast<int>(beyond <= 0.0f) | static_cast<int>(beyond * beyond <= 4.0f * R2 * left));
+  }
   struct Node {
     float low[3], high[3];
     std::int32_t first;  // of the pieces in a leaf, or the second child; the first child follows its parent

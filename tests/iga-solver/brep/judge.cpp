@@ -112,6 +112,7 @@ struct Into {
       }
     for (int k = 0; k <= kDirections; ++k) {
       const double s = static_cast<double>(k) / kDirections, angle = kPi * s;
+      if (half && (k == 0 || k == kDirections)) continue;  // along the side p is the nearest, never by more
       if (half)
         directions.emplace_back(std::cos(angle) * first + std::sin(angle) * second);
       else
@@ -160,7 +161,7 @@ void Judge::add_at(const Vector3& p, const std::vector<int>& triangles, const Ve
   for (int fan = 0; fan < count; ++fan) {
     if (fans.label[fan] != fan) continue;
     // In which region is w: what is met first on the way to a direction inside a triangle of the fan.
-    const Vector3 target = into[fan].directions[kDirections / 2], start = w.normalized();
+    const Vector3 target = into[fan].directions[into[fan].directions.size() / 2], start = w.normalized();
     Vector3 onward = target - target.dot(start) * start;
     if (onward.norm() < 1e-12) onward = start.unitOrthogonal();
     onward.normalize();

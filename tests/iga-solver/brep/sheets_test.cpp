@@ -144,5 +144,13 @@ TEST(Trials, RandomWallsAgreeWithTheJudge) {
   EXPECT_GT(count, 20000);
 }
 
+// Exactly over a vertex of a face: the pieces beside see an edge or its end, as round-off has it.
+TEST(Trials, ATieOfAnEdgeAndItsVertexLosesNoFoot) {
+  trials::Trial trial(1, 530);
+  ASSERT_EQ(trial.try_sheets(), "");
+  long count = 0;
+  for (int k = 0; k <= 238; ++k) EXPECT_EQ(trial.try_point(k, count), "") << "point " << k;
+}
+
 }  // namespace
 }  // namespace brep

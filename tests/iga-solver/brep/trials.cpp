@@ -98,8 +98,8 @@ std::string Trial::compare(const Vector3& d, double reach, const std::vector<Foo
   const auto lenient = judge_.minima(d, reach + 1e-9, 1e-9);
   for (size_t k = 0; k < feet.size(); ++k) {
     const Foot& foot = feet[k];
-    if (foot.distance < 1e-9)
-      return {};  // on the wall: on which side of it, and in which region, round-off says
+    if (foot.distance < 1e-9 + 2.0 * uneven_)
+      return {};  // on the wall: on which side of it, and in which region, round-off or unevenness says
     if (std::none_of(lenient.begin(), lenient.end(), [&](const auto& m) { return same(foot, m); }) &&
         !minimum_beside(d, reach, foot))
       return fmt::format("foot {} on sheet {} (status {}) is no minimum", text(foot.point), foot.sheet,
