@@ -85,6 +85,32 @@ TEST(FaceWall, RollsOverEdgesWithoutAJump) {
   }
 }
 
+// On triangles much smaller than the ball, which comes to others while its list still holds: one contact
+// throughout, with the force of a plane.
+TEST(FaceWall, GoesOnToOtherTriangles) {
+  constexpr int kSquares = 40;
+  constexpr double kSize = 0.02, kSmall = 0.1, kOverlap = 1e-3;
+  nurbs::NodalVectors points(3, (kSquares + 1) * (kSquares + 1));
+  std::vector<int> triangles;
+  for (int j = 0; j <= kSquares; ++j)
+    for (int i = 0; i <= kSquares; ++i) {
+      const int a = i + (kSquares + 1) * j, b = a + kSquares + 1;
+      points.col(a) = Vector3(kSize * i, kSize * j, 0.0);
+      if (i < kSquares && j < kSquares) triangles.insert(triangles.end(), {a, a + 1, b, a + 1, b + 1, b});
+    }
+  RigidSurface wall = wall_of(points, triangles);
+  Balls balls(2, 1);
+  balls.add({0.3, 0.41, kSmall - kOverlap}, kSmall);
+  BallsOnWall scene(wall, balls, 1.0, 1.0);
+  for (int step = 1; step <= 100; ++step) {  // half a skin
+    scene.balls.centre(0)[0] += 1e-3;
+    scene.evaluate();
+    ASSERT_EQ(scene.spring.seen.size(), 1u) << step;
+    EXPECT_NEAR(scene.balls.force(0)[2], kOverlap, 1e-12);
+    EXPECT_EQ(scene.spring.seen[0].history[0], step + 1);
+  }
+}
+
 // In a corner each side has a slot of its own: while the one lasts the other may end and begin anew.
 TEST(FaceWall, BranchesKeepTheirSlots) {
   nurbs::NodalVectors points(3, 6);  // z = 0 for x > 0 and x = 0 for z > 0
