@@ -2,7 +2,10 @@
 // The smallest particle code there is, for tests of contact: arrays, velocity Verlet, a spring.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "coupling/contact/contact_loop.h"
@@ -132,5 +135,21 @@ class BallsOnWall {
   contact::PeriodicBox box_;
   long step_ = 0;
 };
+
+/// Until the first ball, of mass 1, has left again: m x'' = -k x for half a period.
+inline void expect_half_an_oscillation(BallsOnWall& scene, double stiffness, double speed, double dt) {
+  double deepest = 0.0;
+  int steps = 0;
+  do {
+    scene.step();
+    ++steps;
+    ASSERT_LE(scene.loop.contacts().size(), 1u);
+    if (!scene.loop.contacts().empty()) deepest = std::max(deepest, scene.loop.contacts()[0].overlap);
+  } while (scene.balls.velocity(0)[2] < 0.0 || !scene.loop.contacts().empty());
+  const double omega = std::sqrt(stiffness);
+  EXPECT_NEAR(steps * dt, M_PI / omega, 2.0 * dt);
+  EXPECT_NEAR(deepest, speed / omega, 1e-6);
+  EXPECT_NEAR(scene.balls.velocity(0)[2], speed, 1e-4);
+}
 
 }  // namespace test

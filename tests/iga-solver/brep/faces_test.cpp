@@ -9,10 +9,12 @@
 #include "brep/builder.h"
 #include "brep/foot_search.h"
 #include "brep/summary.h"
-#include "trial_walls.h"
+#include "trials.h"
 
 namespace brep {
 namespace {
+
+using trials::feet;
 
 constexpr double kPi = 3.141592653589793;
 
@@ -23,15 +25,6 @@ Face face_of(Kind kind, const Frame& frame, double R, double r, Parameter<2> low
   face.R = R, face.r = r;
   face.low = low, face.high = high;
   return face;
-}
-
-std::vector<Foot> feet(const Surface& surface, const Vector3& d, double reach) {
-  const FootSearch search(surface);
-  std::vector<int> near;
-  std::vector<Foot> found;
-  search.near(d, reach, near);
-  search.feet(d, reach, near.data(), static_cast<int>(near.size()), found);
-  return found;
 }
 
 // Points of a face, its range closed, written from the table in brep/face.h.

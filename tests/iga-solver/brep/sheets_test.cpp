@@ -8,25 +8,17 @@
 #include "brep/builder.h"
 #include "brep/foot_search.h"
 #include "brep/summary.h"
-#include "trial_walls.h"
 #include "trials.h"
 
 namespace brep {
 namespace {
 
+using trials::feet;
+
 using testing::HasSubstr;
 using trials::Wall;
 
 Surface built(const Wall& wall) { return from_triangles(wall.coordinates(), wall.corners()); }
-
-std::vector<Foot> feet(const Surface& surface, const Vector3& d, double reach) {
-  const FootSearch search(surface);
-  std::vector<int> near;
-  std::vector<Foot> found;
-  search.near(d, reach, near);
-  search.feet(d, reach, near.data(), static_cast<int>(near.size()), found);
-  return found;
-}
 
 TEST(Sheets, ACubeHasOneOutsideAndSixInside) {
   const Surface cube = built(trials::cube());

@@ -35,4 +35,14 @@ class Trial {
   std::vector<Foot> feet_, from_active_;
 };
 
+/// All feet of d, found without a list.
+inline std::vector<Foot> feet(const Surface& surface, const Vector3& d, double reach) {
+  const FootSearch search(surface);
+  std::vector<int> near;
+  std::vector<Foot> found;
+  search.near(d, reach, near);
+  search.feet(d, reach, near.data(), static_cast<int>(near.size()), found);
+  return found;
+}
+
 }  // namespace brep::trials
