@@ -93,9 +93,8 @@ ControlPointDigest digest(const structure::Halo& halo, const NodalVectors& refer
   ControlPointDigest digest{static_cast<std::size_t>(halo.sum(static_cast<double>(X.size()))),
                             halo.total(checksum), Vector3::Zero(), Vector3::Zero()};
   for (int c = 0; c < 3; ++c) {
-    constexpr double kNone = -std::numeric_limits<double>::infinity();
-    digest.lower[c] = -halo.largest(X.cols() > 0 ? -X.row(c).minCoeff() : kNone);
-    digest.upper[c] = halo.largest(X.cols() > 0 ? X.row(c).maxCoeff() : kNone);
+    digest.lower[c] = -halo.largest(X.cols() > 0 ? -X.row(c).minCoeff() : structure::kNowhere);
+    digest.upper[c] = halo.largest(X.cols() > 0 ? X.row(c).maxCoeff() : structure::kNowhere);
   }
   return digest;
 }

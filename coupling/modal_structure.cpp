@@ -18,7 +18,6 @@ using structure::ModalForces;
 
 namespace {
 
-constexpr double kTwoPi = 6.283185307179586;
 /// A contact is felt as by the whole solid, within 2 %, if it lasts so many periods of the highest mode
 /// (test_modal_body.py).
 constexpr double kPeriods = 4.0;
@@ -51,8 +50,8 @@ ModalStructure::ModalStructure(std::unique_ptr<IgaStructure> body, const ModalBa
       rows_(all_shapes(basis)),
       surface_nodes_(surface().map.columns_of(nodes())),
       viscosity_(damping.stiffness),
-      lowest_(std::sqrt(basis.eigenvalues.minCoeff()) / kTwoPi),
-      highest_(std::sqrt(basis.eigenvalues.maxCoeff()) / kTwoPi),
+      lowest_(std::sqrt(basis.eigenvalues.minCoeff()) / nurbs::kTwoPi),
+      highest_(std::sqrt(basis.eigenvalues.maxCoeff()) / nurbs::kTwoPi),
       motion_(system_of(basis, damping)),
       dead_loads_(VectorXd::Zero(rows_.shape_count())),
       F_(NodalVectors::Zero(3, solver_.positions().cols())),

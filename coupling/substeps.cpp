@@ -18,7 +18,6 @@ namespace {
 using structure::damped_stable_step;
 using Fast = SubstepOptions::Fast;
 
-constexpr double kPi = 3.14159265358979323846;
 /// `auto` takes the stiffest contact to last 100 particle steps: Hertz' force is stiffest at the largest
 /// overlap, where sqrt(k/m) is 4.03 over the duration of the contact.
 constexpr double kContactAngle = 4.03 / 100.0;
@@ -27,7 +26,7 @@ constexpr double kContactAngle = 4.03 / 100.0;
 constexpr double kDamping = 0.02;
 
 /// How much later the displacements are that internal forces belong to, with a fast structure.
-double lead(double dt) { return 2.0 * kDamping / kPi * dt; }
+double lead(double dt) { return 2.0 * kDamping / nurbs::kPi * dt; }
 
 }  // namespace
 

@@ -13,9 +13,9 @@ namespace coupling {
 namespace {
 
 /// The state of the two masses for each of four unit states: one column each.
-class Motion {
+class CoupledMotion {
  public:
-  explicit Motion(const TwoMasses& problem) : problem_(problem) {}
+  explicit CoupledMotion(const TwoMasses& problem) : problem_(problem) {}
 
   void kick_by_contact(double h) { kick_by_contact(h, h); }
   void kick_by_contact(double h_mode, double h_particle) {
@@ -50,7 +50,7 @@ double largest_on_grid(const TwoMasses& highest, int modes, int contacts, Growth
 }  // namespace
 
 Eigen::Matrix4d particle_substeps_matrix(const TwoMasses& problem, double dt, int count) {
-  Motion motion(problem);
+  CoupledMotion motion(problem);
   motion.kick_by_internal_force(0.5 * count * dt);
   for (int i = 0; i < count; ++i) {
     motion.kick_by_contact(0.5 * dt);
@@ -64,7 +64,7 @@ Eigen::Matrix4d particle_substeps_matrix(const TwoMasses& problem, double dt, in
 
 Eigen::Matrix4d structure_substeps_matrix(const TwoMasses& problem, double dt, int count, double lead,
                                           bool spread) {
-  Motion motion(problem);
+  CoupledMotion motion(problem);
   const double inner = dt / count, share = spread ? spread_share(problem.mode, inner, count) : 1.0;
   for (int i = 0; i < count; ++i) {
     motion.kick_by_internal_force(inner, lead);

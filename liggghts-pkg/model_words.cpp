@@ -76,7 +76,7 @@ struct ModelKeyword {
   ModelKind kind;
   std::string ModelChoice::*choice;
 };
-const ModelKeyword kKeywords[] = {
+const ModelKeyword kModelKeywords[] = {
     {"model", "model M", ModelKind::normal, &ModelChoice::normal},
     {"tangential", "tangential T", ModelKind::tangential, &ModelChoice::tangential},
     {"cohesion", "cohesion C", ModelKind::cohesion, &ModelChoice::cohesion},
@@ -84,14 +84,14 @@ const ModelKeyword kKeywords[] = {
     {"surface", "surface default", ModelKind::surface, &ModelChoice::surface},
 };
 
-std::vector<std::string> words_of(const std::vector<ModelWord>& models) {
+std::vector<std::string> names_of(const std::vector<ModelWord>& models) {
   std::vector<std::string> words;
   for (const ModelWord& model : models) words.push_back(model.word);
   return words;
 }
 
 void check_known(const ModelKeyword& keyword, const std::string& given) {
-  const std::vector<std::string> known = words_of(known_models(keyword.kind));
+  const std::vector<std::string> known = names_of(known_models(keyword.kind));
   if (std::find(known.begin(), known.end(), given) != known.end()) return;
   throw std::invalid_argument(unknown_word(
       fmt::format("{} model", keyword.kind == ModelKind::normal ? "contact" : keyword.word), given, known));
@@ -127,7 +127,7 @@ const std::vector<ModelWord>& known_models(ModelKind kind) {
 ModelChoice model_choice(std::int64_t hash) {
   ModelChoice models;
   int shift = 0;
-  for (const ModelKeyword& keyword : kKeywords) {
+  for (const ModelKeyword& keyword : kModelKeywords) {
     const int id = (hash >> shift) & 63;
     shift += 6;
     const std::vector<ModelWord>& known = known_models(keyword.kind);
@@ -165,21 +165,21 @@ std::string why_refused(const ModelChoice& models, bool is_wall) {
   return "";
 }
 
-std::vector<std::string> model_syntax() { return syntax_of(kKeywords); }
+std::vector<std::string> model_syntax() { return syntax_of(kModelKeywords); }
 
 std::size_t check_contact_models(const std::vector<std::string>& words) {
-  if (words.empty() || words[0] != kKeywords[0].word)
+  if (words.empty() || words[0] != kModelKeywords[0].word)
     throw std::invalid_argument(
         fmt::format("first comes '{}', expected 'model NORMAL' (such as 'model hertz')",
                     words.empty() ? "nothing" : words[0]));
   ModelChoice models;
   std::size_t next = 0;
-  for (const ModelKeyword& keyword : kKeywords) {
+  for (const ModelKeyword& keyword : kModelKeywords) {
     if (next == words.size() || words[next] != keyword.word) continue;
     if (next + 1 == words.size())
       throw std::invalid_argument(fmt::format("'{}' is the last word, expected one of {} after it",
                                               keyword.word,
-                                              fmt::join(words_of(known_models(keyword.kind)), ", ")));
+                                              fmt::join(names_of(known_models(keyword.kind)), ", ")));
     check_known(keyword, words[next + 1]);
     models.*keyword.choice = words[next + 1];
     next += 2;

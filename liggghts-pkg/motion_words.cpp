@@ -19,8 +19,6 @@ using coupling::ServoSettings;
 using coupling::Value;
 using nurbs::Vector3;
 
-[[noreturn]] void fail(const std::string& message) { throw std::invalid_argument(message); }
-
 Vector3 keyed_vector(WordReader& words, const std::string& keyword) {
   words.expect(keyword);
   return words.vector(keyword);

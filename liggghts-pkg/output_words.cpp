@@ -9,11 +9,11 @@ namespace {
 
 using Selection = coupling::SurfaceFields::Selection;
 
-struct Field {
+struct OutputField {
   const char* word;
   bool Selection::*selected;
 };
-constexpr Field kFields[] = {
+constexpr OutputField kOutputFields[] = {
     {"pressure", &Selection::pressure},
     {"shear", &Selection::shear},
     {"contact_count", &Selection::contact_count},
@@ -21,17 +21,17 @@ constexpr Field kFields[] = {
 };
 
 Selection read_fields(WordReader& words) {
-  const std::vector<std::string> known = words_of(kFields);
+  const std::vector<std::string> known = words_of(kOutputFields);
   Selection selection{false, false, false, false};
   do {
-    selection.*find_row(kFields, words.value_of("output fields", known))->selected = true;
+    selection.*find_row(kOutputFields, words.value_of("output fields", known))->selected = true;
   } while (words.next_is_one_of(known));
   return selection;
 }
 
 }  // namespace
 
-std::vector<std::string> output_fields() { return words_of(kFields); }
+std::vector<std::string> output_fields() { return words_of(kOutputFields); }
 
 OutputOptions read_output(WordReader& words) {
   OutputOptions options;

@@ -19,7 +19,7 @@ Placement read_rotation(WordReader& words) {
   return geometry_io::turning(axis, words.number("rotate angle"));
 }
 
-constexpr Keyword<Placement(WordReader&)> kWords[] = {
+constexpr Keyword<Placement(WordReader&)> kPlacementKeywords[] = {
     {"scale", "scale S",
      [](WordReader& words) {
        return geometry_io::scaling(nurbs::Vector3::Constant(words.number_above_zero("scale")));
@@ -31,12 +31,12 @@ constexpr Keyword<Placement(WordReader&)> kWords[] = {
 }  // namespace
 
 const std::vector<std::string>& placement_keywords() {
-  static const std::vector<std::string> keywords = words_of(kWords);
+  static const std::vector<std::string> keywords = words_of(kPlacementKeywords);
   return keywords;
 }
 
 void read_placement(const std::string& keyword, WordReader& words, std::optional<Placement>& placement) {
-  const Placement next = find_row(kWords, keyword)->read(words);
+  const Placement next = find_row(kPlacementKeywords, keyword)->read(words);
   placement = placement ? next * *placement : next;
 }
 

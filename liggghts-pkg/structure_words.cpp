@@ -11,7 +11,7 @@ namespace {
 
 using coupling::SolidOptions;
 
-constexpr Keyword<void(WordReader&, SolidOptions&)> kWords[] = {
+constexpr Keyword<void(WordReader&, SolidOptions&)> kSolidKeywords[] = {
     {"state", "state STATE",
      [](WordReader& words, SolidOptions& solid) {
        if (!solid.state.empty()) throw std::invalid_argument("'state' is given twice, expected once");
@@ -29,7 +29,8 @@ constexpr Keyword<void(WordReader&, SolidOptions&)> kWords[] = {
 
 coupling::SolidOptions read_solid(WordReader& words) {
   SolidOptions solid;
-  while (words.next_is_one_of(words_of(kWords))) find_row(kWords, words.keyword())->read(words, solid);
+  while (words.next_is_one_of(words_of(kSolidKeywords)))
+    find_row(kSolidKeywords, words.keyword())->read(words, solid);
   return solid;
 }
 
@@ -41,7 +42,7 @@ std::optional<PluginWords> read_plugin(WordReader& words) {
 }
 
 std::vector<std::string> solid_syntax() {
-  std::vector<std::string> lines = syntax_of(kWords);
+  std::vector<std::string> lines = syntax_of(kSolidKeywords);
   lines.emplace_back("structure plugin LIBRARY MODEL");
   return lines;
 }

@@ -17,11 +17,9 @@ namespace liggghts_pkg {
 
 namespace {
 
-const std::vector<std::string> kModelKeywords = {"model", "tangential", "cohesion", "rolling_friction"};
+const std::vector<std::string> kModelStarts = {"model", "tangential", "cohesion", "rolling_friction"};
 
 constexpr int kMostContacts = 256, kMostTwinCells = 100;
-
-[[noreturn]] void fail(const std::string& message) { throw std::invalid_argument(message); }
 
 bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
@@ -94,7 +92,7 @@ void read_drive_of_wall(const Reading& in) {
 
 void read_placement_of_wall(const Reading& in) { read_placement(in.keyword, in.words, in.options.placement); }
 
-constexpr Keyword<void(const Reading&)> kKeywords[] = {
+constexpr Keyword<void(const Reading&)> kWallKeywords[] = {
     {"type", "type T",
      [](const Reading& in) {
        in.options.atom_type = in.words.count(in.keyword, "the number of an atom type");
@@ -144,12 +142,13 @@ constexpr Keyword<void(const Reading&)> kKeywords[] = {
 };
 
 [[noreturn]] void fail_unknown(const std::string& word) {
-  if (contains(kModelKeywords, word))
+  if (contains(kModelStarts, word))
     fail(fmt::format(
         "'{}' stands too late: model, tangential, cohesion, rolling_friction and the surface model come "
         "first, in this order",
         word));
-  fail(unknown_word("keyword", word, words_of(kKeywords)) + ", or a contact model's setting with on or off");
+  fail(unknown_word("keyword", word, words_of(kWallKeywords)) +
+       ", or a contact model's setting with on or off");
 }
 
 void check_complete(const WallNurbsOptions& options) {
@@ -187,7 +186,7 @@ void check_complete(const WallNurbsOptions& options) {
 }  // namespace
 
 std::vector<std::string> wall_nurbs_syntax() {
-  std::vector<std::string> lines = syntax_of(kKeywords);
+  std::vector<std::string> lines = syntax_of(kWallKeywords);
   for (const std::string& line : solid_syntax()) lines.push_back(line);
   return lines;
 }
@@ -206,7 +205,7 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const V
       fail(fmt::format("keyword '{}' is given twice, expected once", keyword));
     seen.push_back(keyword);
 
-    if (const auto* row = find_row(kKeywords, keyword)) {
+    if (const auto* row = find_row(kWallKeywords, keyword)) {
       row->read({keyword, reader, variable, options});
     } else if (reader.next_is_one_of({"on", "off"})) {
       options.setting_words.push_back(keyword);

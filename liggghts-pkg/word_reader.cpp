@@ -16,8 +16,6 @@ namespace liggghts_pkg {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& message) { throw std::invalid_argument(message); }
-
 /// The whole of the word as a number, if it is one.
 template <typename Number>
 std::optional<Number> parsed(const std::string& word) {
@@ -31,6 +29,8 @@ std::optional<Number> parsed(const std::string& word) {
 }
 
 }  // namespace
+
+void fail(const std::string& message) { throw std::invalid_argument(message); }
 
 bool WordReader::next_is_one_of(const std::vector<std::string>& choices) const {
   return !at_end() && std::find(choices.begin(), choices.end(), words_[next_]) != choices.end();

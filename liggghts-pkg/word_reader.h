@@ -14,6 +14,9 @@ namespace liggghts_pkg {
 /// The value of a deck's variable, from its name without "v_"; throws std::invalid_argument if there is none.
 using VariableLookup = std::function<coupling::Value(const std::string& name)>;
 
+/// Throws std::invalid_argument: what was given and what was expected, of one wall.
+[[noreturn]] void fail(const std::string& message);
+
 /// Every member throws std::invalid_argument that says what was given and what was expected.
 class WordReader {
  public:

@@ -17,8 +17,6 @@ namespace coupling {
 
 using nurbs::Vector3;
 
-constexpr double kTwoPi = 2.0 * EIGEN_PI;
-
 /// Time [time] since the motion began -> velocity [length/time].
 struct Translation {
   std::function<Vector3(double time)> velocity;
@@ -46,7 +44,7 @@ struct Harmonics {
   double rate(double time) const {
     double sum = 0.0;
     for (std::size_t j = 0; j < amplitude.size(); ++j) {
-      const double omega = kTwoPi / period[j];
+      const double omega = nurbs::kTwoPi / period[j];
       sum -= amplitude[j] * omega * std::sin(omega * time + phase[j]);
     }
     return sum;
@@ -65,13 +63,13 @@ inline Motion linear_variable(const Value& vx, const Value& vy, const Value& vz)
 
 /// x(t) = amplitude sin(2 pi t / period)
 inline Motion wiggle(const Vector3& amplitude, double period) {
-  const double omega = kTwoPi / period;
+  const double omega = nurbs::kTwoPi / period;
   return {"wiggle",
           Translation{[=](double time) -> Vector3 { return omega * std::cos(omega * time) * amplitude; }}};
 }
 
 inline Motion rotate(const Vector3& centre, const Vector3& axis, double period) {
-  const double omega = kTwoPi / period;
+  const double omega = nurbs::kTwoPi / period;
   return {"rotate", Rotation{centre, axis.normalized(), [=](double) { return omega; }, true}};
 }
 
@@ -82,7 +80,7 @@ inline Motion rotate_variable(const Vector3& centre, const Vector3& axis, const 
 /// angle(t) = amplitude sin(2 pi t / period), amplitude in degrees
 // The centres of riggle and vibrot stay where they are in space, as in LIGGGHTS 3.8.
 inline Motion riggle(const Vector3& centre, const Vector3& axis, double period, double amplitude_in_degrees) {
-  const double omega = kTwoPi / period, amplitude = amplitude_in_degrees * EIGEN_PI / 180.0;
+  const double omega = nurbs::kTwoPi / period, amplitude = amplitude_in_degrees * EIGEN_PI / 180.0;
   return {"riggle", Rotation{centre, axis.normalized(),
                              [=](double time) { return amplitude * omega * std::cos(omega * time); }, false}};
 }

@@ -23,9 +23,9 @@ using Fields = std::optional<io::FieldSeries>;
 bool prints(Talk talk) { return talk != Talk::errors_only; }
 
 /// Histories and fields, a row and a state for each result.
-class Output {
+class RestOutput {
  public:
-  Output(const io::ModelFile& model, Fields& fields) : model_(model), fields_(fields) {
+  RestOutput(const io::ModelFile& model, Fields& fields) : model_(model), fields_(fields) {
     if (!model.output) return;
     history_.emplace(*model.output, model.geometry.units, model.probes, model.named_supports());
   }
@@ -86,7 +86,7 @@ void take(ExplicitSolver& solver, const NodalVectors& u, double load_factor) {
 
 void run(const io::StaticAnalysis& analysis, const io::ModelFile& model, Fields& fields,
          ExplicitSolver& solver, Talk talk) {
-  Output output(model, fields);
+  RestOutput output(model, fields);
   const auto loads = [&](const NodalVectors& u, NodalVectors& f) { solver.external_forces(u, kFullTime, f); };
   structure::StaticEquilibrium statics(solver.body(), solver.supports(), loads, analysis.options,
                                        solver.springs());
@@ -109,7 +109,7 @@ void run(const io::StaticAnalysis& analysis, const io::ModelFile& model, Fields&
 
 void run(const io::RelaxAnalysis& analysis, const io::ModelFile& model, Fields& fields,
          ExplicitSolver& solver, Talk talk) {
-  Output output(model, fields);
+  RestOutput output(model, fields);
   constexpr double kStepFactor = 0.9;  // of the stable step
   const double stable = solver.stable_time_step();
   solver.set_time_step(model.time && model.time->step ? *model.time->step : kStepFactor * stable);

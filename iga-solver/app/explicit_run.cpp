@@ -61,9 +61,9 @@ io::SavedState read_saved(const io::ModelFile& model) {
 }
 
 /// What a run writes, each when it is due.
-class Output {
+class RunOutput {
  public:
-  explicit Output(const io::ModelFile& model) : model_(model) {
+  explicit RunOutput(const io::ModelFile& model) : model_(model) {
     if (!model.output) return;
     history_.emplace(MPI_COMM_WORLD, *model.output, model.geometry.units, model.probes,
                      model.named_supports());
@@ -113,7 +113,7 @@ void begin(ExplicitSolver& solver, const std::optional<Moment>& continued, const
 }
 
 void make_steps(ExplicitSolver& solver, const Steps& steps, const io::ModelFile& model, Talk talk,
-                Output& output) {
+                RunOutput& output) {
   constexpr long kReports = 20;
   const structure::NodalVectors no_forces = structure::NodalVectors::Zero(3, solver.body().node_count());
   output.write_if_due(solver, false);
@@ -178,7 +178,7 @@ void run_in_time(const SolveOptions& options, io::ModelFile& model) {
     throw std::runtime_error(
         fmt::format("{}: no end time, expected 'time: {{end: T}}' in it or --end T", model.file));
   std::optional<Moment> continued;
-  Output output(model);  // while the control points are there
+  RunOutput output(model);  // while the control points are there
   std::optional<io::SavedState> saved;
   if (options.continues) saved = read_saved(model);
   ExplicitSolver solver = io::build_solver(model, parallel::cut_among(MPI_COMM_WORLD));

@@ -8,8 +8,6 @@
 namespace brep {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
-
 struct Interval {
   double low, high;
 };
@@ -26,9 +24,9 @@ Interval wave(double p, double q, double low, double high) {
   const double start = p * std::cos(low) + q * std::sin(low), end = p * std::cos(high) + q * std::sin(high);
   const double height = std::hypot(p, q), crest = std::atan2(q, p);
   Interval values{std::min(start, end), std::max(start, end)};
-  const auto met = [&](double t) { return t + kTurn * std::ceil((low - t) / kTurn) <= high; };
+  const auto met = [&](double t) { return t + nurbs::kTwoPi * std::ceil((low - t) / nurbs::kTwoPi) <= high; };
   if (met(crest)) values.high = height;
-  if (met(crest + 0.5 * kTurn)) values.low = -height;
+  if (met(crest + 0.5 * nurbs::kTwoPi)) values.low = -height;
   return values;
 }
 

@@ -10,8 +10,6 @@
 namespace brep {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
-
 // The corners of a wall before they are sorted by vertices.
 class Corners {
  public:
@@ -90,7 +88,7 @@ class Corners {
         of_side_[side_number(p, k)] = static_cast<int>(found_.size());
         if (k == i) break;
       }
-      const double turned = before == (i + 3) % 4 ? 0.5 * kPi : shape.high[0] - shape.low[0];
+      const double turned = before == (i + 3) % 4 ? 0.5 * nurbs::kPi : shape.high[0] - shape.low[0];
       add(face, vertex, ray(borders.use[i], vertex), ray(borders.use[before], vertex), turned);
     }
   }
@@ -99,7 +97,7 @@ class Corners {
     Corner corner{};
     corner.face = face;
     corner.ray[0] = first, corner.ray[1] = second;
-    corner.reflex = turned >= kPi - 1e-6;
+    corner.reflex = turned >= nurbs::kPi - 1e-6;
     found_.push_back({corner, vertex});
   }
 

@@ -7,8 +7,6 @@
 
 namespace brep {
 
-constexpr double kTurn = 6.283185307179586;
-
 Vector3 Edge::point(double t) const {
   if (line()) return origin + t * axis;
   return origin + R * (std::cos(t) * radial + std::sin(t) * axis.cross(radial));
@@ -33,8 +31,8 @@ double EdgeFoot::beyond() const {
   if (edge_.line()) return std::max(-along_, along_ - edge_.length);
   if (edge_.closed() || on_axis()) return 0.0;
   double angle = std::atan2(y_, x_);
-  if (angle < 0.0) angle += kTurn;
-  return edge_.R * std::min(angle - edge_.length, kTurn - angle);
+  if (angle < 0.0) angle += nurbs::kTwoPi;
+  return edge_.R * std::min(angle - edge_.length, nurbs::kTwoPi - angle);
 }
 
 Vector3 EdgeFoot::point() const {

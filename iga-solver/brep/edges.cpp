@@ -10,7 +10,6 @@
 namespace brep {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
 constexpr double kFlat = 1e-9;  // [rad]
 
 int& use_of_side(Surface& surface, int side) {
@@ -51,14 +50,14 @@ Meeting meeting(const Surface& surface, const Edge& edge, int number, int piece_
   meeting.use.side = side.normal.dot(m[0] * v - m[1] * u) > 0.0 ? 1 : -1;
   meeting.piece_side = piece_side;
   meeting.angle = std::atan2(m[1], m[0]);
-  if (meeting.angle < 0.0) meeting.angle += 2.0 * kPi;
+  if (meeting.angle < 0.0) meeting.angle += 2.0 * nurbs::kPi;
   return meeting;
 }
 
 Wedge wedge_of(double angle, double edge_angle) {
-  if (angle > kPi + edge_angle) return Wedge::convex;
-  if (angle < kPi - edge_angle) return Wedge::concave;
-  return angle < kPi - kFlat ? Wedge::smooth_concave : Wedge::smooth;
+  if (angle > nurbs::kPi + edge_angle) return Wedge::convex;
+  if (angle < nurbs::kPi - edge_angle) return Wedge::concave;
+  return angle < nurbs::kPi - kFlat ? Wedge::smooth_concave : Wedge::smooth;
 }
 
 void make_sheets(Surface& surface) {
@@ -91,9 +90,9 @@ void make_edges(Surface& surface, const MatchedSides& matched) {
     std::stable_sort(met.begin(), met.end(),
                      [](const Meeting& a, const Meeting& b) { return a.angle < b.angle; });
     for (size_t k = 0; k < met.size(); ++k) {
-      const double next = k + 1 < met.size() ? met[k + 1].angle : met[0].angle + 2.0 * kPi;
+      const double next = k + 1 < met.size() ? met[k + 1].angle : met[0].angle + 2.0 * nurbs::kPi;
       met[k].use.wedge = wedge_of(next - met[k].angle, surface.edge_angle);
-      met[k].use.wide = next - met[k].angle >= kPi;
+      met[k].use.wide = next - met[k].angle >= nurbs::kPi;
       use_of_side(surface, met[k].piece_side) = static_cast<int>(surface.uses.size());
       surface.uses.push_back(met[k].use);
     }

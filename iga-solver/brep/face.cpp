@@ -8,7 +8,6 @@
 namespace brep {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
 constexpr double kOnAxis = 1e-12;  // of the radius: no direction is better than another
 
 // A point in cylindrical coordinates of a frame.
@@ -28,10 +27,10 @@ struct Cylindrical {
 
 // The turn of an angle that is in the range, or nearest to it; and how far it is outside.
 double into_range(double& angle, double low, double high) {
-  angle += kTurn * std::ceil((low - angle) / kTurn);
+  angle += nurbs::kTwoPi * std::ceil((low - angle) / nurbs::kTwoPi);
   if (angle <= high) return 0.0;
-  const double above = angle - high, below = low + kTurn - angle;
-  if (below < above) angle -= kTurn;
+  const double above = angle - high, below = low + nurbs::kTwoPi - angle;
+  if (below < above) angle -= nurbs::kTwoPi;
   return std::min(above, below);
 }
 
@@ -159,7 +158,7 @@ double Face::distance_of_whole(const Vector3& d) const {
 
 bool Face::whole_turn(int direction) const {
   const bool angle = kind == Kind::torus || (kind != Kind::plane && direction == 0);
-  return angle && high[direction] - low[direction] >= kTurn * (1.0 - 1e-9);
+  return angle && high[direction] - low[direction] >= nurbs::kTwoPi * (1.0 - 1e-9);
 }
 
 }  // namespace brep

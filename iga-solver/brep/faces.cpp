@@ -17,7 +17,6 @@
 namespace brep {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
 constexpr double kSame = 1e-9;  // of the size
 
 const char* name(Kind kind) {
@@ -27,7 +26,7 @@ const char* name(Kind kind) {
 
 // What is wrong with a face, or an empty text.
 std::string fault(const Face& face) {
-  const double turn = kTurn * (1.0 + 1e-9);
+  const double turn = nurbs::kTwoPi * (1.0 + 1e-9);
   for (int i = 0; i < 2; ++i) {
     const bool angle = face.kind == Kind::torus || (face.kind != Kind::plane && i == 0);
     const double range = face.high[i] - face.low[i];
@@ -37,12 +36,13 @@ std::string fault(const Face& face) {
   }
   if (face.kind != Kind::plane && face.kind != Kind::cone && !(face.R > 0.0))
     return fmt::format("radius {}, expected more than 0", face.R);
-  if (face.kind == Kind::cone && !(face.r > 0.0 && face.r < 0.25 * kTurn && face.low[1] >= 0.0))
+  if (face.kind == Kind::cone && !(face.r > 0.0 && face.r < 0.25 * nurbs::kTwoPi && face.low[1] >= 0.0))
     return fmt::format("half an angle of {} rad from length {} on, expected one in (0, pi/2) and 0 or more",
                        face.r, face.low[1]);
   if (face.kind == Kind::torus && !(face.r > 0.0 && face.r < face.R))
     return fmt::format("radius {} of its tube, expected one in (0, {})", face.r, face.R);
-  if (face.kind == Kind::sphere && !(face.low[1] >= -0.251 * kTurn && face.high[1] <= 0.251 * kTurn))
+  if (face.kind == Kind::sphere &&
+      !(face.low[1] >= -0.251 * nurbs::kTwoPi && face.high[1] <= 0.251 * nurbs::kTwoPi))
     return fmt::format("latitudes {} to {}, expected some from -pi/2 to pi/2", face.low[1], face.high[1]);
   return {};
 }

@@ -7,13 +7,12 @@
 namespace brep {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;
 constexpr double kPole = 1e-9;  // [rad], or of the longest length
 
 bool pole(const Face& face, int end) {
   const double at = end == 0 ? face.low[1] : face.high[1];
   if (face.kind == Kind::cone) return end == 0 && at <= kPole * face.high[1];
-  return face.kind == Kind::sphere && std::abs(std::abs(at) - 0.25 * kTurn) <= kPole;
+  return face.kind == Kind::sphere && std::abs(std::abs(at) - 0.25 * nurbs::kTwoPi) <= kPole;
 }
 
 Parameter<2> middle_of_side(const Face& face, int i) {

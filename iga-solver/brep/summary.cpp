@@ -7,7 +7,6 @@
 namespace brep {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
 constexpr double kNearSmooth = 1e-3;  // [rad]
 
 // Area, and the flux of x / 3 through it, which sums up to the volume.
@@ -66,7 +65,7 @@ void count_edge(const Surface& surface, const Edge& edge, Summary& summary) {
     const double turned = std::abs(
         std::atan2(use[0].conormal[0] * use[1].conormal[1] - use[0].conormal[1] * use[1].conormal[0],
                    use[0].conormal[0] * use[1].conormal[0] + use[0].conormal[1] * use[1].conormal[1]));
-    ++(kPi - turned <= kNearSmooth ? summary.smooth : summary.near_smooth);
+    ++(nurbs::kPi - turned <= kNearSmooth ? summary.smooth : summary.near_smooth);
     return;
   }
   const Wedge seen = use[0].side > 0 ? use[0].wedge : use[1].wedge;

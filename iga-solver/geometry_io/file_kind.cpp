@@ -81,7 +81,7 @@ bool is_binary(string_view bytes) {
                      [](unsigned char c) { return c < '\t' || (c > '\r' && c < ' '); });
 }
 
-struct Kind {
+struct KnownKind {
   FileKind kind;
   const char* name;
   bool (*is)(string_view bytes);
@@ -98,7 +98,7 @@ constexpr const char* kStlFile =
     "file in YAML takes them by 'geometry: {file: NAME}'";
 
 // In the order in which they are asked.
-const Kind kKinds[] = {
+const KnownKind kKinds[] = {
     {FileKind::hdf5,
      "an HDF5 file",
      is_hdf5,
@@ -128,10 +128,10 @@ std::string extension_of(const std::string& path) {
 }  // namespace
 
 FileKind kind_of_file(const std::string& path, const std::string& bytes) {
-  for (const Kind& kind : kKinds)
+  for (const KnownKind& kind : kKinds)
     if (kind.is(bytes)) return kind.kind;
   const std::string extension = extension_of(path);
-  for (const Kind& kind : kKinds)
+  for (const KnownKind& kind : kKinds)
     for (const char* one : kind.extensions)
       if (extension == one) return kind.kind;
   return FileKind::text;
@@ -142,7 +142,7 @@ bool is_binary_stl(string_view bytes) {
 }
 
 void refuse_kind(FileKind given, const std::string& path) {
-  for (const Kind& kind : kKinds)
+  for (const KnownKind& kind : kKinds)
     if (kind.kind == given) throw InputError(one_line(path + ": is " + kind.name + ", " + kind.way_out));
   throw InputError(one_line(path + ": is text"));
 }

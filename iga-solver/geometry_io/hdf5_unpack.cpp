@@ -10,8 +10,6 @@
 namespace geometry_io {
 namespace {
 
-using Kind = Hdf5Value::Kind;
-
 constexpr hsize_t kMaxValues = std::numeric_limits<int>::max();
 constexpr int kDepth = 3;  // /patches/0/knots_xi
 
@@ -80,9 +78,9 @@ Hdf5Value read_value(const Source& source) {
   value.shape = shape_of(source.space);
   const H5T_class_t type = H5Tget_class(source.type);
   if (type == H5T_INTEGER || type == H5T_FLOAT)
-    value.kind = type == H5T_INTEGER ? Kind::integers : Kind::numbers;
+    value.kind = type == H5T_INTEGER ? Hdf5Value::Kind::integers : Hdf5Value::Kind::numbers;
   else if (type == H5T_STRING)
-    value.kind = Kind::texts;
+    value.kind = Hdf5Value::Kind::texts;
   else
     return value;
 
@@ -94,9 +92,9 @@ Hdf5Value read_value(const Source& source) {
   }
   if (source.count() == 0) return value;
   const bool variable = H5Tis_variable_str(source.type) > 0;
-  const bool good = value.kind != Kind::texts ? read_numbers(source, value)
-                    : variable                ? read_variable_texts(source, value)
-                                              : read_fixed_texts(source, value);
+  const bool good = value.kind != Hdf5Value::Kind::texts ? read_numbers(source, value)
+                    : variable                           ? read_variable_texts(source, value)
+                                                         : read_fixed_texts(source, value);
   if (good) return value;
   value.numbers.clear();
   value.texts.clear();

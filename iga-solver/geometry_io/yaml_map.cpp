@@ -17,11 +17,11 @@
 namespace geometry_io {
 namespace {
 
-using Kind = YamlNode::Kind;
+using NodeKind = YamlNode::Kind;
 
 std::string described(const YamlNode& node) {
-  if (node.kind == Kind::list) return fmt::format("a list of {}", node.children.size());
-  if (node.kind == Kind::map) return "a mapping";
+  if (node.kind == NodeKind::list) return fmt::format("a list of {}", node.children.size());
+  if (node.kind == NodeKind::map) return "a mapping";
   return node.scalar.empty() ? "empty" : shown(node.scalar);
 }
 
@@ -92,7 +92,7 @@ YamlMap YamlMap::parse(const std::string& text, const std::string& file) {
 YamlMap::YamlMap(std::shared_ptr<const YamlTree> tree, const YamlNode& node, std::string file,
                  std::string where)
     : tree_(std::move(tree)), node_(&node), file_(std::move(file)), where_(std::move(where)) {
-  if (node.kind != Kind::map)
+  if (node.kind != NodeKind::map)
     fail_at(node, fmt::format("{} is {}, expected a mapping (key: value)", where_.empty() ? "file" : where_,
                               described(node)));
 }
@@ -100,7 +100,7 @@ YamlMap::YamlMap(std::shared_ptr<const YamlTree> tree, const YamlNode& node, std
 const YamlNode* YamlMap::find(const std::string& key) const {
   const std::vector<const YamlNode*>& entries = node_->children;
   for (size_t i = 0; i < entries.size(); i += 2)
-    if (entries[i]->kind == Kind::scalar && entries[i]->scalar == key) return entries[i + 1];
+    if (entries[i]->kind == NodeKind::scalar && entries[i]->scalar == key) return entries[i + 1];
   return nullptr;
 }
 
@@ -113,8 +113,8 @@ void YamlMap::allow_only(const std::vector<std::string>& allowed) const {
 }
 
 bool YamlMap::has(const std::string& key) const { return find(key) != nullptr; }
-bool YamlMap::is_map(const std::string& key) const { return value(key).kind == Kind::map; }
-bool YamlMap::is_list(const std::string& key) const { return value(key).kind == Kind::list; }
+bool YamlMap::is_map(const std::string& key) const { return value(key).kind == NodeKind::map; }
+bool YamlMap::is_list(const std::string& key) const { return value(key).kind == NodeKind::list; }
 
 std::vector<std::string> YamlMap::keys() const {
   std::vector<std::string> keys;
@@ -132,14 +132,14 @@ int YamlMap::line() const { return node_->line; }
 
 int YamlMap::line_of(const std::string& key) const {
   for (size_t i = 0; i < node_->children.size(); i += 2)
-    if (node_->children[i]->kind == Kind::scalar && node_->children[i]->scalar == key)
+    if (node_->children[i]->kind == NodeKind::scalar && node_->children[i]->scalar == key)
       return node_->children[i]->line;
   return line();
 }
 
 YamlMap YamlMap::map(const std::string& key, const char* example) const {
   const YamlNode& node = value(key);
-  if (example && node.kind != Kind::map)
+  if (example && node.kind != NodeKind::map)
     fail(key, fmt::format("{} is {}, expected a mapping: {}", name_of(key), described(node), example));
   return YamlMap(tree_, node, file_, name_of(key));
 }
@@ -200,7 +200,7 @@ std::vector<std::vector<double>> YamlMap::table(const std::string& key) const {
   std::vector<std::vector<double>> rows;
   for (const YamlNode* row : list(key, "lists of numbers")) {
     const std::string name = fmt::format("{}[{}]", name_of(key), rows.size());
-    if (row->kind != Kind::list)
+    if (row->kind != NodeKind::list)
       fail_at(*row, fmt::format("{} is {}, expected a list of numbers", name, described(*row)));
     rows.push_back(read_numbers(row->children, name));
   }
@@ -215,22 +215,22 @@ const YamlNode& YamlMap::value(const std::string& key) const {
   const YamlNode* const found = find(key);
   if (found == nullptr) fail_at(*node_, fmt::format("{} is missing", name_of(key)));
   // An empty node stands where the parser noticed, often a line late: complain here, at the key.
-  if (found->kind == Kind::empty) fail(key, fmt::format("{} is empty, expected a value", name_of(key)));
+  if (found->kind == NodeKind::empty) fail(key, fmt::format("{} is empty, expected a value", name_of(key)));
   return *found;
 }
 
 const std::vector<const YamlNode*>& YamlMap::list(const std::string& key, const std::string& of) const {
   const YamlNode& found = value(key);
   const std::string as =
-      found.kind == Kind::scalar && of == "words" ? fmt::format(": [{}]", described(found)) : "";
-  if (found.kind != Kind::list)
+      found.kind == NodeKind::scalar && of == "words" ? fmt::format(": [{}]", described(found)) : "";
+  if (found.kind != NodeKind::list)
     fail(key, fmt::format("{} is {}, expected a list of {}{}", name_of(key), described(found), of, as));
   return found.children;
 }
 
 double YamlMap::read_number(const YamlNode& node, const std::string& name, Range range) const {
   double x = 0.0;
-  if (node.kind != Kind::scalar || !parse_number(node.scalar, x) || !contains(range, x))
+  if (node.kind != NodeKind::scalar || !parse_number(node.scalar, x) || !contains(range, x))
     fail_at(node, fmt::format("{} is {}, expected {}", name, described(node), described(range)));
   if (!nurbs::is_usable(x))
     fail_at(node, fmt::format("{} is {}, expected a number of at most {} in size", name, described(node),
@@ -240,14 +240,14 @@ double YamlMap::read_number(const YamlNode& node, const std::string& name, Range
 
 int YamlMap::read_integer(const YamlNode& node, const std::string& name, int low, int high) const {
   int i = 0;
-  if (node.kind != Kind::scalar || !parse_number(node.scalar, i) || i < low || i > high)
+  if (node.kind != NodeKind::scalar || !parse_number(node.scalar, i) || i < low || i > high)
     fail_at(node,
             fmt::format("{} is {}, expected a whole number from {} to {}", name, described(node), low, high));
   return i;
 }
 
 std::string YamlMap::read_word(const YamlNode& node, const std::string& name) const {
-  if (node.kind != Kind::scalar || node.scalar.empty())
+  if (node.kind != NodeKind::scalar || node.scalar.empty())
     fail_at(node, fmt::format("{} is {}, expected a word", name, described(node)));
   return node.scalar;
 }

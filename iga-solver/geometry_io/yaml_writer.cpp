@@ -29,7 +29,7 @@ std::string quoted_name(const std::string& name) {
 }
 
 template <int Dim>
-std::string patch_text(const nurbs::Patch<Dim>& patch) {
+std::string patch_yaml(const nurbs::Patch<Dim>& patch) {
   std::vector<int> degrees;
   std::vector<std::string> knots;
   for (const nurbs::KnotVector& direction : patch.space.knots()) {
@@ -49,7 +49,7 @@ std::string patch_text(const nurbs::Patch<Dim>& patch) {
 std::string write_yaml(const GeometryFile& geometry) {
   std::string text = fmt::format("units: {}\ngeometry:\n  patches:\n", units_name(geometry.units));
   for (const Shape& shape : geometry.patches)
-    visit_nurbs(shape, [&](const auto& patch) { text += patch_text(patch); });
+    visit_nurbs(shape, [&](const auto& patch) { text += patch_yaml(patch); });
   if (!geometry.surfaces.empty()) text += "surfaces:\n";
   for (const auto& [name, pieces] : geometry.surfaces)
     text += fmt::format("  {}: {}\n", quoted_name(name), list(surface_words(pieces, geometry.patches)));

@@ -14,6 +14,8 @@ using Vector3 = Eigen::Vector3d;
 /// Geometry owns topology; these are always passed in, so reference, current and trial share one topology.
 using NodalVectors = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
+constexpr double kPi = EIGEN_PI, kTwoPi = 2.0 * kPi;
+
 constexpr int power(int base, int exponent) { return exponent == 0 ? 1 : base * power(base, exponent - 1); }
 
 }  // namespace nurbs

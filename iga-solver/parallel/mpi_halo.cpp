@@ -102,9 +102,8 @@ void MpiHalo::sum(structure::ExactSum* sums, std::size_t count) const {
 }
 
 double MpiHalo::largest(double value) const {
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
   const bool is_none = std::isnan(value);
-  double both[2] = {is_none ? kNone : value, is_none ? 1.0 : 0.0};
+  double both[2] = {is_none ? structure::kNowhere : value, is_none ? 1.0 : 0.0};
   MPI_Allreduce(MPI_IN_PLACE, both, 2, MPI_DOUBLE, MPI_MAX, comm_);
   return both[1] > 0.0 ? std::numeric_limits<double>::quiet_NaN() : both[0];
 }

@@ -11,7 +11,7 @@
 namespace search {
 namespace {
 
-constexpr double kEqual = 1.0 + 1e-14;  // of distances: round-off
+constexpr double kNotFarther = 1.0 + 1e-14;  // of distances: round-off
 
 }  // namespace
 
@@ -85,7 +85,7 @@ bool MultiPatchProjector::leads_on(const Vector3& d, const Foot& foot, Foot& bey
     beyond = warm(d, start, image);
     beyond.iterations += foot.iterations;
     const bool left = !surface_.on_side(beyond.at(), border.side);
-    if (left && beyond.distance <= foot.distance * kEqual) return true;
+    if (left && beyond.distance <= foot.distance * kNotFarther) return true;
   }
   return false;
 }
@@ -108,7 +108,8 @@ bool MultiPatchProjector::leads_off_pole(const Vector3& d, const Foot& foot, int
       if (corner.patch == foot.patch && at_pole == pole) return false;  // all round
       beyond = warm(d, corner, image);
       beyond.iterations += foot.iterations;
-      if (!surface_.on_side(beyond.at(), at_pole) && beyond.distance <= foot.distance * kEqual) return true;
+      if (!surface_.on_side(beyond.at(), at_pole) && beyond.distance <= foot.distance * kNotFarther)
+        return true;
       if (surface_.border(corner.patch, at_pole).kind != nurbs::Border::pole) break;
       through = border.side ^ 1;
     }

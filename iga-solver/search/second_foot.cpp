@@ -12,12 +12,12 @@
 namespace search {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 constexpr int kSamples = 4;  // per direction of an element
 
 // Of the control points of a derivative.
 struct Hull {
-  Vector4 low = Vector4::Constant(kInfinity), high = Vector4::Constant(-kInfinity);
+  Vector4 low = Vector4::Constant(kUnbounded), high = Vector4::Constant(-kUnbounded);
   void add(const Vector4& x) {
     low = low.min(x);
     high = high.max(x);
@@ -236,7 +236,7 @@ void SecondFoot::sample(int element, Shape& shape) const {
   shape.sampled = true;
   shape.centre = centre.point;
   shape.normal = centre.normal;
-  shape.least = kInfinity, shape.greatest = -kInfinity;
+  shape.least = kUnbounded, shape.greatest = -kUnbounded;
   for (int j = 0; j < kSamples; ++j)
     for (int i = 0; i < kSamples; ++i) {
       const Parameter<2> xi{sample_of(space_.knots(0), e[0], i), sample_of(space_.knots(1), e[1], j)};
@@ -254,7 +254,7 @@ Box SecondFoot::side_box(const Indices<2>& element, int side) const {
   space_.element_control_points(space_.element_index(element), indices);
   const int rows[2] = {space_.degree(0) + 1, space_.degree(1) + 1};
   const int i = side / 2, fixed = side % 2 == 1 ? rows[i] - 1 : 0;
-  Box box{Vector3::Constant(kInfinity), Vector3::Constant(-kInfinity)};
+  Box box{Vector3::Constant(kUnbounded), Vector3::Constant(-kUnbounded)};
   for (int along = 0; along < rows[1 - i]; ++along) {
     const int a = i == 0 ? fixed + rows[0] * along : along + rows[0] * fixed;
     const Vector3 point = control_points_.col(indices[a]);

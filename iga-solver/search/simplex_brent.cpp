@@ -21,7 +21,7 @@ constexpr double kFirstEdge = 0.5;  // of the simplex: one that fits into any pa
 constexpr int kHalvings = 5;        // of the simplex, before Brent takes over
 constexpr double kStep = 1.5e-8;    // difference step: square root of the round-off
 constexpr double kLastStep = 1e-8;  // a sweep so short has squared an error that small
-constexpr int kMaxIterations = 25;
+constexpr int kMostSimplexSteps = 25;
 
 // The squared distance and its half gradient as functions of x, the parameters in elements from the guess.
 class DistanceTo {
@@ -100,7 +100,7 @@ Foot brent_from(const DistanceTo& distance, const Vector2& start) {
   Vector2 x = start;
   int iterations = 0;
   bool converged = false;
-  while (!converged && iterations < kMaxIterations) {
+  while (!converged && iterations < kMostSimplexSteps) {
     const Vector2 before = x;
     ++iterations;
     if (!brent_sweep(distance, kStep, x) || !distance.inside(x)) break;

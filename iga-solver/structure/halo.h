@@ -20,6 +20,9 @@
 
 namespace structure {
 
+/// The value of a part that has none, where the largest of all parts is asked for.
+constexpr double kNowhere = -std::numeric_limits<double>::infinity();
+
 /// This one is of a body in one piece: nothing to tell.
 class Halo {
  public:
@@ -97,9 +100,8 @@ class Halo {
   /// on all parts.  `value` is a number, `id` not negative where it is above -infinity.
   template <class Words>
   std::string words_of_largest(double value, Id id, Words words) const {
-    constexpr double kNone = -std::numeric_limits<double>::infinity();
-    const bool is_largest = largest(value) == value && value > kNone;
-    const double lowest = -largest(is_largest ? -static_cast<double>(id) : kNone);
+    const bool is_largest = largest(value) == value && value > kNowhere;
+    const double lowest = -largest(is_largest ? -static_cast<double>(id) : kNowhere);
     return shared(is_largest && static_cast<double>(id) == lowest ? words() : std::string());
   }
   /// Whether it is so on any part.

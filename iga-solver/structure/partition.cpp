@@ -182,19 +182,6 @@ bool Partition::has_ghosts(int box) const {
   return std::any_of(nodes.begin(), nodes.end(), [&](Id node) { return owner(node) != part_[box]; });
 }
 
-namespace {
-
-/// A share that is told apart.
-struct Share {
-  Id node;
-  int box;
-  bool operator<(const Share& other) const {
-    return node != other.node ? node < other.node : box < other.box;
-  }
-};
-
-}  // namespace
-
 /// What part() works with.
 class PartBuilder {
  public:
@@ -216,6 +203,15 @@ class PartBuilder {
   }
 
  private:
+  /// A share that is told apart.
+  struct Share {
+    Id node;
+    int box;
+    bool operator<(const Share& other) const {
+      return node != other.node ? node < other.node : box < other.box;
+    }
+  };
+
   void take_boxes(int patch, const std::vector<bool>& has_ghosts) {
     const int begin = static_cast<int>(part_.boxes.size()), first = partition_.first_box(patch);
     int border = 0;

@@ -25,12 +25,12 @@ using structure::ExplicitSolver;
 constexpr double kLength = 4.0, kDensity = 2.0;
 const nurbs::Face kTop = nurbs::Face::zeta_plus;
 
-nurbs::Volume block() {
+nurbs::Volume unit_block() {
   const auto knots = [](int n) { return nurbs::KnotVector::uniform(2, n); };
   return nurbs::box({0, 0, 0}, {kLength, 1, 1}, {knots(4), knots(1), knots(1)});
 }
 
-structure::NodeSet held_end() { return structure::nodes_on(block().space, {nurbs::Face::xi_minus}); }
+structure::NodeSet held_end() { return structure::nodes_on(unit_block().space, {nurbs::Face::xi_minus}); }
 
 structure::Supports clamped() {
   structure::Supports clamp;
@@ -41,7 +41,7 @@ structure::Supports clamped() {
 /// A bar along x of a soft solid, clamped at xi- unless it is free or somebody moves it there.
 ExplicitSolver bar(const structure::Supports& supports = clamped()) {
   auto material = std::make_shared<structure::LinearElastic>(100.0, 0.3, kDensity);
-  return {std::make_unique<structure::Solid>(block(), material), supports};
+  return {std::make_unique<structure::Solid>(unit_block(), material), supports};
 }
 
 std::unique_ptr<IgaStructure> whole(ExplicitSolver solver) {

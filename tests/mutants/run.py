@@ -65,7 +65,8 @@ def configure() -> None:
     if (BUILD / "build.ninja").exists():
         return
     launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache", "-DCMAKE_C_COMPILER_LAUNCHER=ccache"]
-    command = ["cmake", "--preset", "release", *(launcher if shutil.which("ccache") else [])]
+    # Each file by itself: a fault costs the compilation of one.
+    command = ["cmake", "--preset", "release", "-DCMAKE_UNITY_BUILD=OFF", *(launcher if shutil.which("ccache") else [])]
     subprocess.run(command, cwd=TREE, env=environment(), check=True, stdout=subprocess.DEVNULL)
 
 

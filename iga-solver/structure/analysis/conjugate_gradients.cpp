@@ -3,10 +3,6 @@
 
 namespace structure {
 
-namespace {
-double dot(const NodalVectors& a, const NodalVectors& b) { return a.cwiseProduct(b).sum(); }
-}  // namespace
-
 CgResult conjugate_gradients(const Product& A, const Preconditioner& P, const NodalVectors& b,
                              NodalVectors& x, const CgLimits& limits) {
   CgResult result;

@@ -7,6 +7,9 @@
 
 namespace structure {
 
+/// Of all components.
+inline double dot(const NodalVectors& a, const NodalVectors& b) { return a.cwiseProduct(b).sum(); }
+
 struct CgLimits {
   double tolerance;            ///< of |b - A x| / |b|
   int most_products = 10'000;  ///< of A

@@ -171,10 +171,7 @@ std::vector<Mode> further_modes(InverseProduct& inverse, MassProduct& mass, cons
 
 }  // namespace
 
-double Mode::frequency() const {
-  constexpr double kTwoPi = 6.283185307179586;
-  return std::sqrt(std::max(0.0, eigenvalue)) / kTwoPi;
-}
+double Mode::frequency() const { return std::sqrt(std::max(0.0, eigenvalue)) / nurbs::kTwoPi; }
 
 // Lanczos' method from one start sees one mode of several that have the same frequency, as a square plate
 // has: so it is asked again, without what is known, until nothing lower comes.

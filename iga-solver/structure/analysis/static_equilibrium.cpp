@@ -16,8 +16,6 @@ namespace structure {
 
 namespace {
 
-double dot(const NodalVectors& a, const NodalVectors& b) { return a.cwiseProduct(b).sum(); }
-
 void expect_held(const Body& body, const Supports& supports) {
   const std::size_t free = free_rigid_motions(body.reference(), supports).size();
   if (free > 0)

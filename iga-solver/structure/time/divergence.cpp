@@ -11,17 +11,15 @@ namespace structure {
 
 namespace {
 
-constexpr double kNone = -std::numeric_limits<double>::infinity();
-
-/// A node that the part owns, by its column, and how bad it is; kNone if it has none.
+/// A node that the part owns, by its column, and how bad it is; kNowhere if it has none.
 struct Worst {
-  double value = kNone;
+  double value = kNowhere;
   Eigen::Index column = 0;
 };
 
 /// "WORDS at control node 7, undeformed at (1, 2, 3)": what the worst of all parts says.
 std::string at_worst(const LastStep& step, const Worst& worst, const std::string& words) {
-  const Id id = worst.value > kNone ? step.halo.node_id(worst.column) : -1;
+  const Id id = worst.value > kNowhere ? step.halo.node_id(worst.column) : -1;
   return step.halo.words_of_largest(worst.value, id, [&] {
     return fmt::format("{} at control node {}, undeformed at {}", words, id,
                        text(step.body.reference().col(worst.column)));
@@ -49,7 +47,7 @@ std::string symptom(const LastStep& step) {
   for (const auto& [values, name] :
        {std::pair{&step.displacements, "displacement"}, std::pair{&step.velocities, "velocity"},
         std::pair{&step.accelerations, "acceleration"}})
-    if (const Worst worst = not_finite(step, *values); step.halo.any(worst.value > kNone))
+    if (const Worst worst = not_finite(step, *values); step.halo.any(worst.value > kNowhere))
       return at_worst(step, worst, fmt::format("the {} is not finite", name));
   const Eigen::VectorXd lengths = step.halo.own(step.displacements).colwise().norm();
   const Worst longest = largest_of(lengths);
@@ -80,13 +78,13 @@ std::string folded_element(const LastStep& step) {
     if (ratio < lowest) lowest = ratio, folded = e;
   }
   const Id id = folded < 0 ? -1 : step.halo.element_id(folded);
-  return step.halo.words_of_largest(folded < 0 ? kNone : -lowest, id, [&] {
+  return step.halo.words_of_largest(folded < 0 ? kNowhere : -lowest, id, [&] {
     return fmt::format("element {} ({}) is folded", id, body.describe_element(folded));
   });
 }
 
 std::string likely_cause(const LastStep& step) {
-  if (const Worst worst = not_finite(step, step.F); step.halo.any(worst.value > kNone))
+  if (const Worst worst = not_finite(step, step.F); step.halo.any(worst.value > kNowhere))
     return at_worst(step, worst, "the contact force is not finite");
   const double dt = step.time_step;
   const std::optional<double>& stable = step.stable_time_step;

@@ -21,8 +21,6 @@ struct ElementWatch::Fit {
 
 namespace {
 
-constexpr double kNone = -std::numeric_limits<double>::infinity();
-
 /// Columns of a nodal array about their mean.
 Eigen::Matrix3Xd centred(const NodalVectors& values, const std::vector<int>& nodes) {
   Eigen::Matrix3Xd own = values(Eigen::all, nodes);
@@ -95,7 +93,7 @@ void ElementWatch::look_at_all(const Body& body, const NodalVectors& u) {
 std::string describe_turned(const Body& body, const Halo& halo, const ElementWatch& watch, double time) {
   const std::optional<ElementWatch::Seen>& seen = watch.turned();
   const Id id = seen ? halo.element_id(seen->element) : -1;
-  return halo.words_of_largest(seen ? seen->value : kNone, id, [&] {
+  return halo.words_of_largest(seen ? seen->value : kNowhere, id, [&] {
     return fmt::format(
         "at time {:.6g} element {} ({}) is turned by {:.3g} degrees, and its law {}, of small strain, takes "
         "turning "
@@ -108,7 +106,7 @@ std::string describe_turned(const Body& body, const Halo& halo, const ElementWat
 std::string describe_folded(const Body& body, const Halo& halo, const ElementWatch& watch, double time) {
   const std::optional<ElementWatch::Seen>& seen = watch.folded();
   const Id id = seen ? halo.element_id(seen->element) : -1;
-  return halo.words_of_largest(seen ? -seen->value : kNone, id, [&] {
+  return halo.words_of_largest(seen ? -seen->value : kNowhere, id, [&] {
     return fmt::format(
         "at time {:.6g} element {} ({}) is folded, det F = {:.3g}: loads, contact forces or initial "
         "velocities are too large for the law {}, or the mesh is too coarse there",

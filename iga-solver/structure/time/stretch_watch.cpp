@@ -121,13 +121,13 @@ void StretchWatch::allow_more(double factor) {
 
 std::string describe_too_strained(const Body& body, const Halo& halo, const StretchWatch& watch,
                                   const WatchedStep& step) {
-  constexpr double kNone = -std::numeric_limits<double>::infinity();
   const std::optional<StretchWatch::Edge>& edge = watch.rung();
   const Id id = edge ? halo.node_id(edge->node) : -1;
-  const std::string where = halo.words_of_largest(edge ? std::abs(std::log(edge->stretch)) : kNone, id, [&] {
-    return fmt::format(", {:.3g} times as long at control node {}, undeformed at {}", edge->stretch, id,
-                       text(body.reference().col(edge->node)));
-  });
+  const std::string where =
+      halo.words_of_largest(edge ? std::abs(std::log(edge->stretch)) : kNowhere, id, [&] {
+        return fmt::format(", {:.3g} times as long at control node {}, undeformed at {}", edge->stretch, id,
+                           text(body.reference().col(edge->node)));
+      });
   return fmt::format(
       "at time {:.6g} the solid is strained so much that its stable step, {:.6g} at the start, is {:.6g} and "
       "below the time step {:.6g}{}; use a time step with room for that, or smaller loads",

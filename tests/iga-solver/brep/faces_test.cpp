@@ -16,8 +16,6 @@ namespace {
 
 using trials::feet;
 
-constexpr double kPi = 3.141592653589793;
-
 Face face_of(Kind kind, const Frame& frame, double R, double r, Parameter<2> low, Parameter<2> high) {
   Face face;
   face.kind = kind;
@@ -51,8 +49,8 @@ class Grid {
  public:
   explicit Grid(const Face& face) : face_(face) {
     for (int i = 0; i < 2; ++i)
-      turn_[i] = face.high[i] - face.low[i] > 2.0 * kPi - 1e-6 && (i == 0 || face.kind == Kind::torus) &&
-                 face.kind != Kind::plane;
+      turn_[i] = face.high[i] - face.low[i] > 2.0 * nurbs::kPi - 1e-6 &&
+                 (i == 0 || face.kind == Kind::torus) && face.kind != Kind::plane;
   }
   std::vector<Vector3> minima(const Vector3& d, double reach) const {
     constexpr int n = 40;
@@ -143,18 +141,18 @@ TEST_P(OneFace, HasTheMinimaThatAGridHas) {
   const Frame frame = frame_at({0.3, -0.2, 0.1}, {0.2, 0.5, 1.0}, {1.0, 0.3, 0.0});
   const Face faces[] = {
       face_of(Kind::plane, frame, 0.0, 0.0, {-0.5, 0.2}, {1.0, 1.5}),
-      face_of(Kind::cylinder, frame, 1.0, 0.0, {0.0, -0.5}, {2.0 * kPi, 0.8}),
+      face_of(Kind::cylinder, frame, 1.0, 0.0, {0.0, -0.5}, {2.0 * nurbs::kPi, 0.8}),
       face_of(Kind::cylinder, frame, 1.0, 0.0, {0.4, -0.5}, {2.0, 0.8}),
       face_of(Kind::cylinder, frame, 1.0, 0.0, {0.4, -0.5}, {5.0, 0.8}),
-      face_of(Kind::cone, frame, 0.0, 0.6, {-1.0, 0.0}, {2.0 * kPi - 1.0, 1.2}),
+      face_of(Kind::cone, frame, 0.0, 0.6, {-1.0, 0.0}, {2.0 * nurbs::kPi - 1.0, 1.2}),
       face_of(Kind::cone, frame, 0.0, 0.6, {0.2, 0.3}, {1.7, 1.2}),
       face_of(Kind::cone, frame, 0.0, 1.1, {0.2, 0.0}, {4.0, 1.2}),
-      face_of(Kind::sphere, frame, 1.0, 0.0, {0.0, -0.5 * kPi}, {2.0 * kPi, 0.5 * kPi}),
+      face_of(Kind::sphere, frame, 1.0, 0.0, {0.0, -0.5 * nurbs::kPi}, {2.0 * nurbs::kPi, 0.5 * nurbs::kPi}),
       face_of(Kind::sphere, frame, 1.0, 0.0, {0.3, -0.4}, {2.0, 1.1}),
-      face_of(Kind::sphere, frame, 1.0, 0.0, {0.3, 0.1}, {2.5, 0.5 * kPi}),
-      face_of(Kind::torus, frame, 1.0, 0.4, {0.0, 0.0}, {2.0 * kPi, 2.0 * kPi}),
+      face_of(Kind::sphere, frame, 1.0, 0.0, {0.3, 0.1}, {2.5, 0.5 * nurbs::kPi}),
+      face_of(Kind::torus, frame, 1.0, 0.4, {0.0, 0.0}, {2.0 * nurbs::kPi, 2.0 * nurbs::kPi}),
       face_of(Kind::torus, frame, 1.0, 0.4, {0.3, -1.0}, {2.3, 2.0}),
-      face_of(Kind::torus, frame, 1.0, 0.4, {0.0, 1.0}, {2.0 * kPi, 2.9}),
+      face_of(Kind::torus, frame, 1.0, 0.4, {0.0, 1.0}, {2.0 * nurbs::kPi, 2.9}),
   };
   const Face& face = faces[GetParam()];
   const Surface surface = from_faces({face});
@@ -220,16 +218,17 @@ TEST(Faces, NormalsAndCurvaturesAreThoseOfDifferences) {
 
 TEST(Faces, WhereAllPointsAreEquallyFarThereIsOneFoot) {
   const Frame frame;
-  const Surface pipe = from_faces({face_of(Kind::cylinder, frame, 1.0, 0.0, {0.0, -1.0}, {2.0 * kPi, 1.0})});
+  const Surface pipe =
+      from_faces({face_of(Kind::cylinder, frame, 1.0, 0.0, {0.0, -1.0}, {2.0 * nurbs::kPi, 1.0})});
   EXPECT_EQ(feet(pipe, {0.0, 0.0, 0.2}, 1.5).size(), 1u);
   const Surface part = from_faces({face_of(Kind::cylinder, frame, 1.0, 0.0, {1.0, -1.0}, {2.0, 1.0})});
   EXPECT_EQ(feet(part, {0.0, 0.0, 0.2}, 1.5).size(), 1u);
-  const Surface ball =
-      from_faces({face_of(Kind::sphere, frame, 1.0, 0.0, {0.0, -0.5 * kPi}, {2.0 * kPi, 0.5 * kPi})});
+  const Surface ball = from_faces({face_of(Kind::sphere, frame, 1.0, 0.0, {0.0, -0.5 * nurbs::kPi},
+                                           {2.0 * nurbs::kPi, 0.5 * nurbs::kPi})});
   EXPECT_EQ(feet(ball, {0.0, 0.0, 0.0}, 1.5).size(), 1u);
   EXPECT_EQ(feet(ball, {0.0, 0.0, 0.5}, 1.5).size(), 1u);
   const Surface ring =
-      from_faces({face_of(Kind::torus, frame, 1.0, 0.3, {0.0, 0.0}, {2.0 * kPi, 2.0 * kPi})});
+      from_faces({face_of(Kind::torus, frame, 1.0, 0.3, {0.0, 0.0}, {2.0 * nurbs::kPi, 2.0 * nurbs::kPi})});
   EXPECT_EQ(feet(ring, {1.0, 0.0, 0.0}, 1.5).size(), 1u);
 }
 
@@ -239,7 +238,7 @@ std::vector<Face> rounded_edge(double radius) {
   const Frame side = frame_at({radius, 0.0, radius}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0});
   const Frame axis = frame_at({0.0, 0.0, radius}, {0.0, 1.0, 0.0}, {1.0, 0.0, 0.0});
   return {face_of(Kind::plane, low, 0.0, 0.0, {-1.0, -1.0}, {0.0, 0.0}),
-          face_of(Kind::cylinder, axis, radius, 0.0, {0.0, 0.0}, {0.5 * kPi, 1.0}),
+          face_of(Kind::cylinder, axis, radius, 0.0, {0.0, 0.0}, {0.5 * nurbs::kPi, 1.0}),
           face_of(Kind::plane, side, 0.0, 0.0, {0.0, 0.0}, {1.0, 1.0})};
 }
 
@@ -253,7 +252,7 @@ TEST(Faces, AcrossSmoothEdgesThereIsOneFootThroughout) {
     double last = 0.0;
     for (int k = 0; k <= 4000; ++k) {
       // Along the offset: the plane below, the arc, the plane at the side.
-      const double s = -0.3 + 0.0002 * k, bent = 0.5 * kPi * radius;
+      const double s = -0.3 + 0.0002 * k, bent = 0.5 * nurbs::kPi * radius;
       Vector3 d(s, 0.4, -far), n(0.0, 0.0, -1.0);
       if (s > 0.0) {
         const double angle = std::min(s, bent) / radius;
@@ -276,13 +275,14 @@ TEST(Faces, CirclesOfFacesRoundOneAxisAreOneEdge) {
   Frame tip = turned;
   tip.origin -= 1.0 / std::tan(0.5) * tip.z;
   const Surface silo =
-      from_faces({face_of(Kind::cylinder, frame, 1.0, 0.0, {0.0, 0.0}, {2.0 * kPi, 2.0}),
-                  face_of(Kind::cone, tip, 0.0, 0.5, {0.0, 0.4}, {2.0 * kPi, 1.0 / std::sin(0.5)})});
+      from_faces({face_of(Kind::cylinder, frame, 1.0, 0.0, {0.0, 0.0}, {2.0 * nurbs::kPi, 2.0}),
+                  face_of(Kind::cone, tip, 0.0, 0.5, {0.0, 0.4}, {2.0 * nurbs::kPi, 1.0 / std::sin(0.5)})});
   const Summary summary = summary_of(silo);
   EXPECT_EQ(summary.free, 2);
   EXPECT_EQ(summary.convex, 1);
   EXPECT_EQ(silo.edges.size(), 3u);
-  EXPECT_NEAR(summary.area, 2.0 * kPi * 2.0 + kPi * std::sin(0.5) * (std::pow(1.0 / std::sin(0.5), 2) - 0.16),
+  EXPECT_NEAR(summary.area,
+              2.0 * nurbs::kPi * 2.0 + nurbs::kPi * std::sin(0.5) * (std::pow(1.0 / std::sin(0.5), 2) - 0.16),
               1e-9);
   // Inside, over the concave edge: the cylinder's foot and the cone's.
   const auto found = feet(silo, frame.origin + 0.9 * frame.x + 0.1 * frame.z, 0.3);

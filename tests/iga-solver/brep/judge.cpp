@@ -11,7 +11,6 @@
 namespace brep::trials {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
 constexpr int kDirections = 24;  // looked into, of every triangle
 
 // Labels that spread over pairs until nothing changes.
@@ -45,8 +44,8 @@ Judge::Judge(const Wall& wall, double edge_angle) : wall_(wall), edge_angle_(edg
     of_edge_.push_back(triangles);
     wedges_.push_back(wedges(ends[0], ends[1], triangles));
     for (const Wedge& w : wedges_.back()) {
-      if (w.angle > kPi - edge_angle) sheets.same(w.from, w.to);
-      if (triangles.size() == 2 && std::abs(w.angle - kPi) < 1e-7) planes.same(w.from / 2, w.to / 2);
+      if (w.angle > nurbs::kPi - edge_angle) sheets.same(w.from, w.to);
+      if (triangles.size() == 2 && std::abs(w.angle - nurbs::kPi) < 1e-7) planes.same(w.from / 2, w.to / 2);
     }
   }
   sheets_ = sheets.label;
@@ -70,7 +69,7 @@ std::vector<Judge::Wedge> Judge::wedges(int a, int b, const std::vector<int>& tr
     const Vector3 n = (point(t, 1) - point(t, 0)).cross(point(t, 2) - point(t, 0));
     const bool up = n.dot(axis.cross(m)) > 0.0;
     double angle = std::atan2(m.dot(axis.cross(u)), m.dot(u));
-    if (angle < 0.0) angle += 2.0 * kPi;
+    if (angle < 0.0) angle += 2.0 * nurbs::kPi;
     at.push_back({angle, 2 * t + (up ? 0 : 1), 2 * t + (up ? 1 : 0)});
   }
   std::sort(at.begin(), at.end(), [](const At& x, const At& y) { return x.angle < y.angle; });
@@ -78,7 +77,7 @@ std::vector<Judge::Wedge> Judge::wedges(int a, int b, const std::vector<int>& tr
   for (size_t k = 0; k < at.size(); ++k) {
     const At& next = at[(k + 1) % at.size()];
     found.push_back(
-        {at[k].ahead, next.behind, next.angle - at[k].angle + (k + 1 == at.size() ? 2.0 * kPi : 0.0)});
+        {at[k].ahead, next.behind, next.angle - at[k].angle + (k + 1 == at.size() ? 2.0 * nurbs::kPi : 0.0)});
   }
   return found;
 }
@@ -111,7 +110,7 @@ struct Into {
         second = (corner[(i + 2) % 3] - p).normalized();
       }
     for (int k = 0; k <= kDirections; ++k) {
-      const double s = static_cast<double>(k) / kDirections, angle = kPi * s;
+      const double s = static_cast<double>(k) / kDirections, angle = nurbs::kPi * s;
       if (half && (k == 0 || k == kDirections)) continue;  // along the side p is the nearest, never by more
       if (half)
         directions.emplace_back(std::cos(angle) * first + std::sin(angle) * second);
@@ -155,7 +154,8 @@ void Judge::add_at(const Vector3& p, const std::vector<int>& triangles, const Ve
       const int from = place(wedge.from / 2), to = place(wedge.to / 2);
       fans.same(from, to);
       regions.same(2 * from + wedge.from % 2, 2 * to + wedge.to % 2);
-      if (wedge.angle > kPi - edge_angle_) groups.same(2 * from + wedge.from % 2, 2 * to + wedge.to % 2);
+      if (wedge.angle > nurbs::kPi - edge_angle_)
+        groups.same(2 * from + wedge.from % 2, 2 * to + wedge.to % 2);
     }
 
   for (int fan = 0; fan < count; ++fan) {
@@ -170,7 +170,7 @@ void Judge::add_at(const Vector3& p, const std::vector<int>& triangles, const Ve
     for (int k = 0; k < count; ++k) {
       if (fans.label[k] != fan) continue;
       double angle = std::atan2(-into[k].normal.dot(start), into[k].normal.dot(onward));
-      for (const double turn : {0.0, kPi, 2.0 * kPi}) {
+      for (const double turn : {0.0, nurbs::kPi, 2.0 * nurbs::kPi}) {
         const double at = angle + turn;
         if (at < 0.0 || at >= first) continue;
         if (!into[k].leads_in(std::cos(at) * start + std::sin(at) * onward)) continue;
@@ -244,7 +244,7 @@ bool Judge::over_smooth_edges(const Minimum& a, const Minimum& b) const {
     before = seen.size();
     for (const auto& wedges : wedges_)
       for (const Wedge& w : wedges)
-        if (std::abs(w.angle - kPi) <= edge_angle_) {
+        if (std::abs(w.angle - nurbs::kPi) <= edge_angle_) {
           const int x = planes_[w.from / 2], y = planes_[w.to / 2];
           if (seen.count(x) > 0) seen.insert(y);
           if (seen.count(y) > 0) seen.insert(x);

@@ -70,15 +70,13 @@ class Roller {
   std::vector<Foot> feet_;
 };
 
-constexpr double kPi = 3.141592653589793;
-
 // A jump of the force by F in one of `steps` steps of a way L would be a slope of F * steps / L.
 TEST(Rolling, OverEdgesOfAnyAngleForceIsContinuousAndEnergyKept) {
   for (const double turned : {0.5, 2.0, 5.0, 30.0, 90.0})
     for (const double sign : {-1.0, 1.0}) {
       // Over the edge of two plates, pressed by 5 % of the radius, on the convex and the concave side.
-      const double bend = turned * kPi / 180.0, radius = 0.1;
-      Roller roller(trials::plates({0.0, kPi - sign * bend}), radius);
+      const double bend = turned * nurbs::kPi / 180.0, radius = 0.1;
+      Roller roller(trials::plates({0.0, nurbs::kPi - sign * bend}), radius);
       const Vector3 middle(0.0, 0.95 * radius, 0.5);
       const double end = turned == 90.0 && sign > 0.0 ? 0.05 : -0.05;  // not through the other plate
       const auto way = roller.along(middle + Vector3(0.15, 0.0, 0.0), middle + Vector3(end, 0.0, 0.1), 6000);

@@ -15,7 +15,7 @@ using nurbs::Volume;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-GeometryFile parsed(const std::string& text, Units units = Units::si) {
+GeometryFile parsed_xml(const std::string& text, Units units = Units::si) {
   return read_geometry(
       "wall.xml", [&](const std::string&) { return text; }, units);
 }
@@ -67,7 +67,7 @@ const std::string kCube = R"(<xml units="cgs">
 )";
 
 TEST(Gismo, PatchesInTheOrderOfTheMultiPatch) {
-  const GeometryFile file = parsed(kTwo, Units::cgs);
+  const GeometryFile file = parsed_xml(kTwo, Units::cgs);
   EXPECT_EQ(file.units, Units::cgs);  // G+Smo has none
   ASSERT_EQ(file.patches.size(), 2u);
   const Surface& plate = std::get<Surface>(file.patches[0]);
@@ -88,11 +88,11 @@ TEST(Gismo, WithoutMultiPatchAllGeometriesInTheOrderOfTheFile) {
   std::string text = kTwo;
   const size_t begin = text.find(" <MultiPatch"), end = text.find("</xml>");
   text.erase(begin, end - begin);
-  EXPECT_TRUE(std::get<Surface>(parsed(text).patches[0]).space.rational());
+  EXPECT_TRUE(std::get<Surface>(parsed_xml(text).patches[0]).space.rational());
 }
 
 TEST(Gismo, NamedBoundariesOfVolumesAreSurfaces) {
-  const GeometryFile file = parsed(kCube);
+  const GeometryFile file = parsed_xml(kCube);
   EXPECT_EQ(file.units, Units::cgs);
   ASSERT_EQ(file.surfaces.size(), 2u);
   const auto lid = named_surface(file, "lid", "wall.xml");
@@ -106,7 +106,7 @@ TEST(Gismo, NamedBoundariesOfVolumesAreSurfaces) {
 TEST(Gismo, AVolumeWithoutNamesOffersItsFaces) {
   std::string text = kCube;
   for (size_t at; (at = text.find(" name=")) != std::string::npos;) text.erase(at, text.find('>', at) - at);
-  const GeometryFile file = parsed(text);
+  const GeometryFile file = parsed_xml(text);
   EXPECT_EQ(file.surfaces.size(), 6u);
   EXPECT_EQ(named_surface(file, "xi+", "").front().surface.control_points.row(0).minCoeff(), 2.0);
 }
@@ -127,14 +127,14 @@ geometry:
   EXPECT_THAT(xml, HasSubstr("<boundary>\n0 1\n0 3\n0 4\n1 1\n1 2\n1 4\n</boundary>"));
 }
 
-struct BadFile {
+struct BadXml {
   std::string good, from, to;
   int line;
   std::string message;
 };
 
 TEST(Gismo, SaysWhatWasGivenAndWhatWasExpected) {
-  const std::vector<BadFile> table = {
+  const std::vector<BadXml> table = {
       {kTwo, "TensorNurbs2", "THBSpline2", 3,
        "geometry of type 'THBSpline2', expected TensorBSpline2, TensorBSpline3, TensorNurbs2 or "
        "TensorNurbs3, not trimmed"},
@@ -197,14 +197,14 @@ TEST(Gismo, SaysWhatWasGivenAndWhatWasExpected) {
       {kCube, "\"lid\">1 6", "\"lid\">1 7", 12, "side is 7, expected 1 to 6"},
       {kCube, "\"lid\">1 6", "\"lid\">1", 12, "1 numbers in <boundary>, expected pairs of patch and side"},
   };
-  for (const BadFile& bad : table) {
+  for (const BadXml& bad : table) {
     std::string text = bad.good;
     const size_t at = text.find(bad.from);
     ASSERT_NE(at, std::string::npos) << bad.from;
     text.replace(at, bad.from.size(), bad.to);
     SCOPED_TRACE(bad.from + " -> " + bad.to);
     try {
-      parsed(text);
+      parsed_xml(text);
       ADD_FAILURE() << "accepted";
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), StartsWith("wall.xml:" + std::to_string(bad.line) + ": "));

@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-GeometryFile parsed(const std::string& bytes) {
+GeometryFile parsed_hdf5(const std::string& bytes) {
   return read_geometry("wall.h5", [&](const std::string&) { return bytes; });
 }
 
@@ -57,7 +57,7 @@ struct File {
 };
 
 TEST(Hdf5, ReadsWhatTheSchemaSays) {
-  const GeometryFile file = parsed(File().bytes());
+  const GeometryFile file = parsed_hdf5(File().bytes());
   EXPECT_EQ(file.units, Units::cgs);
   const auto& surface = std::get<nurbs::Surface>(file.patches.at(0));
   EXPECT_EQ(surface.space.weight(1), 0.5);
@@ -69,19 +69,19 @@ TEST(Hdf5, WeightsAndSurfacesMayBeLeftOut) {
   File some;
   some.weights.clear();
   some.wall.clear();
-  const GeometryFile file = parsed(some.bytes());
+  const GeometryFile file = parsed_hdf5(some.bytes());
   EXPECT_FALSE(std::get<nurbs::Surface>(file.patches.at(0)).space.rational());
   EXPECT_TRUE(file.surfaces.empty());
 }
 
-struct BadFile {
+struct BadHdf5 {
   const char* name;
   std::function<void(File&)> spoil;
   std::string message;
 };
 
 TEST(Hdf5, SaysWhatWasGivenAndWhatWasExpected) {
-  const BadFile table[] = {
+  const BadHdf5 table[] = {
       {"no format", [](File& f) { f.format = ""; }, "/: attribute 'format' is missing"},
       {"other format", [](File& f) { f.format = "mesh"; },
        "/: attribute 'format' is 'mesh', expected 'nurbs-geometry'"},
@@ -134,12 +134,12 @@ TEST(Hdf5, SaysWhatWasGivenAndWhatWasExpected) {
       {"no such patch", [](File& f) { f.wall = {"1"}; },
        "/surfaces/wall: patch is '1', expected a number from 0 to 0"},
   };
-  for (const BadFile& bad : table) {
+  for (const BadHdf5& bad : table) {
     SCOPED_TRACE(bad.name);
     File file;
     bad.spoil(file);
     try {
-      parsed(file.bytes());
+      parsed_hdf5(file.bytes());
       ADD_FAILURE() << "accepted";
     } catch (const InputError& error) {
       EXPECT_THAT(error.what(), StartsWith("wall.h5: "));
@@ -161,7 +161,8 @@ TEST(Hdf5, FilesThatAreNoneOrBroken) {
            Broken{good.substr(0, good.size() / 2), "wall.h5: changed since it was written"},
            Broken{good.substr(0, good.size() - 1), "wall.h5: changed since it was written"},
        })
-    EXPECT_THAT([&] { parsed(broken.bytes); }, testing::ThrowsMessage<InputError>(HasSubstr(broken.message)))
+    EXPECT_THAT([&] { parsed_hdf5(broken.bytes); },
+                testing::ThrowsMessage<InputError>(HasSubstr(broken.message)))
         << broken.bytes.size();
 }
 

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 using testing::ThrowsMessage;
 
-GeometryFile parsed(const std::string& bytes, const std::string& file = "part.stl") {
+GeometryFile parsed_stl(const std::string& bytes, const std::string& file = "part.stl") {
   return read_geometry(
       file, [&](const std::string&) { return bytes; }, Units::mm_t_s);
 }
@@ -51,7 +51,7 @@ void expect_cube(const TriangleMesh& cube) {
 }
 
 TEST(Stl, CubeInAscii) {
-  const GeometryFile file = parsed(ascii_stl(cube_facets()));
+  const GeometryFile file = parsed_stl(ascii_stl(cube_facets()));
   expect_cube(mesh(file));
   EXPECT_EQ(file.units, Units::mm_t_s);
   EXPECT_EQ(mesh(file).name, "cube");
@@ -65,7 +65,7 @@ TEST(Stl, CubeInAscii) {
 TEST(Stl, CubeInBinaryWhateverItsHeaderSays) {
   for (const std::string header :
        {"", "solid cube", "solid x\nfacet normal 0 0 0", "endsolid", "\x89HDF\r\n"}) {
-    const GeometryFile file = parsed(binary_stl(cube_facets(), header));
+    const GeometryFile file = parsed_stl(binary_stl(cube_facets(), header));
     expect_cube(mesh(file));
     EXPECT_EQ(mesh(file).name, "");
     EXPECT_TRUE(mesh(file).binary);
@@ -87,12 +87,12 @@ TEST(Stl, LayoutOfAsciiIsFree) {
        {capitals, exponents, replaced(text, "\n", "\r\n"), replaced(text, "\n", "\r"), "\xEF\xBB\xBF" + text,
         "\n\n  " + text + "\n \n", replaced(text, "solid cube", "solid"), "solid\n" + one_line,
         replaced(text, "normal 0 0 0", "normal nan -inf x"), replaced(text, "normal 0 0 0", "normal")})
-    expect_cube(mesh(parsed(layout)));
+    expect_cube(mesh(parsed_stl(layout)));
 }
 
 TEST(Stl, LinesAreCountedInAnyLayout) {
   for (const char* end : {"\n", "\r\n", "\r"}) {
-    const TriangleMesh cube = mesh(parsed(replaced(ascii_stl(cube_facets()), "\n", end)));
+    const TriangleMesh cube = mesh(parsed_stl(replaced(ascii_stl(cube_facets()), "\n", end)));
     EXPECT_THAT(std::vector<int>(cube.place.begin(), cube.place.begin() + 2), ElementsAre(2, 9));
   }
 }
@@ -103,7 +103,7 @@ TEST(Stl, SolidsAreSurfacesByName) {
   const std::string text = ascii_stl(side(0), "  lower   cone\t; 3 mm") + ascii_stl({}, "nothing") +
                            ascii_stl(side(1), "lid # of steel") + ascii_stl(side(2), "") +
                            ascii_stl(side(3), "lower cone");
-  const GeometryFile file = parsed(text);
+  const GeometryFile file = parsed_stl(text);
   EXPECT_EQ(file.patches.size(), 4u);
   EXPECT_THAT(surface_words(file.surfaces.at("lower cone"), file.patches), ElementsAre("0", "3"));
   EXPECT_THAT(surface_words(file.surfaces.at("lid"), file.patches), ElementsAre("1"));
@@ -126,7 +126,7 @@ TEST(Stl, CornersAreOneWithinAMillionthOfTheSize) {
     std::vector<Facet> facets = cube_facets();
     for (Corner& corner : facets[3])  // one triangle of x = 1
       if (corner == Corner{1.0F, 0.0F, 1.0F}) corner[0] = shift;
-    EXPECT_EQ(mesh(parsed(binary_stl(facets))).points.cols(), points);
+    EXPECT_EQ(mesh(parsed_stl(binary_stl(facets))).points.cols(), points);
   }
 }
 
@@ -136,7 +136,7 @@ TEST(Stl, TrianglesWithoutAreaOrTwiceAreLeftOutAndCounted) {
   facets.insert(facets.begin() + 5, {first[0], first[1], first[1]});
   facets.push_back(first);
   facets.push_back({first[2], first[1], first[0]});  // turned over
-  const TriangleMesh cube = mesh(parsed(ascii_stl(facets)));
+  const TriangleMesh cube = mesh(parsed_stl(ascii_stl(facets)));
   EXPECT_EQ(cube.count(), 12);
   EXPECT_EQ(cube.points.cols(), 8);
   EXPECT_EQ(cube.degenerate, 1);
@@ -144,7 +144,7 @@ TEST(Stl, TrianglesWithoutAreaOrTwiceAreLeftOutAndCounted) {
   EXPECT_EQ(cube.place[5], 2 + 7 * 6);
 
   // a triangle that two solids have belongs to both, and once to all
-  const GeometryFile two = parsed(ascii_stl({first}, "a") + ascii_stl({first, cube_facets()[1]}, "b"));
+  const GeometryFile two = parsed_stl(ascii_stl({first}, "a") + ascii_stl({first, cube_facets()[1]}, "b"));
   EXPECT_EQ(mesh(two, 1).count(), 2);
   const JoinedMesh all = named_triangles(two, "all", "");
   EXPECT_EQ(all.mesh.count(), 2);
@@ -156,12 +156,12 @@ TEST(Stl, GapsAreFound) {
   std::vector<Facet> facets = cube_facets();
   facets.erase(facets.begin() + 8);                      // a triangle of z = 0
   facets.erase(facets.begin() + 2, facets.begin() + 4);  // x = 1
-  const std::vector<Gap> gaps = gaps_of(mesh(parsed(ascii_stl(facets))));
+  const std::vector<Gap> gaps = gaps_of(mesh(parsed_stl(ascii_stl(facets))));
   ASSERT_EQ(gaps.size(), 1u);  // they share a corner or an edge
   facets = cube_facets();
   facets.push_back({Corner{5, 0, 0}, Corner{8, 0, 0}, Corner{5, 4, 0}});
   facets.erase(facets.begin() + 2, facets.begin() + 4);
-  const std::vector<Gap> two = gaps_of(mesh(parsed(ascii_stl(facets))));
+  const std::vector<Gap> two = gaps_of(mesh(parsed_stl(ascii_stl(facets))));
   ASSERT_EQ(two.size(), 2u);
   EXPECT_EQ(two[0].edges, 3);
   EXPECT_DOUBLE_EQ(two[0].length, 12.0);
@@ -202,7 +202,7 @@ TEST(Stl, IsScaledTurnedAndMovedInYaml) {
 }
 
 TEST(Stl, IsRefusedWhereNurbsAreNeeded) {
-  const GeometryFile file = parsed(ascii_stl(cube_facets()));
+  const GeometryFile file = parsed_stl(ascii_stl(cube_facets()));
   EXPECT_THAT(
       [&] { named_surface(file, "cube", "part.stl"); },
       ThrowsMessage<InputError>(HasSubstr("part.stl: surface 'cube' is of triangles (STL), expected")));
@@ -242,7 +242,7 @@ TEST(Stl, SaysWhatWasGivenAndWhatWasExpected) {
       {infinite, "part.stl: byte 150: inf as a corner of triangle 2, expected a finite number"},
       {"ISO-10303-21;\n", "part.stl: is a STEP file"},
   };
-  const auto parse = [](const std::string& bytes) { return [=] { parsed(bytes); }; };
+  const auto parse = [](const std::string& bytes) { return [=] { parsed_stl(bytes); }; };
   for (const auto& [bytes, message] : table)
     EXPECT_THAT(parse(bytes), ThrowsMessage<InputError>(HasSubstr(message))) << message;
 }

@@ -13,10 +13,10 @@ using namespace nurbs;
 
 using testing::ElementsAre;
 
-YamlMap parsed(const std::string& text) { return YamlMap::parse(text, "f.yaml"); }
+YamlMap parsed_map(const std::string& text) { return YamlMap::parse(text, "f.yaml"); }
 
 TEST(YamlMap, ReadsEveryKind) {
-  const YamlMap map = parsed(
+  const YamlMap map = parsed_map(
       "word: steel\nwords: [x, y]\nnumber: +2.5e-3\ninteger: 7\nvector: [1, -2, 3.5]\nnumbers: [1, 2]\n"
       "integers: [3, 4]\ntable: [[1, 2], [3]]\nmap: {a: 1}\nlist:\n  - {b: 2}\n  - {b: 3}\n");
   EXPECT_EQ(map.word("word"), "steel");
@@ -49,7 +49,7 @@ std::string billion_laughs() {
 }
 
 TEST(YamlMap, AnAliasIsWhatItsAnchorNames) {
-  const YamlMap map = parsed("a: &mesh {degree: 2}\nb: *mesh\nc: [&x 1.5, 2, *x]\n");
+  const YamlMap map = parsed_map("a: &mesh {degree: 2}\nb: *mesh\nc: [&x 1.5, 2, *x]\n");
   EXPECT_EQ(map.map("b").integer("degree", 0, 9), 2);
   EXPECT_THAT(map.numbers("c"), ElementsAre(1.5, 2, 1.5));
 }
@@ -156,7 +156,7 @@ TEST(YamlMap, SaysWhatWasGivenAndWhatWasExpected) {
   for (const BadInput& bad : table) {
     SCOPED_TRACE(bad.text);
     try {
-      bad.read(parsed(bad.text));
+      bad.read(parsed_map(bad.text));
       ADD_FAILURE() << "accepted";
     } catch (const InputError& error) {
       EXPECT_EQ(error.what(), bad.message);

@@ -10,7 +10,6 @@
 namespace nurbs {
 namespace {
 
-const double kPi = std::acos(-1.0);
 const Frame kTilted = frame(Vector3(1.0, 2.0, 3.0), Vector3(0.3, -0.2, 1.0));
 
 double area(const Surface& surface) {

@@ -9,6 +9,10 @@ double uniform(Random& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
+Vector3 point_near_square(Random& random) {
+  return {uniform(random, -0.3, 1.3), uniform(random, -0.3, 1.3), uniform(random, -0.6, 0.6)};
+}
+
 Profile line(double rho, double height) {
   return {KnotVector::uniform(1, 1), {rho, rho}, {0.0, height}, {1.0, 1.0}};
 }

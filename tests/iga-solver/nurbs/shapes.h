@@ -11,6 +11,8 @@ namespace nurbs::shapes {
 
 using Random = std::mt19937;
 double uniform(Random& random, double low, double high);
+/// Up to 0.3 beside the unit square, up to 0.6 above and below it.
+Vector3 point_near_square(Random& random);
 
 /// A curve in the (rho, z) half-plane.
 struct Profile {

@@ -15,8 +15,6 @@
 namespace nurbs {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 Vector3 normal(const PatchedSurface& surface, int patch, double xi, double eta) {
   return normal_at(surface.topology, surface.control_points, {patch, {xi, eta}});
 }

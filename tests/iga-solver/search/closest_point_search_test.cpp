@@ -77,14 +77,9 @@ double brute_force_distance(const Surface& surface, const Vector3& d) {
   return least;
 }
 
-Vector3 random_point(shapes::Random& random) {
-  return {shapes::uniform(random, -0.3, 1.3), shapes::uniform(random, -0.3, 1.3),
-          shapes::uniform(random, -0.6, 0.6)};
-}
-
 void expect_nearest(const Surface& surface, shapes::Random& random, int points) {
   for (int k = 0; k < points; ++k) {
-    const Vector3 d = random_point(random);
+    const Vector3 d = shapes::point_near_square(random);
     const Foot p = closest(surface, d);
     EXPECT_NEAR(p.distance, brute_force_distance(surface, d), 1e-11) << "d = " << d.transpose();
     EXPECT_NE(p.status, FootStatus::not_converged);
@@ -137,7 +132,7 @@ TEST(ClosestPointSearch, CandidatesOfATree) {
   std::vector<int> candidates;
   int within_reach = 0;
   for (int k = 0; k < 500; ++k) {
-    const Vector3 d = random_point(random);
+    const Vector3 d = shapes::point_near_square(random);
     const Foot p = closest(hills, d);
     constexpr double reach = 0.2;
     if (p.distance > reach) continue;

@@ -22,17 +22,17 @@ Curve meshed_arc(double from, double to, int elements, int degree = 2) {
 Frame tilted() { return frame({0.3, -0.2, 0.5}, {1, 2, 3}, {1, -1, 4}); }
 Frame upright() { return frame({0, 0, 0}, {0, 0, 1}); }
 
-struct Expected {
+struct ExpectedFoot {
   Vector3 d;
   double xi, eta, distance;
 };
 
 // The feet in the shape's own frame, and the same wherever the shape stands: parameters and distance to
 // 1e-10.
-void expect_feet(const std::function<Surface(const Frame&)>& shape, const std::vector<Expected>& feet) {
+void expect_feet(const std::function<Surface(const Frame&)>& shape, const std::vector<ExpectedFoot>& feet) {
   for (const Frame& f : {upright(), tilted()}) {
     const Surface surface = shape(f);
-    for (const Expected& foot : feet) {
+    for (const ExpectedFoot& foot : feet) {
       SCOPED_TRACE(testing::Message() << "d = " << foot.d.transpose());
       const Foot p = closest(surface, f.origin + f.axes * foot.d);
       EXPECT_NEAR(p.xi[0], foot.xi, 1e-10);

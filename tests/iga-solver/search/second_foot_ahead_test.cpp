@@ -18,9 +18,9 @@ namespace {
 using namespace nurbs;
 
 // A surface, at the moment of a new list; the element by the parameters of a point in it.
-class Subject {
+class Watched {
  public:
-  explicit Subject(PatchedSurface surface)
+  explicit Watched(PatchedSurface surface)
       : surface_(std::move(surface)), projector_(surface_.topology, surface_.control_points) {
     projector_.begin_list();
   }
@@ -54,7 +54,7 @@ TEST(SecondFootAhead, OfATubeEndsAtHalfItsRadius) {
       for (Eigen::Index a = 0; a < tube.control_points.cols(); ++a)
         tube.control_points(2, a) = 20.0 - tube.control_points(2, a);
     }
-    const Subject subject(join({tube}));
+    const Watched subject(join({tube}));
     for (const double xi : {0.03, 0.4}) {
       const Vector3 S = interpolate(tube.space, tube.control_points, {xi, 0.5});
       const Vector3 out(S[0] / kRadius, S[1] / kRadius, 0.0);
@@ -72,7 +72,7 @@ TEST(SecondFootAhead, OfATorus) {
   constexpr double kRing = 4.0, kTube = 1.0;
   const Surface torus = nurbs::torus(frame({0, 0, 0}, {0, 0, 1}), kRing, kTube, refined(arc(0, 360), 32, 2),
                                      refined(arc(0, 360), 32, 2));
-  const Subject subject(join({torus}));
+  const Watched subject(join({torus}));
   const Parameter<2> inner{0.01, 0.51};
   const Vector3 S = interpolate(torus.space, torus.control_points, inner);
   const double rho = std::hypot(S[0], S[1]);
@@ -92,7 +92,7 @@ TEST(SecondFootAhead, OfShearedParametersIsThatOfTheShape) {
   Surface sheared = straight;
   const int n = straight.space.control_point_count(0);
   for (int a = 0; a < straight.control_points.cols(); ++a) sheared.control_points(2, a) += 1.5 * (a % n);
-  Subject subject(join({straight}));
+  Watched subject(join({straight}));
   for (const NodalVectors& points :
        {straight.control_points, sheared.control_points, straight.control_points}) {
     subject.move(points);
@@ -110,7 +110,7 @@ TEST(SecondFootAhead, EndsAtEdgesAndKinks) {
   for (const double slope : {0.0, 0.01, 1.0}) {
     const Surface right = plane({4, 0, 0}, {4, 0, 4 * slope}, {0, 4, 0}, knots(4, 4));
     for (const bool welded : {true, false}) {
-      const Subject subject(
+      const Watched subject(
           welded ? join({left, right})
                  : PatchedSurface{MultiPatch({left.space, right.space}), join({left, right}).control_points});
       const Vector3 d(3.3, 1.5, 0.1);  // 0.7 from the seam, 1.5 from the edge y = 0
@@ -118,7 +118,7 @@ TEST(SecondFootAhead, EndsAtEdgesAndKinks) {
       EXPECT_EQ(subject.excluded(d, 0.72, {0.8, 0.4}), welded && slope == 0.0);
       EXPECT_TRUE(subject.excluded(d, 3.0, {0.6, 0.4})) << "an element that has no such side";
     }
-    const Subject subject(join({left, right}));
+    const Watched subject(join({left, right}));
     const Vector3 low(1.5, 0.5, 0.1);  // above an element on the edge y = 0
     EXPECT_TRUE(subject.excluded(low, 0.5, {0.4, 0.1}));
     EXPECT_FALSE(subject.excluded(low, 0.52, {0.4, 0.1}));
@@ -131,7 +131,7 @@ TEST(SecondFootAhead, EndsAtEdgesAndKinks) {
 // A C0 line inside a patch is a kink only while the sheet is bent there: the shape changes from step to step.
 TEST(SecondFootAhead, OfACreaseChangesWithTheShape) {
   const Surface sheet = insert_knot(plane({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, knots(4, 4)), 0, 0.5, 1);
-  Subject subject(join({sheet}));
+  Watched subject(join({sheet}));
   NodalVectors bent = sheet.control_points;
   for (Eigen::Index a = 0; a < bent.cols(); ++a) bent(2, a) = std::max(0.0, bent(0, a) - 2.0);
   NodalVectors folded = sheet.control_points;  // flat, back on itself
@@ -152,7 +152,7 @@ TEST(SecondFootAhead, OfACreaseChangesWithTheShape) {
 // A sheet rolled up tighter and unrolled: curvatures and the places of edges follow.
 TEST(SecondFootAhead, FollowsAChangingShape) {
   const Surface sheet = plane({-1, 0, 0}, {2, 0, 0}, {0, 4, 0}, knots(16, 4));
-  Subject subject(join({sheet}));
+  Watched subject(join({sheet}));
   const std::vector<double> u = sheet.space.knots(0).greville();
   for (const double radius : {10.0, 1.0, 3.0, 0.7, 100.0}) {
     // Nearly a circle about (0, y, radius): control points on it.
@@ -174,7 +174,7 @@ TEST(SecondFootAhead, FollowsAChangingShape) {
 TEST(SecondFootAhead, EndsAtAPole) {
   const Surface dome =
       sphere(frame({0, 0, 0}, {0, 0, 1}), 5.0, refined(arc(0, 360), 8, 2), refined(arc(0, 90), 8, 2));
-  const Subject subject(join({dome}));
+  const Watched subject(join({dome}));
   const Vector3 d(0.5, 0.0, 5.4);  // outside, where the dome bends away
   EXPECT_TRUE(subject.excluded(d, 0.55, {0.01, 0.99}));
   EXPECT_FALSE(subject.excluded(d, 0.70, {0.01, 0.99}));

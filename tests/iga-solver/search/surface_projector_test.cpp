@@ -17,11 +17,6 @@ namespace {
 
 using namespace nurbs;
 
-Vector3 random_point(shapes::Random& random) {
-  return {shapes::uniform(random, -0.3, 1.3), shapes::uniform(random, -0.3, 1.3),
-          shapes::uniform(random, -0.6, 0.6)};
-}
-
 std::vector<int> all_elements(const Surface& surface) {
   std::vector<int> elements(surface.space.element_count());
   std::iota(elements.begin(), elements.end(), 0);
@@ -43,7 +38,7 @@ TEST(SurfaceProjector, PowerFormIsTheSurface) {
     const Indices<2> e = {k % 3, k % 2};
     const int local[2] = {e[0], e[1]};
     const double s[2] = {shapes::uniform(random, -1, 1), shapes::uniform(random, -1, 1)};
-    const Vector3 d = random_point(random);
+    const Vector3 d = shapes::point_near_square(random);
     const ElementStore::Element element = elements.element(local);
     DistanceJet jet;
     elements.kernel().evaluate(elements.kernel().p, elements.kernel().q, element.row, s, {d[0], d[1], d[2]},
@@ -86,7 +81,7 @@ TEST(SurfaceProjector, ColdIsTheNearest) {
     const judge::DistanceBound bound(surface);
     const std::vector<int> elements = all_elements(surface);
     for (int trial = 0; trial < 5; ++trial) {
-      const Vector3 d = random_point(random);
+      const Vector3 d = shapes::point_near_square(random);
       const Foot cold = projector.cold(d);
       expect_on_surface(surface, d, cold);
       const judge::Nearest least = bound.nearest(d, {cold.xi, cold.distance, 0}, 1e-9);
@@ -113,7 +108,7 @@ TEST(SurfaceProjector, AllMinimaHoldsEveryWarmResult) {
   for (int k = 0; k < 20; ++k) {
     const Surface surface = shapes::random_patch<2>(random, 4, 1 + k % 3, k % 2 > 0);
     const SurfaceProjector projector(surface.space, surface.control_points);
-    const Vector3 d = random_point(random);
+    const Vector3 d = shapes::point_near_square(random);
     const double nearest = projector.cold(d).distance, reach = 1.5 * nearest;
     projector.all_minima(d, reach, minima);
     ASSERT_FALSE(minima.empty());

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "models.h"
 
-#include <string>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
+#include "structure/time/explicit_solver.h"
 
 template Eigen::EigenSolver<Eigen::MatrixXd>& Eigen::EigenSolver<Eigen::MatrixXd>::compute(
     const Eigen::EigenBase<Eigen::MatrixXd>&, bool);
@@ -110,6 +110,21 @@ Eigen::MatrixXd mass_scaled_stiffness(const structure::Body& body, const structu
   Eigen::VectorXd scale(free.size());
   for (std::size_t i = 0; i < free.size(); ++i) scale[i] = 1.0 / std::sqrt(body.row_sum_mass()[free[i] / 3]);
   return scale.asDiagonal() * stiffness(body)(free, free) * scale.asDiagonal();
+}
+
+NodalVectors no_forces(const structure::ExplicitSolver& solver) {
+  return NodalVectors::Zero(3, solver.body().node_count());
+}
+
+void set_displacements(structure::ExplicitSolver& solver, const NodalVectors& u) {
+  std::vector<double> state = solver.save();
+  std::copy_n(u.data(), u.size(), state.begin() + 1);
+  solver.load(state);
+}
+
+void step(structure::ExplicitSolver& solver, const NodalVectors& F) {
+  solver.begin_step();
+  solver.end_step(F);
 }
 
 std::vector<int> interior_nodes(const nurbs::Space<3>& space) {

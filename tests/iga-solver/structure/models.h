@@ -18,6 +18,10 @@ extern template Eigen::EigenSolver<Eigen::MatrixXd>& Eigen::EigenSolver<Eigen::M
 extern template Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>&
 Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>::compute(const Eigen::EigenBase<Eigen::MatrixXd>&, int);
 
+namespace structure {
+class ExplicitSolver;
+}
+
 namespace models {
 
 using nurbs::NodalVectors;
@@ -52,6 +56,10 @@ Matrix3 some_gradient();
 Eigen::MatrixXd stiffness(const structure::Body& body);
 /// M^-1/2 K M^-1/2 without the fixed dofs, M lumped by row sums.
 Eigen::MatrixXd mass_scaled_stiffness(const structure::Body& body, const structure::Supports& supports);
+NodalVectors no_forces(const structure::ExplicitSolver& solver);
+void set_displacements(structure::ExplicitSolver& solver, const NodalVectors& u);
+/// One step under nodal forces.
+void step(structure::ExplicitSolver& solver, const NodalVectors& F);
 /// Control points on no face.
 std::vector<int> interior_nodes(const nurbs::Space<3>& space);
 

@@ -21,8 +21,6 @@ using nurbs::Face;
 using structure::Id;
 using structure::Solid;
 
-const double kPi = std::acos(-1.0);
-
 nurbs::Volume whole_patch(const Solid& solid) { return {solid.space(), solid.reference()}; }
 
 std::vector<Id> ids(const Solid& solid) {
@@ -43,15 +41,15 @@ NodalVectors pushed(const Solid& solid, const std::vector<Face>& faces, double p
   return f;
 }
 
-const std::vector<Face> kAll = {Face::xi_minus, Face::xi_plus,    Face::eta_minus,
-                                Face::eta_plus, Face::zeta_minus, Face::zeta_plus};
+const std::vector<Face> kAllFaces = {Face::xi_minus, Face::xi_plus,    Face::eta_minus,
+                                     Face::eta_plus, Face::zeta_minus, Face::zeta_plus};
 
 // Of a closed skin, however it is deformed: no force, no moment.
 TEST(FollowingPressure, OfAClosedSkinHasNoForceAndNoMoment) {
   for (int degree : {2, 3}) {
     const Solid solid(models::block({1, 2, 3}, {2, 1, 2}, degree), models::elastic());
     const NodalVectors x = solid.reference() + 0.2 * models::random_vectors(solid.node_count(), 4);
-    const NodalVectors f = pushed(solid, kAll, 2.0, x);
+    const NodalVectors f = pushed(solid, kAllFaces, 2.0, x);
     Vector3 moment = Vector3::Zero();
     for (int A = 0; A < f.cols(); ++A) moment += Vector3(x.col(A)).cross(Vector3(f.col(A)));
     EXPECT_LT(f.rowwise().sum().norm(), 1e-13);
@@ -102,7 +100,7 @@ TEST(FollowingPressure, IsTheDerivativeOfTheVolume) {
     return Solid(nurbs::Volume{solid.space(), places}, models::elastic()).volume();
   };
   const double h = 1e-5, rate = (volume(x + h * v) - volume(x - h * v)) / (2 * h);
-  EXPECT_NEAR(pushed(solid, kAll, 3.0, x).cwiseProduct(v).sum(), -3.0 * rate, 1e-8);
+  EXPECT_NEAR(pushed(solid, kAllFaces, 3.0, x).cwiseProduct(v).sum(), -3.0 * rate, 1e-8);
 }
 
 // On the inside of a quarter ring that is turned: p times the projected area, whatever the turn.
@@ -139,7 +137,8 @@ TEST(LineLoad, IsPerLengthOfAnArc) {
   structure::add_line_load(
       whole_patch(ring), ids(ring), {Face::zeta_plus, Face::xi_plus},
       [](const Vector3& X, double) { return Vector3(1.0, X[0], 0.0); }, structure::Columns(ids(ring)), f);
-  EXPECT_LT((f.rowwise().sum() - Vector3(kPi, 4.0, 0.0)).norm(), 1e-6);  // radius 2: integral of x is 4
+  EXPECT_LT((f.rowwise().sum() - Vector3(nurbs::kPi, 4.0, 0.0)).norm(),
+            1e-6);  // radius 2: integral of x is 4
   for (int A = 0; A < f.cols(); ++A)
     if (ring.reference()(2, A) < 1.0) {
       EXPECT_EQ(f.col(A).norm(), 0.0);

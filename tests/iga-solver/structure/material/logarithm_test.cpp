@@ -32,11 +32,11 @@ std::vector<test::Logarithms> all_ways() {
   return ways;
 }
 
-struct Results {
+struct Logs {
   std::vector<double> value, excess, inverse;
 };
-Results run(test::Logarithms way, const std::vector<double>& J, const std::vector<double>& J_minus_1) {
-  Results r{J, J, J};
+Logs run(test::Logarithms way, const std::vector<double>& J, const std::vector<double>& J_minus_1) {
+  Logs r{J, J, J};
   way(static_cast<int>(J.size() / 8), J.data(), J_minus_1.data(), r.value.data(), r.excess.data(),
       r.inverse.data());
   return r;
@@ -51,7 +51,7 @@ TEST(Logarithm, IsRightForVolumeRatiosFromAMillionthToAMillion) {
     x.push_back(J.back() - 1.0);
   }
   for (const test::Logarithms way : all_ways()) {
-    const Results r = run(way, J, x);
+    const Logs r = run(way, J, x);
     for (std::size_t i = 0; i < J.size(); ++i) {
       const long double ln = std::log(static_cast<long double>(J[i]));
       ASSERT_NEAR(r.value[i], ln, 1e-15 * std::max(1.0L, std::abs(ln))) << J[i];
@@ -73,7 +73,7 @@ TEST(Logarithm, LosesNoDigitsWhereVolumesHardlyChange) {
     J.push_back(1.0 + x.back());
   }
   for (const test::Logarithms way : all_ways()) {
-    const Results r = run(way, J, x);
+    const Logs r = run(way, J, x);
     for (std::size_t i = 0; i < J.size(); ++i) {
       const long double X = x[i], ln = std::log1p(X);
       ASSERT_NEAR(r.value[i], ln, 2e-15 * std::abs(ln)) << x[i];
@@ -90,7 +90,7 @@ TEST(Logarithm, IsNoNumberWhereThereIsNoVolumeLeft) {
   std::vector<double> x;
   for (const double value : J) x.push_back(value - 1.0);
   for (const test::Logarithms way : all_ways()) {
-    const Results r = run(way, J, x);
+    const Logs r = run(way, J, x);
     for (int i = 0; i < 7; ++i)
       EXPECT_TRUE(std::isnan(r.value[i]) && std::isnan(r.excess[i]) && std::isnan(r.inverse[i])) << J[i];
     EXPECT_EQ(r.inverse[7], 0.5) << "its neighbours are left alone";

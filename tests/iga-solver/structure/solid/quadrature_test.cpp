@@ -18,7 +18,7 @@ using structure::Matrix3;
 using structure::Quadrature;
 using structure::Solid;
 
-constexpr Quadrature kAll[] = {Quadrature::full, Quadrature::reduced, Quadrature::zou};
+constexpr Quadrature kQuadratures[] = {Quadrature::full, Quadrature::reduced, Quadrature::zou};
 
 std::vector<std::size_t> points(const nurbs::KnotVector& knots, Quadrature quadrature) {
   std::vector<std::size_t> counts;
@@ -40,7 +40,7 @@ TEST(Quadrature, HasMorePointsAtEndsAndBesideRoughLines) {
   EXPECT_THAT(points(cubic, Quadrature::zou), ElementsAre(3, 2, 2, 3));
   EXPECT_THROW(points(nurbs::KnotVector::uniform(4, 4), Quadrature::zou), std::invalid_argument);
   EXPECT_THROW(structure::quadrature_from_name("gauss"), std::invalid_argument);
-  for (const Quadrature quadrature : kAll)
+  for (const Quadrature quadrature : kQuadratures)
     EXPECT_EQ(structure::quadrature_from_name(name(quadrature)), quadrature);
 }
 
@@ -58,7 +58,7 @@ nurbs::Volume with_C0_lines(nurbs::Volume patch, int direction) {
 
 void expect_six_zero_modes_and_the_stable_step(const nurbs::Volume& patch) {
   double full_step = 0.0;
-  for (const Quadrature quadrature : kAll) {
+  for (const Quadrature quadrature : kQuadratures) {
     SCOPED_TRACE(testing::Message() << name(quadrature) << ", degree " << patch.space.degree(0));
     const Eigen::MatrixXd A = models::mass_scaled_stiffness(solid(patch, quadrature), {});
     const Eigen::VectorXd eigenvalues =
@@ -111,7 +111,7 @@ nurbs::Volume affine(int degree) {
 
 TEST(Quadrature, KeepsConstantStrainWhereTheRuleIsExact) {
   for (const int degree : {2, 3}) {
-    for (const Quadrature quadrature : kAll)
+    for (const Quadrature quadrature : kQuadratures)
       EXPECT_LT(patch_test_residual(affine(degree), quadrature), 1e-12);
     for (const Quadrature quadrature : {Quadrature::full, Quadrature::reduced})
       EXPECT_LT(patch_test_residual(trilinear(degree, 4), quadrature), 1e-12);
@@ -144,7 +144,7 @@ double frequency_error(int degree, int elements, Quadrature quadrature) {
 // Lumped masses are second order for every degree; the rules do not spoil it.
 TEST(Quadrature, KeepsTheOrderOfFrequencies) {
   for (const int degree : {2, 3})
-    for (const Quadrature quadrature : kAll) {
+    for (const Quadrature quadrature : kQuadratures) {
       const double coarse = frequency_error(degree, 8, quadrature),
                    fine = frequency_error(degree, 16, quadrature);
       EXPECT_LT(std::abs(fine), 2e-3) << name(quadrature);

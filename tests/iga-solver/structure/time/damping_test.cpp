@@ -18,11 +18,6 @@ using models::Vector3;
 using nurbs::Face;
 using structure::ExplicitSolver;
 
-void step(ExplicitSolver& body, const NodalVectors& F) {
-  body.begin_step();
-  body.end_step(F);
-}
-
 ExplicitSolver block(double rate, bool held) {
   const nurbs::Volume patch = models::block({2, 1, 1}, {4, 2, 2}, 2);
   structure::Supports supports;
@@ -45,7 +40,7 @@ TEST(MassDamping, SlowsFreeFlightByTheExactFactor) {
   Vector3 half = (1 - 0.5 * rate * dt) * v, u = Vector3::Zero();
   for (int n = 0; n < 50; ++n) {
     u += dt * half;
-    step(body, none);
+    models::step(body, none);
     ASSERT_LT((Vector3(body.displacements().col(7)) - u).norm(), 1e-13);
     half *= factor;
   }
@@ -63,7 +58,7 @@ TEST(MassDamping, TakesEnergyAtItsRate) {
   double log_start = 0.0, log_end = 0.0;
   const int steps = 4000, window = 500;
   for (int n = 0; n < steps; ++n) {
-    step(body, none);
+    models::step(body, none);
     const double energy = body.kinetic_energy() + body.strain_energy();
     if (n < window) log_start += std::log(energy) / window;
     if (n >= steps - window) log_end += std::log(energy) / window;
@@ -77,10 +72,10 @@ TEST(MassDamping, GoesOnFromASavedStateToTheLastBit) {
   ExplicitSolver one = block(0.2, true), other = block(0.2, true);
   const NodalVectors F = 1e-3 * models::random_vectors(one.body().node_count(), 8);
   one.initialise_forces(F);
-  for (int n = 0; n < 20; ++n) step(one, F);
+  for (int n = 0; n < 20; ++n) models::step(one, F);
   other.load(one.save());
   other.initialise_forces(F);
-  for (int n = 0; n < 20; ++n) step(one, F), step(other, F);
+  for (int n = 0; n < 20; ++n) models::step(one, F), models::step(other, F);
   EXPECT_EQ(one.save(), other.save());
 }
 
@@ -136,7 +131,7 @@ TEST(Viscosity, DampsAModeInProportionToItsFrequency) {
     body.set_velocities(v);
     body.initialise_forces(none);
     const double start = body.kinetic_energy();
-    while (body.time() < 20.0) step(body, none);
+    while (body.time() < 20.0) models::step(body, none);
     const double energy = body.kinetic_energy() + body.strain_energy();
     EXPECT_NEAR(std::log(start / energy) / body.time(), b * omega * omega, 0.02 * b * omega * omega);
     // A viscous stress is that of half a step before: b dt omega^2/2 of the energy.
@@ -160,9 +155,9 @@ TEST(Viscosity, LetsABlockSpin) {
   body.initialise_forces(none);
   const double spin = body.angular_momentum(centre)[2];
   const auto energy = [&] { return body.kinetic_energy() + body.strain_energy(); };
-  while (body.time() < 60.0) step(body, none);
+  while (body.time() < 60.0) models::step(body, none);
   const double middle = energy();
-  while (body.time() < 120.0) step(body, none);
+  while (body.time() < 120.0) models::step(body, none);
   EXPECT_NEAR(energy() / middle, 1.0, 1e-5);
   EXPECT_NEAR(body.angular_momentum(centre)[2] / spin, 1.0, 1e-11);
   EXPECT_GT(body.displacements().norm(), 1.0) << "it has turned";
@@ -179,10 +174,10 @@ TEST(Viscosity, GoesOnFromASavedStateToTheLastBit) {
   ExplicitSolver one = make(), other = make();
   const NodalVectors F = 1e-3 * models::random_vectors(one.body().node_count(), 8);
   one.initialise_forces(F);
-  for (int n = 0; n < 20; ++n) step(one, F);
+  for (int n = 0; n < 20; ++n) models::step(one, F);
   other.load(one.save());
   other.initialise_forces(F);
-  for (int n = 0; n < 20; ++n) step(one, F), step(other, F);
+  for (int n = 0; n < 20; ++n) models::step(one, F), models::step(other, F);
   EXPECT_EQ(one.save(), other.save());
 }
 

@@ -24,32 +24,17 @@ using structure::Supports;
 using testing::AllOf;
 using testing::HasSubstr;
 
-ExplicitSolver cubes(int n, std::shared_ptr<const structure::Material> material = models::elastic(),
-                     Supports supports = {}) {
+ExplicitSolver cubes_of(int n, std::shared_ptr<const structure::Material> material = models::elastic(),
+                        Supports supports = {}) {
   return ExplicitSolver(
       std::make_unique<Solid>(models::block({1.0 * n, 1.0 * n, 1.0 * n}, {n, n, n}, 2), std::move(material)),
       std::move(supports));
 }
 
-NodalVectors no_forces(const ExplicitSolver& solver) {
-  return NodalVectors::Zero(3, solver.body().node_count());
-}
-
-void step(ExplicitSolver& solver, const NodalVectors& F) {
-  solver.begin_step();
-  solver.end_step(F);
-}
-
-void set_displacements(ExplicitSolver& solver, const NodalVectors& u) {
-  std::vector<double> state = solver.save();
-  std::copy_n(u.data(), u.size(), state.begin() + 1);
-  solver.load(state);
-}
-
 // Runs to the end that is expected, within `most` steps, and returns its message.
 std::string message_of_divergence(ExplicitSolver& solver, const NodalVectors& F, int most) {
   try {
-    for (int n = 0; n < most; ++n) step(solver, F);
+    for (int n = 0; n < most; ++n) models::step(solver, F);
   } catch (const Diverged& error) {
     return error.what();
   }
@@ -60,7 +45,7 @@ std::string message_of_divergence(ExplicitSolver& solver, const NodalVectors& F,
 // cosh(phi) = 2 q - 1, so its kinetic energy is sinh^2(n phi) sinh^2(phi) in units of m / 2 dt^2; at first it
 // had the strain energy 4 q and the first kick 4 q^2.
 TEST(Divergence, OfATooLongStepIsNoticedInTheStepThatTheoryNames) {
-  ExplicitSolver solver = cubes(2);
+  ExplicitSolver solver = cubes_of(2);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
       models::mass_scaled_stiffness(solver.body(), {}));
   NodalVectors mode = eigen.eigenvectors().rightCols(1).reshaped(3, solver.body().node_count());
@@ -72,11 +57,11 @@ TEST(Divergence, OfATooLongStepIsNoticedInTheStepThatTheoryNames) {
   while (std::pow(std::sinh(expected * phi) * std::sinh(phi), 2) <= 10.0 * 4.0 * (q + q * q)) ++expected;
   ASSERT_GT(expected, 5);
 
-  set_displacements(solver, mode);
+  models::set_displacements(solver, mode);
   solver.set_time_step(dt);
-  solver.initialise_forces(no_forces(solver));
-  for (int n = 1; n < expected; ++n) step(solver, no_forces(solver));
-  EXPECT_THAT([&] { step(solver, no_forces(solver)); },
+  solver.initialise_forces(models::no_forces(solver));
+  for (int n = 1; n < expected; ++n) models::step(solver, models::no_forces(solver));
+  EXPECT_THAT([&] { models::step(solver, models::no_forces(solver)); },
               testing::ThrowsMessage<Diverged>(
                   AllOf(HasSubstr(fmt::format("at time {:.6g}:", expected * dt)), HasSubstr("kinetic energy"),
                         HasSubstr("control node"), HasSubstr(fmt::format("time step {:.6g} is too long", dt)),
@@ -89,8 +74,8 @@ TEST(Divergence, NamesTheElementThatFolds) {
   supports.fix(structure::nodes_on(models::block({2, 2, 2}, {2, 2, 2}, 2).space, {Face::zeta_minus}),
                {true, true, true});
   ExplicitSolver solver =
-      cubes(2, std::make_shared<structure::SaintVenantKirchhoff>(1.0, 0.3, 1.0), supports);
-  NodalVectors F = no_forces(solver);
+      cubes_of(2, std::make_shared<structure::SaintVenantKirchhoff>(1.0, 0.3, 1.0), supports);
+  NodalVectors F = models::no_forces(solver);
   F.col(F.cols() - 1) = Vector3(-0.3, -0.3, -0.3);
   solver.set_time_step(0.57);  // below the stable step, for which nobody asks: strains are not watched
   solver.initialise_forces(F);
@@ -105,8 +90,8 @@ TEST(Divergence, NamesTheElementThatFolds) {
 }
 
 TEST(Divergence, NamesTheNodeWithAForceThatIsNoNumber) {
-  ExplicitSolver solver = cubes(1);
-  NodalVectors F = no_forces(solver);
+  ExplicitSolver solver = cubes_of(1);
+  NodalVectors F = models::no_forces(solver);
   F(1, 4) = std::nan("");
   solver.set_time_step(0.1);
   const auto expected = testing::ThrowsMessage<Diverged>(
@@ -116,13 +101,13 @@ TEST(Divergence, NamesTheNodeWithAForceThatIsNoNumber) {
 
 TEST(Divergence, IsWhatCannotBeSquared) {
   for (const double size : {1.1e100, std::numeric_limits<double>::infinity()}) {
-    ExplicitSolver solver = cubes(1);
-    NodalVectors u = no_forces(solver);
+    ExplicitSolver solver = cubes_of(1);
+    NodalVectors u = models::no_forces(solver);
     u.row(2).setConstant(size);
-    set_displacements(solver, u);
+    models::set_displacements(solver, u);
     solver.set_time_step(0.1);
     EXPECT_THAT(
-        [&] { solver.initialise_forces(no_forces(solver)); },
+        [&] { solver.initialise_forces(models::no_forces(solver)); },
         testing::ThrowsMessage<Diverged>(AllOf(HasSubstr("displacement"), HasSubstr("control node 0"))));
   }
 }
@@ -132,12 +117,12 @@ TEST(Divergence, IsAKineticEnergyThatOverflows) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   EXPECT_FALSE(structure::EnergyBudget(kInfinity, 0.0).allows(kInfinity));
   EXPECT_TRUE(structure::EnergyBudget(kInfinity, 0.0).allows(1e300));
-  ExplicitSolver solver = cubes(1, models::elastic(1.0, 0.3, 1e120));
-  NodalVectors v = no_forces(solver);
+  ExplicitSolver solver = cubes_of(1, models::elastic(1.0, 0.3, 1e120));
+  NodalVectors v = models::no_forces(solver);
   v.row(0).setConstant(1e100);
   solver.set_velocities(v);
   solver.set_time_step(0.1);
-  EXPECT_THAT([&] { solver.initialise_forces(no_forces(solver)); },
+  EXPECT_THAT([&] { solver.initialise_forces(models::no_forces(solver)); },
               testing::ThrowsMessage<Diverged>(
                   AllOf(HasSubstr("kinetic energy is not finite"), HasSubstr("initial velocities"))));
 }
@@ -145,13 +130,13 @@ TEST(Divergence, IsAKineticEnergyThatOverflows) {
 // Forces that change at random from step to step, near the longest step that users may take: whatever they
 // do, the kinetic energy is never above what was given.
 TEST(Divergence, IsNotSeenInAStableSolid) {
-  ExplicitSolver solver = cubes(2);
+  ExplicitSolver solver = cubes_of(2);
   const double dt = 0.98 * solver.stable_time_step();
   double given = 0.0, power = 0.0;
   for (unsigned n = 0; n < 3000; ++n) {
     const NodalVectors F = models::random_vectors(solver.body().node_count(), n);
     if (n % 1000 == 0) {  // from rest: kicked off by the first force
-      solver = cubes(2);
+      solver = cubes_of(2);
       solver.set_time_step(dt);
       solver.initialise_forces(F);
       power = 0.0;
@@ -159,7 +144,7 @@ TEST(Divergence, IsNotSeenInAStableSolid) {
           0.125 * dt * dt * solver.accelerations().colwise().squaredNorm().dot(solver.mass().nodal_mass());
       continue;
     }
-    ASSERT_NO_THROW(step(solver, F)) << n;
+    ASSERT_NO_THROW(models::step(solver, F)) << n;
     const double previous = std::exchange(power, F.cwiseProduct(solver.velocities()).sum());
     given += 0.5 * dt * (previous + power);
     ASSERT_LE(solver.kinetic_energy(), given * (1.0 + 1e-9)) << n;
@@ -168,13 +153,13 @@ TEST(Divergence, IsNotSeenInAStableSolid) {
 
 // A solid that was moved far away and left there has the strain of round-off, and forces to go with it.
 TEST(Divergence, IsNotSeenInRoundOff) {
-  ExplicitSolver solver = cubes(2);
-  NodalVectors u = no_forces(solver);
+  ExplicitSolver solver = cubes_of(2);
+  NodalVectors u = models::no_forces(solver);
   u.row(0).setConstant(1234.5678);
-  set_displacements(solver, u);
+  models::set_displacements(solver, u);
   solver.set_time_step(0.98 * solver.stable_time_step());
-  solver.initialise_forces(no_forces(solver));
-  for (int n = 0; n < 3000; ++n) ASSERT_NO_THROW(step(solver, no_forces(solver))) << n;
+  solver.initialise_forces(models::no_forces(solver));
+  for (int n = 0; n < 3000; ++n) ASSERT_NO_THROW(models::step(solver, models::no_forces(solver))) << n;
 }
 
 }  // namespace

@@ -24,22 +24,12 @@ ExplicitSolver cubes(int n, Supports supports = {}) {
       supports);
 }
 
-NodalVectors no_forces(const ExplicitSolver& solver) {
-  return NodalVectors::Zero(3, solver.body().node_count());
-}
-
-void run(ExplicitSolver& solver, int steps) {
-  const NodalVectors F = no_forces(solver);
+void run_free(ExplicitSolver& solver, int steps) {
+  const NodalVectors F = models::no_forces(solver);
   for (int n = 0; n < steps; ++n) {
     solver.begin_step();
     solver.end_step(F);
   }
-}
-
-void set_displacements(ExplicitSolver& solver, const NodalVectors& u) {
-  std::vector<double> state = solver.save();
-  std::copy_n(u.data(), u.size(), state.begin() + 1);
-  solver.load(state);
 }
 
 // A mode of frequency w obeys u(n+1) - 2 u(n) + u(n-1) = -(w dt)^2 u(n) exactly: u(n) = cos(n theta) with
@@ -49,19 +39,19 @@ TEST(CentralDifference, MovesEveryModeWithItsDiscreteFrequency) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
       models::mass_scaled_stiffness(solver.body(), {}));
   const Eigen::VectorXd root_mass = solver.mass().nodal_mass().cwiseSqrt();
-  const NodalVectors start = no_forces(solver);
+  const NodalVectors start = models::no_forces(solver);
   for (int index : {6, 40, int(eigen.eigenvalues().size()) - 1}) {
     const double dt = 1.8 / std::sqrt(eigen.eigenvalues().maxCoeff());
     const double w_dt = std::sqrt(eigen.eigenvalues()[index]) * dt;
     const double theta = std::acos(1.0 - 0.5 * w_dt * w_dt);
     NodalVectors mode = eigen.eigenvectors().col(index).reshaped(3, root_mass.size());
     mode *= root_mass.cwiseInverse().asDiagonal();
-    set_displacements(solver, mode);
+    models::set_displacements(solver, mode);
     solver.set_velocities(start);
     solver.set_time_step(dt);
     solver.initialise_forces(start);
     const int steps = 57;
-    run(solver, steps);
+    run_free(solver, steps);
     EXPECT_LT((solver.displacements() - std::cos(steps * theta) * mode).norm(), 1e-10 * mode.norm());
     const double slope = -std::sin(steps * theta) * std::sin(theta) / dt;
     EXPECT_LT((solver.velocities() - slope * mode).norm(), 1e-10 * mode.norm() / dt);
@@ -77,13 +67,13 @@ EnergyHistory energy_history(double step_factor) {
   ExplicitSolver solver = cubes(4);
   solver.set_velocities(models::random_vectors(solver.body().node_count(), 5));
   solver.set_time_step(step_factor * 0.6454);
-  solver.initialise_forces(no_forces(solver));
+  solver.initialise_forces(models::no_forces(solver));
   const double E0 = solver.kinetic_energy();
   const int blocks = 4, steps = static_cast<int>(40.0 / step_factor);
   double largest = 0.0, mean[blocks] = {};
   for (double& block_mean : mean)
     for (int n = 0; n < steps; ++n) {
-      run(solver, 1);
+      run_free(solver, 1);
       const double error = (solver.kinetic_energy() + solver.strain_energy()) / E0 - 1.0;
       largest = std::max(largest, std::abs(error));
       block_mean += error / steps;
@@ -104,9 +94,9 @@ TEST(CentralDifference, KeepsLinearMomentumToRoundOff) {
   ExplicitSolver solver = cubes(2);
   solver.set_velocities(models::random_vectors(solver.body().node_count(), 5));
   solver.set_time_step(0.5);
-  solver.initialise_forces(no_forces(solver));
+  solver.initialise_forces(models::no_forces(solver));
   const Vector3 before = solver.linear_momentum();
-  run(solver, 1000);
+  run_free(solver, 1000);
   EXPECT_LT((solver.linear_momentum() - before).norm(), 1e-11 * before.norm());
 }
 
@@ -115,8 +105,8 @@ TEST(CentralDifference, FallsExactlyUnderGravity) {
   const Vector3 g(0.1, -0.2, 0.3);
   solver.set_load(structure::gravity_load(solver.body(), g));
   solver.set_time_step(0.3);
-  solver.initialise_forces(no_forces(solver));
-  run(solver, 50);
+  solver.initialise_forces(models::no_forces(solver));
+  run_free(solver, 50);
   const double t = 50 * 0.3, mass = solver.mass().nodal_mass().sum();
   EXPECT_NEAR(solver.time(), t, 1e-12);
   for (int A = 0; A < solver.positions().cols(); ++A)
@@ -129,7 +119,7 @@ TEST(CentralDifference, FallsExactlyUnderGravity) {
 TEST(ExplicitSolver, GivesTheMomentaOfRigidMotion) {
   ExplicitSolver solver = cubes(2);
   const Vector3 V(1, 2, -1), omega(0.3, -0.1, 0.7), about(5, 0, 1), centre(1, 1, 1);
-  NodalVectors v = no_forces(solver);
+  NodalVectors v = models::no_forces(solver);
   for (int A = 0; A < v.cols(); ++A) v.col(A) = V + omega.cross(Vector3(solver.positions().col(A)) - centre);
   solver.set_velocities(v);
   // Cube of side 2, density 1: mass 8, moment of inertia 16/3 about any axis; lumped with 2 elements: 1.5
@@ -148,7 +138,7 @@ TEST(ExplicitSolver, HoldsFixedDofsAndNoOthers) {
   solver.set_velocities(models::random_vectors(solver.body().node_count(), 5));
   solver.set_time_step(0.3);
   solver.initialise_forces(models::random_vectors(solver.body().node_count(), 6));
-  run(solver, 10);
+  run_free(solver, 10);
   for (int dof = 0; dof < solver.displacements().size(); ++dof) {
     const bool fixed = dof / 3 < 16 && dof % 3 != 1;  // the first 4 x 4 control points lie on zeta-
     EXPECT_EQ(solver.displacements().data()[dof] == 0.0, fixed) << dof;
@@ -161,8 +151,8 @@ TEST(ExplicitSolver, InitialisingForcesAdvancesNothing) {
   const NodalVectors F = models::random_vectors(solver.body().node_count(), 5);
   solver.initialise_forces(F);
   EXPECT_EQ(solver.time(), 0.0);
-  EXPECT_EQ(solver.displacements(), no_forces(solver));
-  EXPECT_EQ(solver.velocities(), no_forces(solver));
+  EXPECT_EQ(solver.displacements(), models::no_forces(solver));
+  EXPECT_EQ(solver.velocities(), models::no_forces(solver));
   for (int A = 0; A < F.cols(); ++A)
     EXPECT_LT((solver.accelerations().col(A) * solver.mass().nodal_mass()[A] - F.col(A)).norm(), 1e-15);
 }
@@ -171,16 +161,16 @@ TEST(ExplicitSolver, ContinuesFromASavedStateToTheLastBit) {
   ExplicitSolver solver = cubes(2);
   solver.set_velocities(models::random_vectors(solver.body().node_count(), 5));
   solver.set_time_step(0.3);
-  solver.initialise_forces(no_forces(solver));
-  run(solver, 7);
+  solver.initialise_forces(models::no_forces(solver));
+  run_free(solver, 7);
   const std::vector<double> saved = solver.save();
   const NodalVectors saved_positions = solver.positions();
-  run(solver, 7);
+  run_free(solver, 7);
   ExplicitSolver other = cubes(2);
   other.set_time_step(0.3);
   other.load(saved);
   EXPECT_EQ(other.positions(), saved_positions);
-  run(other, 7);
+  run_free(other, 7);
   EXPECT_EQ(other.save(), solver.save());
   EXPECT_EQ(other.positions(), solver.positions());
 }

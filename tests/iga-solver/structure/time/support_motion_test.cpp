@@ -36,7 +36,7 @@ ExplicitSolver solver(structure::TimeFunction time) {
 
 NodalVectors no_forces() { return NodalVectors::Zero(3, block().space.control_point_count()); }
 
-void step(ExplicitSolver& solver) {
+void unloaded_step(ExplicitSolver& solver) {
   solver.begin_step();
   solver.end_step(no_forces());
 }
@@ -49,7 +49,7 @@ TEST(SupportMotion, IsAtTheGivenPlacesWithTheVelocitiesAndAccelerationsOfTheSche
   const auto given = [&](int n) { return Vector3(Vector3(0.02, 0, -0.01) * sine(n * kStep)); };
   EXPECT_LT((body.displacements().col(node) - given(0)).norm(), 1e-17);
   for (int n = 1; n < 40; ++n) {
-    step(body);
+    unloaded_step(body);
     for (int i : {0, 2}) {
       EXPECT_NEAR(body.displacements()(i, node), given(n)[i], 1e-16);
       const double next = given(n + 1)[i], now = given(n)[i], last = given(n - 1)[i];
@@ -67,7 +67,7 @@ TEST(SupportMotion, DoesTheWorkThatTheBodyGets) {
   double kinetic = body.kinetic_energy(), most = 0.0;
   structure::Work before = body.work();
   for (int n = 0; n < 60; ++n) {
-    step(body);
+    unloaded_step(body);
     const structure::Work now = body.work();
     const double change = body.kinetic_energy() - kinetic;
     most = std::max(most, body.kinetic_energy());
@@ -86,7 +86,7 @@ TEST(SupportMotion, ReactionsAreTheChangeOfMomentum) {
   body.initialise_forces(no_forces());
   Vector3 momentum = body.linear_momentum(), force = body.reaction(all);
   for (int n = 0; n < 60; ++n) {
-    step(body);
+    unloaded_step(body);
     const Vector3 next = body.reaction(all), expected = 0.5 * kStep * (force + next);
     EXPECT_LT((body.linear_momentum() - momentum - expected).norm(), 1e-15);
     momentum = body.linear_momentum();
@@ -98,10 +98,10 @@ TEST(SupportMotion, GoesOnFromASavedStateToTheLastBit) {
   const structure::TimeFunction ramp = structure::ramp(0.2, 2.2);
   ExplicitSolver one = solver(ramp), other = solver(ramp);
   one.initialise_forces(no_forces());
-  for (int n = 0; n < 17; ++n) step(one);
+  for (int n = 0; n < 17; ++n) unloaded_step(one);
   other.load(one.save());
   other.initialise_forces(no_forces());
-  for (int n = 0; n < 17; ++n) step(one), step(other);
+  for (int n = 0; n < 17; ++n) unloaded_step(one), unloaded_step(other);
   EXPECT_EQ(one.save(), other.save());
   EXPECT_GT(one.displacements().col(moved_nodes()[0])[0], 0.0);
 }

@@ -17,8 +17,6 @@ using structure::ExplicitSolver;
 using structure::Solid;
 using structure::Supports;
 
-const double kPi = std::acos(-1.0);
-
 // PHYSICS C6: omega L^2 sqrt(rho A / E I) of the first two bending pairs, nu = 0, lumped mass.
 TEST(Cantilever, HasTheBendingFrequenciesOfAnIndependentCode) {
   struct Case {
@@ -56,7 +54,9 @@ TEST(BarWave, TravelsAtTheBarSpeedAndKeepsTheImpulse) {
   ExplicitSolver solver(std::move(bar), sides);
   solver.set_time_step(0.5 * 0.86206 / elements);
 
-  const auto pulse = [&](double t) { return t > 0.0 && t < duration ? std::sin(kPi * t / duration) : 0.0; };
+  const auto pulse = [&](double t) {
+    return t > 0.0 && t < duration ? std::sin(nurbs::kPi * t / duration) : 0.0;
+  };
   NodalVectors F = NodalVectors::Zero(3, solver.body().node_count());
   solver.initialise_forces(F);
   double peak = 0.0, error2 = 0.0, norm2 = 0.0;
@@ -72,7 +72,7 @@ TEST(BarWave, TravelsAtTheBarSpeedAndKeepsTheImpulse) {
   }
   EXPECT_NEAR(peak, 1.047, 0.003);
   EXPECT_NEAR(std::sqrt(error2 / norm2), 0.114, 0.01);
-  EXPECT_NEAR(solver.linear_momentum()[0], 2.0 * duration / kPi, 3e-4 * 2.0 * duration / kPi);
+  EXPECT_NEAR(solver.linear_momentum()[0], 2.0 * duration / nurbs::kPi, 3e-4 * 2.0 * duration / nurbs::kPi);
 }
 
 }  // namespace
