@@ -60,7 +60,9 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
   const io::Cut cut = parallel::cut_among(comm);
   std::optional<io::ModelFile> whole;
   if (damping && cut.parts > 1 && cut.part == 0) whole = model;
-  auto solver = std::make_unique<IgaStructure>(io::build_solver(model, cut), std::move(skin), model.probes,
+  structure::ExplicitSolver body = io::build_solver(model, cut);
+  if (!damping) body.stable_time_step();  // kept; the most memory of a run, so before there is anything else
+  auto solver = std::make_unique<IgaStructure>(std::move(body), std::move(skin), model.probes,
                                                gravity_of(model), cut.parts > 1);
   if (model.loads.gravity && model.loads.gravity->of_the_deck) solver->take_gravity_of_deck();
   solver->watch(model.named_supports());
