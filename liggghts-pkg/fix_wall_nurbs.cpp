@@ -38,7 +38,7 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
       messages_(lmp, id),
       structure_(*opened_.solver),
       exchange_(world, structure_),
-      loop_(structure_, exchange_, {options_.search, options_.curvature_radius}),
+      loop_(structure_, exchange_, {options_.search, options_.edge_angle, options_.curvature_radius}),
       model_(
           *this, *impl, *atom,
           liggghts_pkg::TangentialSprings(liggghts_pkg::tangential_spring_place(lmp, options_.model_words)),

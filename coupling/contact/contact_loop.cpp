@@ -15,7 +15,7 @@ namespace contact {
 ContactLoop::ContactLoop(const coupling::StructureSolver& structure, coupling::SurfaceExchange& exchange,
                          const Options& options)
     : options_(options),
-      wall_(structure, exchange),
+      wall_(structure, exchange, options.edge_angle),
       tracker_(wall_.shape().track(candidates_, options.search, searches_)) {}
 
 void ContactLoop::forget_reports() {

@@ -65,7 +65,8 @@ class ContactLoop {
  public:
   struct Options {
     SearchMethod search = SearchMethod::newton;
-    bool curvature_radius = false;  ///< the effective radius takes the wall's curvature into account
+    double edge_angle = brep::kEdgeAngle;  ///< edges between patches that turn by no more are smooth [rad]
+    bool curvature_radius = false;         ///< the effective radius takes the wall's curvature into account
   };
 
   /// Keeps references to both.

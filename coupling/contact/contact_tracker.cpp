@@ -91,6 +91,7 @@ void ContactTracker::find_all(const Candidate& candidate, const Query& query, do
                        kSameFoot * query.touch_reach, candidates_.elements(images[k]), images[k].count,
                        found_);
   keep_one_of_each_valley(query);
+  keep_nearer_across_smooth_edges(query);
   out.clear();
   for (const Foot& foot : found_) out.push_back({foot, -1});
   match_slots(candidate, query, slots, out.data(), static_cast<int>(out.size()));
@@ -123,6 +124,22 @@ void ContactTracker::keep_one_of_each_valley(const Query& query) {
     if (std::none_of(found_.begin(), end, [&](const Foot& kept) { return repeats(*foot, kept); }))
       *end++ = *foot;
   found_.erase(end, found_.end());
+}
+
+// In a kink that counts as smooth there are two feet, side by side, where a smooth surface has one.
+void ContactTracker::keep_nearer_across_smooth_edges(const Query& query) {
+  const auto to_centre = [&](const Foot& foot) { return Vector3((query.centre - foot.point).normalized()); };
+  const auto repeats = [&](const Foot& foot, const Foot& nearer) {
+    return (nearer.distance < foot.distance || (nearer.distance == foot.distance && &nearer < &foot)) &&
+           (foot.point - nearer.point).norm() <= 2.0 * edge_angle_ * foot.distance &&
+           to_centre(foot).cross(to_centre(nearer)).norm() <= std::sin(edge_angle_) &&
+           search_.projector().across_smooth_edge(foot, nearer);
+  };
+  for (auto foot = found_.begin(); foot != found_.end();)
+    if (std::any_of(found_.begin(), found_.end(), [&](const Foot& nearer) { return repeats(*foot, nearer); }))
+      foot = found_.erase(foot);
+    else
+      ++foot;
 }
 
 // A slot goes with its branch: to the foot that is reached from where the branch was last.

@@ -16,9 +16,10 @@ namespace contact {
 
 class ContactTracker final : public FeetTracker {
  public:
-  /// Keeps a reference to the candidates and those of the search.
-  ContactTracker(const LocalSearch& search, const CandidateList& candidates)
-      : FeetTracker(candidates), search_(search) {}
+  /// Keeps a reference to the candidates and those of the search.  `edge_angle`: edges that turn by no more
+  /// are smooth [rad].
+  ContactTracker(const LocalSearch& search, const CandidateList& candidates, double edge_angle)
+      : FeetTracker(candidates), search_(search), edge_angle_(edge_angle) {}
 
   void list_is_new() override;
   void follow(const Query* queries, int count) override;
@@ -41,12 +42,14 @@ class ContactTracker final : public FeetTracker {
                 std::vector<TrackedFoot>& out);
   bool in_valley(const Query& query, const search::Foot& foot) const;
   void keep_one_of_each_valley(const Query& query);
+  void keep_nearer_across_smooth_edges(const Query& query);
   void match_slots(const Candidate& candidate, const Query& query, const ParticleSlots& slots,
                    TrackedFoot* feet, int count);
   nurbs::Vector3 nearest_image(const Candidate& candidate, const nurbs::SurfacePoint& at,
                                const nurbs::Vector3& centre) const;
 
   LocalSearch search_;
+  double edge_angle_;
   std::vector<State> states_;          // per candidate
   std::vector<TrackedFoot> feet_;      // of regular candidates
   std::vector<TrackedFoot> all_feet_;  // of one that is not, this step

@@ -13,18 +13,18 @@ namespace contact {
 namespace {
 
 std::unique_ptr<WallShape> shape_of(const coupling::ContactSurface& given, const nurbs::MultiPatch& surface,
-                                    const nurbs::NodalVectors& control_points) {
+                                    const nurbs::NodalVectors& control_points, double edge_angle) {
   if (given.faces) return std::make_unique<FaceShape>(*given.faces);
-  return std::make_unique<PatchShape>(surface, control_points, given.outward_sign);
+  return std::make_unique<PatchShape>(surface, control_points, given.outward_sign, edge_angle);
 }
 
 }  // namespace
 
-Wall::Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange& exchange)
+Wall::Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange& exchange, double edge_angle)
     : structure_(structure),
       exchange_(exchange),
       surface_(structure.surface().topology),
-      shape_(shape_of(structure.surface(), surface_, exchange.positions())) {
+      shape_(shape_of(structure.surface(), surface_, exchange.positions(), edge_angle)) {
   if (inverse_masses().cols() > 0) largest_inverse_mass_ = inverse_masses().maxCoeff();
 }
 

@@ -15,8 +15,9 @@ using search::Foot;
 
 class Wall {
  public:
-  /// Keeps references to both.
-  Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange& exchange);
+  /// Keeps references to both.  `edge_angle`: edges between patches that turn by no more are smooth; a
+  /// surface of faces has classed its own [rad].
+  Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange& exchange, double edge_angle);
   Wall(const Wall&) = delete;
   Wall& operator=(const Wall&) = delete;
 

@@ -18,12 +18,12 @@ void PatchShape::changed() { projector_.surface_moved(); }
 void PatchShape::begin_list(bool moved) {
   if (!moved && !tree_.empty()) return;
   tree_.build(surface_, control_points_);
-  projector_.begin_list();
+  projector_.begin_list(edge_angle_);
 }
 
 std::unique_ptr<FeetTracker> PatchShape::track(const CandidateList& candidates, SearchMethod method,
                                                SearchCounts& counts) const {
-  return std::make_unique<ContactTracker>(LocalSearch(method, projector_, counts), candidates);
+  return std::make_unique<ContactTracker>(LocalSearch(method, projector_, counts), candidates, edge_angle_);
 }
 
 Vector3 PatchShape::normal_at(const Foot& foot) const {

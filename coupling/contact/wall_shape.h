@@ -39,12 +39,13 @@ class WallShape {
 
 class PatchShape final : public WallShape {
  public:
-  /// Keeps references; control points are 3 x n.
+  /// Keeps references; control points are 3 x n.  `edge_angle`: edges that turn by no more are smooth [rad].
   PatchShape(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points,
-             const std::vector<int>& outward_sign)
+             const std::vector<int>& outward_sign, double edge_angle)
       : surface_(surface),
         control_points_(control_points),
         outward_sign_(outward_sign),
+        edge_angle_(edge_angle),
         projector_(surface, control_points) {}
   void changed() override;
   void begin_list(bool moved) override;
@@ -62,6 +63,7 @@ class PatchShape final : public WallShape {
   const nurbs::MultiPatch& surface_;
   const nurbs::NodalVectors& control_points_;
   const std::vector<int>& outward_sign_;
+  double edge_angle_;
   search::MultiPatchProjector projector_;
   search::MultiPatchTree tree_;
 };

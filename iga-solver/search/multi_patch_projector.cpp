@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "nurbs/assert.h"
+#include "nurbs/curvature.h"
 
 namespace search {
 namespace {
@@ -31,15 +34,52 @@ void MultiPatchProjector::surface_moved() {
   for (const std::unique_ptr<SurfaceProjector>& patch : patches_) patch->surface_moved();
 }
 
-void MultiPatchProjector::begin_list() {
+void MultiPatchProjector::begin_list(double edge_angle) {
+  const double smooth = std::max(edge_angle, SecondFoot::kFlush);
+  goes_on_.resize(surface_.patch_count());
   for (int p = 0; p < surface_.patch_count(); ++p) {
-    bool goes_on[nurbs::kSideCount];
-    for (int side = 0; side < nurbs::kSideCount; ++side) {
-      const nurbs::Border& border = surface_.border(p, side);
-      goes_on[side] = border.kind == nurbs::Border::welded && border.max_angle <= SecondFoot::kFlush;
-    }
-    patches_[p]->second_foot().begin_list(goes_on);
+    for (int side = 0; side < nurbs::kSideCount; ++side)
+      goes_on_[p][side] =
+          surface_.border(p, side).kind == nurbs::Border::welded && angle_now(p, side) <= smooth;
+    patches_[p]->second_foot().begin_list(goes_on_[p], edge_angle);
   }
+}
+
+// Largest angle between the normals along a weld, where both patches have one: a flat plate of two patches
+// has a kink once it is bent, as a weld keeps places alone.
+double MultiPatchProjector::angle_now(int patch, int side) const {
+  constexpr int kSamples = 4;  // per element
+  const nurbs::Border& border = surface_.border(patch, side);
+  const nurbs::KnotVector& along = surface_.patch(patch).knots(1 - side / 2);
+  const double sign = nurbs::same_orientation(side, border) ? 1.0 : -1.0;
+  double largest = 0.0;
+  SurfacePoint at{patch, {}};
+  at.xi[side / 2] = surface_.end_of_side(patch, side);
+  for (int k = 0; k < kSamples * along.element_count(); ++k) {
+    const double* knot = &along.breaks()[k / kSamples];
+    at.xi[1 - side / 2] = knot[0] + (knot[1] - knot[0]) * (k % kSamples + 0.5) / kSamples;
+    const Vector3 here = nurbs::shape_at(surface_, control_points_, at).normal;
+    const Vector3 beyond =
+        sign * nurbs::shape_at(surface_, control_points_, surface_.across(at, side)).normal;
+    if (here.allFinite() && beyond.allFinite())
+      largest = std::max(largest, std::atan2(here.cross(beyond).norm(), here.dot(beyond)));
+  }
+  return largest;
+}
+
+bool MultiPatchProjector::across_smooth_edge(const Foot& a, const Foot& b) const {
+  if (a.patch != b.patch) {
+    for (int side = 0; side < nurbs::kSideCount; ++side)
+      if (goes_on_[a.patch][side] && surface_.border(a.patch, side).patch == b.patch) return true;
+    return false;
+  }
+  for (int i = 0; i < 2; ++i) {
+    const std::vector<double>& creases = surface_.patch(a.patch).knots(i).creases();
+    const auto [low, high] = std::minmax(a.xi[i], b.xi[i]);
+    const auto crease = std::upper_bound(creases.begin(), creases.end(), low);
+    if (crease != creases.end() && *crease < high) return true;
+  }
+  return false;
 }
 
 // The local minimum reached on one patch.

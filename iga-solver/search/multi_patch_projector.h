@@ -4,6 +4,7 @@
 // it is one for all patches around it.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -21,8 +22,12 @@ class MultiPatchProjector {
 
   /// The control points have changed (SurfaceProjector::surface_moved).
   void surface_moved();
-  /// A list of candidates is new (SecondFoot::begin_list).
-  void begin_list();
+  /// A list of candidates is new (SecondFoot::begin_list).  Welds and kinks whose normals are within
+  /// `edge_angle` of each other, as the surface now is, are smooth [rad].
+  void begin_list(double edge_angle = 0.0);
+  /// Whether two feet are on either side of such a weld or kink, as the last list has found it: on
+  /// neighbours, or with a crease between.
+  bool across_smooth_edge(const Foot& a, const Foot& b) const;
   const MultiPatch& surface() const { return surface_; }
   const NodalVectors& control_points() const { return control_points_; }
   const SurfaceProjector& patch(int p) const { return *patches_[p]; }
@@ -46,6 +51,7 @@ class MultiPatchProjector {
                   int count, std::vector<Foot>& out) const;
 
  private:
+  double angle_now(int patch, int side) const;
   Foot warm(const Vector3& d, const SurfacePoint& from, const Vector3& image) const;
   Foot cross_borders(const Vector3& d, Foot foot) const;
   bool leads_on(const Vector3& d, const Foot& foot, Foot& beyond) const;
@@ -54,8 +60,9 @@ class MultiPatchProjector {
   const MultiPatch& surface_;
   const NodalVectors& control_points_;
   std::vector<std::unique_ptr<SurfaceProjector>> patches_;
-  mutable std::vector<Foot> found_;          // of one patch
-  mutable std::vector<int> patch_elements_;  // candidates in the patch's own numbering
+  std::vector<std::array<bool, nurbs::kSideCount>> goes_on_;  // beyond the sides of each patch, smoothly
+  mutable std::vector<Foot> found_;                           // of one patch
+  mutable std::vector<int> patch_elements_;                   // candidates in the patch's own numbering
 };
 
 }  // namespace search

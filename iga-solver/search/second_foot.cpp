@@ -185,8 +185,9 @@ double SecondFoot::reach(const ElementWindow& window) const {
 
 /* ---------------------------------------------------------------------- until the next list */
 
-void SecondFoot::begin_list(const bool (&goes_on)[nurbs::kSideCount]) {
-  std::copy(std::begin(goes_on), std::end(goes_on), goes_on_);
+void SecondFoot::begin_list(const std::array<bool, nurbs::kSideCount>& goes_on, double edge_angle) {
+  goes_on_ = goes_on;
+  sine_of_edge_ = std::max(kFlush, std::sin(std::min(edge_angle, 0.5 * nurbs::kPi)));
   shapes_.resize(space_.element_count());
   ++list_;
   kinks_.clear();
@@ -283,7 +284,7 @@ bool SecondFoot::smooth_side(const Indices<2>& element, int side) const {
       return nurbs::shape_on_element(space_, control_points_.matrix(), space_.element_index(e), xi).normal;
     };
     const Vector3 here = normal(element), there = normal(beyond);
-    if (!(here.dot(there) > 0.0 && here.cross(there).norm() <= kFlush)) return false;
+    if (!(here.dot(there) > 0.0 && here.cross(there).norm() <= sine_of_edge_)) return false;
   }
   return true;
 }

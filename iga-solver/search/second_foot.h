@@ -28,6 +28,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "search/box.h"
@@ -42,7 +43,7 @@ class SecondFoot {
   /// worked out.
   SecondFoot(const Space<2>& space, const PatchPoints& control_points);
 
-  /// Sine of an angle between tangent planes that counts as none.
+  /// An angle between tangent planes that counts as none, whatever the caller says [rad].
   static constexpr double kFlush = 1e-6;
   /// Windows around blocks of 2^level x 2^level elements, for levels below this.
   static constexpr int kLevels = 5;
@@ -61,8 +62,9 @@ class SecondFoot {
 
   /// A list of candidates is new: elements are measured when they are first asked for, where they now are,
   /// and until the next list they may move by less than what reaches allow for (half a skin of the list).
-  /// `goes_on`: whether the surface goes on smoothly beyond each side of the patch.
-  void begin_list(const bool (&goes_on)[nurbs::kSideCount]);
+  /// `goes_on`: whether the surface goes on smoothly beyond each side of the patch; `edge_angle`: kinks
+  /// inside that turn by no more are smooth [rad].
+  void begin_list(const std::array<bool, nurbs::kSideCount>& goes_on, double edge_angle);
   /// Until the next list: there is none, as an element has no free edge, kink or pole within `reach` of d,
   /// and its curvature towards d is less than half of 1 / reach.  (Half, since curvatures are sampled, and
   /// may change.)
@@ -102,7 +104,8 @@ class SecondFoot {
   int blocks_[kLevels];  // per row
   mutable std::vector<Stored> stored_[kLevels];
   unsigned list_ = 0;
-  bool goes_on_[nurbs::kSideCount] = {};
+  std::array<bool, nurbs::kSideCount> goes_on_ = {};
+  double sine_of_edge_ = kFlush;
   mutable std::vector<Shape> shapes_;  // of each element
   mutable std::vector<Box> kinks_;     // sides of elements beyond which the surface does not go on smoothly
 };

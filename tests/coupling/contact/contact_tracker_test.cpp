@@ -24,9 +24,9 @@ nurbs::Surface plate(const Vector3& origin, const Vector3& u, const Vector3& v) 
 class Scene {
  public:
   Scene(const std::vector<nurbs::Surface>& patches, std::vector<Vector3> centres, double touch, double list,
-        std::vector<Vector3> images = {Vector3::Zero()}, int slot_count = 2)
+        std::vector<Vector3> images = {Vector3::Zero()}, int slot_count = 2, double edge_angle = 0.02)
       : surface_(nurbs::join(patches)),
-        shape_(surface_.topology, surface_.control_points, two_sided_),
+        shape_(surface_.topology, surface_.control_points, two_sided_, edge_angle),
         tracker_(shape_.track(candidates_, SearchMethod::newton, counts_)),
         centres_(std::move(centres)),
         touch_(touch),
@@ -178,6 +178,56 @@ TEST(ContactTracker, SlotsStayWithTheirSideOfAKink) {
       for (const TrackedFoot& tracked : feet) slot_of[tracked.foot.patch] = tracked.slot;
       if (!left) slot_of[0] = -1;
     });
+  }
+}
+
+// The patches of a trough z = slope |x|: two of them, or one with a crease.
+std::vector<nurbs::Surface> shallow_trough(double slope, bool is_one_patch) {
+  if (!is_one_patch)
+    return {plate({-2, -1, 2 * slope}, {2, 0, -2 * slope}, {0, 2, 0}),
+            plate({0, -1, 0}, {2, 0, 2 * slope}, {0, 2, 0})};
+  nurbs::Surface sheet = nurbs::plane({-2, -1, 0}, {4, 0, 0}, {0, 2, 0},
+                                      {nurbs::KnotVector::uniform(1, 4), nurbs::KnotVector::uniform(2, 4)});
+  sheet.control_points.row(2) = slope * sheet.control_points.row(0).cwiseAbs();
+  return {sheet};
+}
+
+// Where a trough turns by less than the edge angle the nearer foot alone counts, so a particle that rolls
+// through has one contact and a force that jumps by less than that angle; where it turns by more, both count.
+TEST(ContactTracker, AKinkBelowTheEdgeAngleHasOneFoot) {
+  constexpr double kHeight = 0.25, kSlope = 0.009;  // turns by 0.018
+  const double sine = kSlope / std::hypot(1.0, kSlope);
+  for (const bool is_one_patch : {false, true}) {
+    const std::vector<nurbs::Surface> trough = shallow_trough(kSlope, is_one_patch);
+    for (int k = -30; k < 30; ++k) {
+      const double x =
+          0.1 * (k + 0.5) * kHeight * kSlope;  // both sides have a foot within height * slope of the kink
+      const Vector3 centre(x, 0.1, kHeight);
+      const auto count = [&](double edge_angle) {
+        Scene scene(trough, {centre}, 0.3, 0.5, {Vector3::Zero()}, 2, edge_angle);
+        int feet_found = 0;
+        scene.step(1, [&](int, const FeetRange& feet) {
+          feet_found = feet.count;
+          const double nearest = (kHeight - kSlope * std::abs(x)) * std::sqrt(1.0 - sine * sine);
+          EXPECT_NEAR(feet.first[0].foot.distance, nearest, edge_angle > 0.0 ? 1e-13 : kHeight * kSlope) << x;
+        });
+        return feet_found;
+      };
+      EXPECT_EQ(count(0.02), 1) << x;
+      EXPECT_EQ(count(0.017), std::abs(k + 0.5) < 10.0 ? 2 : 1) << x;
+    }
+    // From one side to the other with one list.
+    Scene rolling(trough, {Vector3(-0.1, 0.1, kHeight)}, 0.3, 0.5);
+    for (int k = 0; k <= 200; ++k) {
+      const double x = -0.1 + 0.001 * k;
+      rolling.centres()[0] = Vector3(x, 0.1, kHeight);
+      rolling.step(1, [&](int, const FeetRange& feet) {
+        ASSERT_EQ(feet.count, 1) << x;
+        EXPECT_EQ(feet.first[0].slot, 0) << x;
+        EXPECT_NEAR(feet.first[0].foot.distance, kHeight - kSlope * std::abs(x), 4.0 * kHeight * sine * sine)
+            << x;
+      });
+    }
   }
 }
 

@@ -29,10 +29,10 @@ class Watched {
         surface_.topology.first_element(patch) + surface_.topology.patch(patch).element_at(xi);
     return projector_.excludes_second_foot(d, reach, element);
   }
-  void move(const NodalVectors& points) {
+  void move(const NodalVectors& points, double edge_angle = 0.0) {
     surface_.control_points = points;
     projector_.surface_moved();
-    projector_.begin_list();
+    projector_.begin_list(edge_angle);
   }
 
  private:
@@ -146,6 +146,31 @@ TEST(SecondFootAhead, OfACreaseChangesWithTheShape) {
     EXPECT_FALSE(subject.excluded({2.5, 1.5, 0.4}, 1.2, {0.6, 0.4})) << "from the other side";
     subject.move(folded);
     EXPECT_FALSE(subject.excluded(d, 1.2, {0.4, 0.4}));
+  }
+}
+
+// A weld keeps places alone: two patches that were flat, or one with a crease, are bent there by their loads,
+// and are smooth as long as they turn by less than the edge angle.
+TEST(SecondFootAhead, OfAWeldAndACreaseEndsWhereTheyTurnByTheEdgeAngle) {
+  const Surface left = plane({0, 0, 0}, {2, 0, 0}, {0, 4, 0}, knots(2, 4)),
+                right = plane({2, 0, 0}, {2, 0, 0}, {0, 4, 0}, knots(2, 4)),
+                creased = insert_knot(plane({0, 0, 0}, {4, 0, 0}, {0, 4, 0}, knots(4, 4)), 0, 0.5, 1),
+                turned = plane({4, 4, 0}, {0, -4, 0}, {-2, 0, 0}, knots(4, 2));  // right, otherwise numbered
+  const Vector3 d(1.5, 1.5, 0.1);
+  for (const std::vector<Surface>& sheet : {std::vector<Surface>{left, right}, {creased}, {left, turned}}) {
+    const PatchedSurface flat = join(sheet);
+    const double middle = sheet.size() == 1 ? 0.4 : 0.8;
+    Watched subject(flat);
+    EXPECT_TRUE(subject.excluded(d, 1.2, {middle, 0.4}));
+    for (const double angle : {0.019, -0.019, 0.021, -0.021, 0.0}) {
+      NodalVectors bent = flat.control_points;
+      for (Eigen::Index a = 0; a < bent.cols(); ++a)
+        bent(2, a) = std::tan(angle) * std::max(0.0, bent(0, a) - 2.0);
+      subject.move(bent, 0.02);
+      EXPECT_EQ(subject.excluded(d, 1.2, {middle, 0.4}), std::abs(angle) < 0.02) << angle;
+      subject.move(bent);
+      EXPECT_EQ(subject.excluded(d, 1.2, {middle, 0.4}), angle == 0.0) << angle;
+    }
   }
 }
 
