@@ -52,32 +52,44 @@ class ContactSlot {
   int history_count_;
 };
 
-/// All slots of one particle.
+/// All slots of one particle.  Each is in a cache line of its own, so who looks at them in every step keeps a
+/// number `used`: from there on all are empty, as far as these functions are the only ones that fill them.
 class ParticleSlots {
  public:
-  /// slots[s] + offset is a slot's row.
-  ParticleSlots(double* const* slots, int slot_count, std::ptrdiff_t offset, int history_count)
-      : slots_(slots), slot_count_(slot_count), history_count_(history_count), offset_(offset) {}
+  /// slots[s] + offset is a slot's row.  Keeps a reference to `used`.
+  ParticleSlots(double* const* slots, int slot_count, std::ptrdiff_t offset, int history_count, int& used)
+      : slots_(slots), slot_count_(slot_count), history_count_(history_count), offset_(offset), used_(used) {}
 
   int slot_count() const { return slot_count_; }
+  int used() const { return used_; }
   ContactSlot slot(int s) const {
     NURBS_ASSERT(0 <= s && s < slot_count_, s, slot_count_);
     return {slots_[s] + offset_, history_count_};
   }
-  /// Index of an empty slot, -1 if there is none.
-  int empty_slot() const {
-    for (int s = 0; s < slot_count_; ++s)
+  /// Index of an empty slot, which from now on is used; -1 if there is none.
+  int take_empty() const {
+    for (int s = 0; s < used_; ++s)
       if (slot(s).empty()) return s;
-    return -1;
+    return used_ < slot_count_ ? used_++ : -1;
   }
   void clear() const {
-    for (int s = 0; s < slot_count_; ++s) slot(s).clear();
+    for (int s = 0; s < used_; ++s) slot(s).clear();
+    used_ = 0;
+  }
+  /// `used` as it is, whatever it was; as little as it may be, of what it was.
+  void count_used() const {
+    used_ = slot_count_;
+    trim_used();
+  }
+  void trim_used() const {
+    while (used_ > 0 && slot(used_ - 1).empty()) --used_;
   }
 
  private:
   double* const* slots_;
   int slot_count_, history_count_;
   std::ptrdiff_t offset_;
+  int& used_;
 };
 
 /// The slots of all particles of a rank: slots[s] has a row of row_size(history_count) numbers for each.
@@ -87,9 +99,15 @@ struct ContactMemory {
   int history_count;  ///< values that the contact model keeps for each contact
 
   static int row_size(int history_count) { return ContactSlot::kFootValues + history_count; }
-  ParticleSlots of(int particle) const {
-    return {slots, slot_count, static_cast<std::ptrdiff_t>(particle) * row_size(history_count),
-            history_count};
+  std::ptrdiff_t offset(int particle) const {
+    return static_cast<std::ptrdiff_t>(particle) * row_size(history_count);
+  }
+  ParticleSlots of(int particle, int& used) const {
+    return {slots, slot_count, offset(particle), history_count, used};
+  }
+  ContactSlot slot(int particle, int s) const {
+    NURBS_ASSERT(0 <= s && s < slot_count, s, slot_count);
+    return {slots[s] + offset(particle), history_count};
   }
 };
 

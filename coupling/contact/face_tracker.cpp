@@ -14,6 +14,7 @@ using nurbs::Vector3;
 namespace {
 
 constexpr double kMargin = 0.1;  // of its reach: how far a particle moves before it chooses pieces again
+constexpr double kNoWay = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -121,27 +122,41 @@ void FaceTracker::keep_one_at_seams() {
 
 // Squared distance of a foot from where a branch was last, on the image that was the nearest to it.
 double FaceTracker::squared_way(const Query& query, const Vector3& last, const Vector3& now) const {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kNoWay;
   for_each_image(query, Of::chosen, [&](const Vector3&, const int*, int, const Vector3& image) {
     least = std::min(least, (last + image - now).squaredNorm());
   });
   return least;
 }
 
-// A slot goes to the foot of its sheet that is nearest to where its branch was last, the nearest pair first.
+// Squared way of a slot's branch from where it was last to a foot; infinite if that cannot be the same.
+double FaceTracker::squared_way(const Query& query, const ContactSlot& slot, const brep::Foot& foot) const {
+  const nurbs::SurfacePoint last = slot.foot();
+  const brep::Surface& surface = search_.surface();
+  if (surface.sheet(last.patch, slot.side()) != foot.sheet) return kNoWay;
+  const double way2 = squared_way(query, surface.faces[last.patch].point(last.xi), foot.point);
+  return way2 <= query.touch_reach * query.touch_reach ? way2 : kNoWay;
+}
+
 void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
   feet_.clear();
-  pairs_.clear();
   for (const search::Foot& foot : found_) feet_.push_back({foot, -1});
-  for (int s = 0; s < slots.slot_count(); ++s) {
+  if (slots.used() == 0) return;
+  if (slots.used() > 1 || feet_.size() > 1) return match_nearest(query, slots);
+  if (!slots.slot(0).empty() && squared_way(query, slots.slot(0), found_[0]) < kNoWay)
+    feet_[0].slot = 0;
+  else
+    slots.clear();
+}
+
+// A slot goes to the foot of its sheet that is nearest to where its branch was last, the nearest pair first.
+void FaceTracker::match_nearest(const Query& query, const ParticleSlots& slots) {
+  pairs_.clear();
+  for (int s = 0; s < slots.used(); ++s) {
     if (slots.slot(s).empty()) continue;
-    const nurbs::SurfacePoint at = slots.slot(s).foot();
-    const Vector3 last = search_.surface().faces[at.patch].point(at.xi);
-    const int sheet = search_.surface().sheet(at.patch, slots.slot(s).side());
     for (std::size_t k = 0; k < found_.size(); ++k) {
-      if (found_[k].sheet != sheet) continue;
-      const double way2 = squared_way(query, last, found_[k].point);
-      if (way2 <= query.touch_reach * query.touch_reach) pairs_.push_back({way2, s, static_cast<int>(k)});
+      const double way2 = squared_way(query, slots.slot(s), found_[k]);
+      if (way2 < kNoWay) pairs_.push_back({way2, s, static_cast<int>(k)});
     }
   }
   if (pairs_.size() > 1)
@@ -151,8 +166,9 @@ void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
   };
   for (const Pair& pair : pairs_)
     if (feet_[pair.foot].slot < 0 && !is_matched(pair.slot)) feet_[pair.foot].slot = pair.slot;
-  for (int s = 0; s < slots.slot_count(); ++s)
+  for (int s = 0; s < slots.used(); ++s)
     if (!is_matched(s)) slots.slot(s).clear();
+  slots.trim_used();
 }
 
 }  // namespace contact

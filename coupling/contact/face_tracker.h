@@ -38,7 +38,9 @@ class FaceTracker final : public FeetTracker {
   void find(const Query& query);
   void keep_one_at_seams();
   double squared_way(const Query& query, const nurbs::Vector3& last, const nurbs::Vector3& now) const;
+  double squared_way(const Query& query, const ContactSlot& slot, const brep::Foot& foot) const;
   void match_slots(const Query& query, const ParticleSlots& slots);
+  void match_nearest(const Query& query, const ParticleSlots& slots);
   FeetRange none(const Query& query, const ParticleSlots& slots, double clearance);
 
   const brep::FootSearch& search_;
