@@ -9,7 +9,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "nurbs/assert.h"
@@ -28,7 +27,7 @@ class ContactSlot {
   nurbs::SurfacePoint foot() const { return {static_cast<int>(values_[0]), {values_[1], values_[2]}}; }
   /// +1 or -1: of the normal of that patch; 0: not known.
   int side() const {
-    const double fraction = values_[0] - std::floor(values_[0]);
+    const double fraction = values_[0] - static_cast<int>(values_[0]);
     return fraction == 0.0 ? 0 : fraction < 0.4 ? 1 : -1;
   }
   void set_foot(const nurbs::SurfacePoint& foot, int side) {
