@@ -194,10 +194,11 @@ inline int ContactLoop::take_slot(const ParticleView& particles, const StepInfo&
   // The side changes where the branch goes on to another patch, and where the centre passes the surface.
   constexpr double kDeep = 0.5;  // of the radius
   ContactSlot slot = slots.slot(place);
-  int side = slot.empty() || slot.foot().patch != tracked.foot.patch ? 0 : slot.side();
-  if (side == 0 || tracked.foot.distance < kDeep * particles.radius[i])
-    side = wall_.side_of(tracked.foot, delta);
-  slot.set_foot(tracked.foot.at(), side);
+  const bool same_patch = !slot.empty() && slot.foot().patch == tracked.foot.patch;
+  if (same_patch && slot.side() != 0 && tracked.foot.distance >= kDeep * particles.radius[i])
+    slot.set_parameters(tracked.foot.at());
+  else
+    slot.set_foot(tracked.foot.at(), wall_.side_of(tracked.foot, delta));
   return place;
 }
 

@@ -32,8 +32,12 @@ class ContactSlot {
   }
   void set_foot(const nurbs::SurfacePoint& foot, int side) {
     NURBS_ASSERT(foot.patch >= 0 && -1 <= side && side <= 1, foot.patch, side);
-    constexpr double kFraction[] = {0.5, 0.0, 0.25};
+    static constexpr double kFraction[] = {0.5, 0.0, 0.25};
     values_[0] = foot.patch + kFraction[1 + side];
+    set_parameters(foot);
+  }
+  /// On the same patch and side.
+  void set_parameters(const nurbs::SurfacePoint& foot) {
     values_[1] = foot.xi[0];
     values_[2] = foot.xi[1];
   }

@@ -29,6 +29,7 @@ void FaceTracker::list_is_new() {
 
 // What they look at first is on its way while others are looked at: memory takes longer than all the rest.
 void FaceTracker::follow(const Query* queries, int count) {
+  if (!search_.outgrows_cache()) return;
   for (const Query* query = queries; query < queries + count; ++query)
     if (states_[query->candidate].reach > 0.0)
       for_each_image(*query, Of::chosen, [&](const Vector3&, const int* pieces, int number, const Vector3&) {
@@ -114,9 +115,10 @@ void FaceTracker::find(const Query& query) {
                  [&](const Vector3& d, const int* pieces, int count, const Vector3& image) {
                    const std::size_t first = found_.size();
                    search_.feet(d, query.touch_reach, pieces, count, found_);
-                   for (std::size_t k = first; k < found_.size(); ++k) {
-                     found_[k].image = image;
-                     found_[k].point += image;
+                   brep::Foot* const end = found_.data() + found_.size();
+                   for (brep::Foot* foot = found_.data() + first; foot != end; ++foot) {
+                     foot->image = image;
+                     foot->point += image;
                    }
                  });
   if (found_.size() > 1) {
@@ -124,7 +126,7 @@ void FaceTracker::find(const Query& query) {
               [](const brep::Foot& a, const brep::Foot& b) { return a.distance < b.distance; });
     keep_one_at_seams();
   }
-  for (const brep::Foot& foot : found_) counts_.add(foot);
+  for (const brep::Foot& foot : found_) counts_.add_direct(foot);
 }
 
 // Where the wall goes on with one of its images, across a periodic face of the box, neither knows the other:

@@ -64,9 +64,14 @@ def data_file(box: Sequence[tuple[float, float]], radii: np.ndarray, centres: np
 
 
 def touching(log: str) -> int:
-    """Spheres that touch the wall at the end of a run with in.touching."""
+    """Spheres that touch the wall at the end of the last run with in.touching."""
     rows = re.findall(r"^\s*\d+\s+\d+\s+\S+\s+(\d+)\s*$", log, re.MULTILINE)
     return int(rows[-1])
+
+
+def touching_by_run(log: str) -> list[int]:
+    """The same at the end of each run."""
+    return [touching(run) for run in log.split("Loop time of")[:-1]]
 
 
 def fix_times(log: str) -> tuple[dict[str, float], float]:
