@@ -9,8 +9,8 @@
 
 namespace brep {
 
-constexpr int kFew = 3;          // pieces, which are looked at without a filter
-constexpr int kChunk = 32;       // pieces that are filtered together
+constexpr int kFew = 3;     // pieces, which are looked at without a filter
+constexpr int kChunk = 32;  // pieces that are filtered together
 
 FootSearch::FootSearch(const Surface& surface)
     : surface_(surface),
