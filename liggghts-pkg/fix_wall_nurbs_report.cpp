@@ -47,7 +47,7 @@ void FixWallNurbs::report(liggghts_pkg::ContactReport& rows, int number, Compute
   const contact::ContactMemory memory = memory_.rows();
   for (contact::Contact contact : keeper_.contacts()) {
     const int i = contact.particle;
-    contact.history = memory.of(i).slot(contact.slot).history();
+    contact.history = memory.slot(i, contact.slot).history();
     model_.evaluate(&contact, 1);
     rows.add(number, contact, nurbs::Vector3::Map(atom->x[i]), atom->radius[i], dnum_);
     if (!gives_heat) continue;

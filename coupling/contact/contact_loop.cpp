@@ -62,9 +62,13 @@ void ContactLoop::expect_images_to_stay(const std::vector<Vector3>& images) cons
 
 void ContactLoop::forget_lost_contacts(const ParticleView& particles) {
   is_candidate_.assign(particles.count, false);
+  used_slots_.resize(particles.count);
   for (const Candidate& candidate : candidates_.candidates()) is_candidate_[candidate.particle] = true;
-  for (int i = 0; i < particles.count; ++i)
-    if (!is_candidate_[i]) particles.memory.of(i).clear();
+  for (int i = 0; i < particles.count; ++i) {
+    const ParticleSlots slots = slots_of(particles, i);
+    slots.count_used();
+    if (!is_candidate_[i]) slots.clear();
+  }
 }
 
 // A point of the surface is a convex combination of control points.
@@ -135,7 +139,7 @@ inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo
 inline void ContactLoop::find_contacts(const ParticleView& particles, const StepInfo& step,
                                        const FeetTracker::Query& query) {
   const int i = candidates_.candidates()[query.candidate].particle;
-  const ParticleSlots slots = particles.memory.of(i);
+  const ParticleSlots slots = slots_of(particles, i);
   const double radius = particles.radius[i];
   for (TrackedFoot& tracked : tracker_->feet(query, slots)) {
     Foot& foot = tracked.foot;
@@ -152,7 +156,7 @@ inline void ContactLoop::find_contacts(const ParticleView& particles, const Step
       check_crossing(particles, step, i, foot.distance, delta, v_wall);
     }
     if (touches) {
-      tracked.slot = take_slot(particles, step, i, tracked, delta);
+      tracked.slot = take_slot(particles, step, i, tracked, slots, delta);
       add_contact(particles, i, tracked, delta, v_wall);
     } else if (tracked.slot >= 0) {
       slots.slot(tracked.slot).clear();
@@ -181,19 +185,20 @@ inline void ContactLoop::check_crossing(const ParticleView& particles, const Ste
 }
 
 inline int ContactLoop::take_slot(const ParticleView& particles, const StepInfo& step, int i,
-                                  const TrackedFoot& tracked, const Vector3& delta) const {
-  const ParticleSlots slots = particles.memory.of(i);
-  const int place = tracked.slot >= 0 ? tracked.slot : slots.empty_slot();
+                                  const TrackedFoot& tracked, const ParticleSlots& slots,
+                                  const Vector3& delta) const {
+  const int place = tracked.slot >= 0 ? tracked.slot : slots.take_empty();
   if (place < 0)
     throw TooManyContacts(fmt::format("particle {} touches the wall in more than {} places at step {}",
                                       particles.tag[i], slots.slot_count(), step.number));
   // The side changes where the branch goes on to another patch, and where the centre passes the surface.
   constexpr double kDeep = 0.5;  // of the radius
   ContactSlot slot = slots.slot(place);
-  int side = slot.empty() || slot.foot().patch != tracked.foot.patch ? 0 : slot.side();
-  if (side == 0 || tracked.foot.distance < kDeep * particles.radius[i])
-    side = wall_.side_of(tracked.foot, delta);
-  slot.set_foot(tracked.foot.at(), side);
+  const bool same_patch = !slot.empty() && slot.foot().patch == tracked.foot.patch;
+  if (same_patch && slot.side() != 0 && tracked.foot.distance >= kDeep * particles.radius[i])
+    slot.set_parameters(tracked.foot.at());
+  else
+    slot.set_foot(tracked.foot.at(), wall_.side_of(tracked.foot, delta));
   return place;
 }
 
@@ -213,7 +218,7 @@ inline void ContactLoop::add_contact(const ParticleView& particles, int i, const
   contact.effective_radius = options_.curvature_radius ? wall_.effective_radius(foot, delta, radius) : radius;
   contact.delta = delta;
   contact.wall_velocity = v_wall;
-  contact.history = particles.memory.of(i).slot(tracked.slot).history();
+  contact.history = particles.memory.slot(i, tracked.slot).history();
 }
 
 inline void ContactLoop::apply(const ParticleView& particles, const StepInfo& step, const Contact& contact) {

@@ -118,8 +118,11 @@ class ContactLoop {
   bool may_cross(const ParticleView& particles, const StepInfo& step, int particle, double distance) const;
   void check_crossing(const ParticleView& particles, const StepInfo& step, int particle, double distance,
                       const Vector3& delta, const Vector3& v_wall);
+  ParticleSlots slots_of(const ParticleView& particles, int particle) {
+    return particles.memory.of(particle, used_slots_[particle]);
+  }
   int take_slot(const ParticleView& particles, const StepInfo& step, int particle, const TrackedFoot& tracked,
-                const Vector3& delta) const;
+                const ParticleSlots& slots, const Vector3& delta) const;
   void add_contact(const ParticleView& particles, int particle, const TrackedFoot& tracked,
                    const Vector3& delta, const Vector3& v_wall);
   void apply(const ParticleView& particles, const StepInfo& step, const Contact& contact);
@@ -142,6 +145,7 @@ class ContactLoop {
   std::vector<double> list_reach_;    // per particle, when the list was built
   std::vector<double> radius_limit_;  // likewise: what the list is good for
   std::vector<bool> is_candidate_;
+  std::vector<int> used_slots_;  // per particle (ParticleSlots)
 
   std::vector<Contact> batch_;
   std::vector<WallContact> contacts_;

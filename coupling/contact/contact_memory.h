@@ -9,7 +9,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 #include "nurbs/assert.h"
@@ -28,13 +27,17 @@ class ContactSlot {
   nurbs::SurfacePoint foot() const { return {static_cast<int>(values_[0]), {values_[1], values_[2]}}; }
   /// +1 or -1: of the normal of that patch; 0: not known.
   int side() const {
-    const double fraction = values_[0] - std::floor(values_[0]);
+    const double fraction = values_[0] - static_cast<int>(values_[0]);
     return fraction == 0.0 ? 0 : fraction < 0.4 ? 1 : -1;
   }
   void set_foot(const nurbs::SurfacePoint& foot, int side) {
     NURBS_ASSERT(foot.patch >= 0 && -1 <= side && side <= 1, foot.patch, side);
-    constexpr double kFraction[] = {0.5, 0.0, 0.25};
+    static constexpr double kFraction[] = {0.5, 0.0, 0.25};
     values_[0] = foot.patch + kFraction[1 + side];
+    set_parameters(foot);
+  }
+  /// On the same patch and side.
+  void set_parameters(const nurbs::SurfacePoint& foot) {
     values_[1] = foot.xi[0];
     values_[2] = foot.xi[1];
   }
@@ -52,32 +55,44 @@ class ContactSlot {
   int history_count_;
 };
 
-/// All slots of one particle.
+/// All slots of one particle.  Each is in a cache line of its own, so who looks at them in every step keeps a
+/// number `used`: from there on all are empty, as far as these functions are the only ones that fill them.
 class ParticleSlots {
  public:
-  /// slots[s] + offset is a slot's row.
-  ParticleSlots(double* const* slots, int slot_count, std::ptrdiff_t offset, int history_count)
-      : slots_(slots), slot_count_(slot_count), history_count_(history_count), offset_(offset) {}
+  /// slots[s] + offset is a slot's row.  Keeps a reference to `used`.
+  ParticleSlots(double* const* slots, int slot_count, std::ptrdiff_t offset, int history_count, int& used)
+      : slots_(slots), slot_count_(slot_count), history_count_(history_count), offset_(offset), used_(used) {}
 
   int slot_count() const { return slot_count_; }
+  int used() const { return used_; }
   ContactSlot slot(int s) const {
     NURBS_ASSERT(0 <= s && s < slot_count_, s, slot_count_);
     return {slots_[s] + offset_, history_count_};
   }
-  /// Index of an empty slot, -1 if there is none.
-  int empty_slot() const {
-    for (int s = 0; s < slot_count_; ++s)
+  /// Index of an empty slot, which from now on is used; -1 if there is none.
+  int take_empty() const {
+    for (int s = 0; s < used_; ++s)
       if (slot(s).empty()) return s;
-    return -1;
+    return used_ < slot_count_ ? used_++ : -1;
   }
   void clear() const {
-    for (int s = 0; s < slot_count_; ++s) slot(s).clear();
+    for (int s = 0; s < used_; ++s) slot(s).clear();
+    used_ = 0;
+  }
+  /// `used` as it is, whatever it was; as little as it may be, of what it was.
+  void count_used() const {
+    used_ = slot_count_;
+    trim_used();
+  }
+  void trim_used() const {
+    while (used_ > 0 && slot(used_ - 1).empty()) --used_;
   }
 
  private:
   double* const* slots_;
   int slot_count_, history_count_;
   std::ptrdiff_t offset_;
+  int& used_;
 };
 
 /// The slots of all particles of a rank: slots[s] has a row of row_size(history_count) numbers for each.
@@ -87,9 +102,15 @@ struct ContactMemory {
   int history_count;  ///< values that the contact model keeps for each contact
 
   static int row_size(int history_count) { return ContactSlot::kFootValues + history_count; }
-  ParticleSlots of(int particle) const {
-    return {slots, slot_count, static_cast<std::ptrdiff_t>(particle) * row_size(history_count),
-            history_count};
+  std::ptrdiff_t offset(int particle) const {
+    return static_cast<std::ptrdiff_t>(particle) * row_size(history_count);
+  }
+  ParticleSlots of(int particle, int& used) const {
+    return {slots, slot_count, offset(particle), history_count, used};
+  }
+  ContactSlot slot(int particle, int s) const {
+    NURBS_ASSERT(0 <= s && s < slot_count, s, slot_count);
+    return {slots[s] + offset(particle), history_count};
   }
 };
 

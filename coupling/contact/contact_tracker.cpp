@@ -145,7 +145,7 @@ void ContactTracker::keep_nearer_across_smooth_edges(const Query& query) {
 // A slot goes with its branch: to the foot that is reached from where the branch was last.
 void ContactTracker::match_slots(const Candidate& candidate, const Query& query, const ParticleSlots& slots,
                                  TrackedFoot* feet, int count) {
-  for (int s = 0; s < slots.slot_count(); ++s) {
+  for (int s = 0; s < slots.used(); ++s) {
     ContactSlot slot = slots.slot(s);
     if (slot.empty()) continue;
     const SurfacePoint last = slot.foot();

@@ -13,7 +13,10 @@ using nurbs::Vector3;
 
 namespace {
 
-constexpr double kMargin = 0.1;  // of its reach: how far a particle moves before it chooses pieces again
+// Of its reach: how far a particle moves before it chooses pieces again; from where on it chooses none.
+constexpr double kMargin = 0.2, kNear = 1.1;
+constexpr int kCalm = 8;  // looks at the same pieces, after which it may do with fewer
+constexpr double kNoWay = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -24,13 +27,26 @@ void FaceTracker::list_is_new() {
   piece_counts_.resize(candidates_.image_element_count());
 }
 
+// What they look at first is on its way while others are looked at: memory takes longer than all the rest.
+void FaceTracker::follow(const Query* queries, int count) {
+  if (!search_.outgrows_cache()) return;
+  for (const Query* query = queries; query < queries + count; ++query)
+    if (states_[query->candidate].reach > 0.0)
+      for_each_image(*query, Of::chosen, [&](const Vector3&, const int* pieces, int number, const Vector3&) {
+        search_.prefetch(pieces, number);
+      });
+}
+
 FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
   NURBS_ASSERT(states_.size() == candidates_.candidates().size(), states_.size());
-  const State& state = states_[query.candidate];
-  if ((query.centre - state.centre).norm() + query.touch_reach > state.reach) {
+  State& state = states_[query.candidate];
+  const double moved2 = (query.centre - state.centre).squaredNorm(), margin = state.reach - query.touch_reach;
+  if (margin < 0.0 || moved2 > margin * margin) {
     const double distance = nearest(query, query.list_reach, Of::list);
-    if (distance > (1.0 + kMargin) * query.touch_reach) return none(query, slots, distance);
-    choose_pieces(query);
+    if (distance > kNear * query.touch_reach) return none(query, slots, distance);
+    choose_pieces(query, Of::list, kMargin * query.touch_reach);
+  } else if (++state.looks == kCalm) {
+    choose_fewer_pieces(query);
   }
   find(query);
   if (found_.empty()) {
@@ -42,8 +58,18 @@ FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
   return {feet_.data(), static_cast<int>(feet_.size())};
 }
 
+// Of a particle that is slow, so that the few are enough for a while.
+void FaceTracker::choose_fewer_pieces(const Query& query) {
+  constexpr double kWhile = 32.0, kLeast = 0.01;  // of what it has moved since; of its reach
+  const State& state = states_[query.candidate];
+  const double moved = (query.centre - state.centre).norm();
+  const double margin = std::max(kWhile * moved, kLeast * query.touch_reach);
+  if (margin + moved < 0.5 * (state.reach - query.touch_reach)) choose_pieces(query, Of::chosen, margin);
+}
+
 FeetRange FaceTracker::none(const Query& query, const ParticleSlots& slots, double clearance) {
   keep_clearance(query, clearance);
+  states_[query.candidate].sheet = -1;
   slots.clear();
   return {feet_.data(), 0};
 }
@@ -70,16 +96,17 @@ double FaceTracker::nearest(const Query& query, double reach, Of of) const {
   return reach;
 }
 
-void FaceTracker::choose_pieces(const Query& query) {
+void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
   State& state = states_[query.candidate];
   state.centre = query.centre;
-  state.reach = (1.0 + 2.0 * kMargin) * query.touch_reach;
+  state.reach = query.touch_reach + margin;
+  state.looks = 0;
   const Candidate& candidate = candidates_.candidates()[query.candidate];
-  const ImageElements* images = candidates_.image_elements(candidate);
-  for (int k = 0; k < candidate.image_count; ++k)
-    piece_counts_[candidate.first_image + k] =
-        search_.activate(query.centre - candidates_.images()[images[k].image], state.reach,
-                         candidates_.elements(images[k]), images[k].count, pieces_.data() + images[k].first);
+  const ImageElements* image = candidates_.image_elements(candidate);
+  int* count = &piece_counts_[candidate.first_image];
+  for_each_image(query, of, [&](const Vector3& d, const int* pieces, int number, const Vector3&) {
+    *count++ = search_.activate(d, state.reach, pieces, number, pieces_.data() + (image++)->first);
+  });
 }
 
 void FaceTracker::find(const Query& query) {
@@ -88,9 +115,10 @@ void FaceTracker::find(const Query& query) {
                  [&](const Vector3& d, const int* pieces, int count, const Vector3& image) {
                    const std::size_t first = found_.size();
                    search_.feet(d, query.touch_reach, pieces, count, found_);
-                   for (std::size_t k = first; k < found_.size(); ++k) {
-                     found_[k].image = image;
-                     found_[k].point += image;
+                   brep::Foot* const end = found_.data() + found_.size();
+                   for (brep::Foot* foot = found_.data() + first; foot != end; ++foot) {
+                     foot->image = image;
+                     foot->point += image;
                    }
                  });
   if (found_.size() > 1) {
@@ -98,7 +126,7 @@ void FaceTracker::find(const Query& query) {
               [](const brep::Foot& a, const brep::Foot& b) { return a.distance < b.distance; });
     keep_one_at_seams();
   }
-  for (const brep::Foot& foot : found_) counts_.add(foot);
+  for (const brep::Foot& foot : found_) counts_.add_direct(foot);
 }
 
 // Where the wall goes on with one of its images, across a periodic face of the box, neither knows the other:
@@ -121,27 +149,49 @@ void FaceTracker::keep_one_at_seams() {
 
 // Squared distance of a foot from where a branch was last, on the image that was the nearest to it.
 double FaceTracker::squared_way(const Query& query, const Vector3& last, const Vector3& now) const {
-  double least = std::numeric_limits<double>::infinity();
+  double least = kNoWay;
   for_each_image(query, Of::chosen, [&](const Vector3&, const int*, int, const Vector3& image) {
     least = std::min(least, (last + image - now).squaredNorm());
   });
   return least;
 }
 
-// A slot goes to the foot of its sheet that is nearest to where its branch was last, the nearest pair first.
+// Squared way of a slot's branch from where it was last to a foot; infinite if that cannot be the same.
+double FaceTracker::squared_way(const Query& query, const ContactSlot& slot, const brep::Foot& foot) const {
+  const nurbs::SurfacePoint last = slot.foot();
+  const brep::Surface& surface = search_.surface();
+  if (surface.sheet(last.patch, slot.side()) != foot.sheet) return kNoWay;
+  const double way2 = squared_way(query, surface.faces[last.patch].point(last.xi), foot.point);
+  return way2 <= query.touch_reach * query.touch_reach ? way2 : kNoWay;
+}
+
 void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
   feet_.clear();
-  pairs_.clear();
   for (const search::Foot& foot : found_) feet_.push_back({foot, -1});
-  for (int s = 0; s < slots.slot_count(); ++s) {
+  if (is_last_foot(query, slots))
+    feet_[0].slot = 0;
+  else if (slots.used() > 0)
+    match_nearest(query, slots);
+  State& state = states_[query.candidate];
+  state.sheet = found_.size() == 1 ? found_[0].sheet : -1;
+  state.last = found_[0].point;
+}
+
+// Most have one contact, and had it before: then nobody asks the slot where that was.
+bool FaceTracker::is_last_foot(const Query& query, const ParticleSlots& slots) const {
+  const State& state = states_[query.candidate];
+  return found_.size() == 1 && slots.used() == 1 && found_[0].sheet == state.sheet &&
+         (found_[0].point - state.last).squaredNorm() <= query.touch_reach * query.touch_reach;
+}
+
+// A slot goes to the foot of its sheet that is nearest to where its branch was last, the nearest pair first.
+void FaceTracker::match_nearest(const Query& query, const ParticleSlots& slots) {
+  pairs_.clear();
+  for (int s = 0; s < slots.used(); ++s) {
     if (slots.slot(s).empty()) continue;
-    const nurbs::SurfacePoint at = slots.slot(s).foot();
-    const Vector3 last = search_.surface().faces[at.patch].point(at.xi);
-    const int sheet = search_.surface().sheet(at.patch, slots.slot(s).side());
     for (std::size_t k = 0; k < found_.size(); ++k) {
-      if (found_[k].sheet != sheet) continue;
-      const double way2 = squared_way(query, last, found_[k].point);
-      if (way2 <= query.touch_reach * query.touch_reach) pairs_.push_back({way2, s, static_cast<int>(k)});
+      const double way2 = squared_way(query, slots.slot(s), found_[k]);
+      if (way2 < kNoWay) pairs_.push_back({way2, s, static_cast<int>(k)});
     }
   }
   if (pairs_.size() > 1)
@@ -151,8 +201,9 @@ void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
   };
   for (const Pair& pair : pairs_)
     if (feet_[pair.foot].slot < 0 && !is_matched(pair.slot)) feet_[pair.foot].slot = pair.slot;
-  for (int s = 0; s < slots.slot_count(); ++s)
+  for (int s = 0; s < slots.used(); ++s)
     if (!is_matched(s)) slots.slot(s).clear();
+  slots.trim_used();
 }
 
 }  // namespace contact

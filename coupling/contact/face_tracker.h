@@ -3,8 +3,9 @@
 //
 // A foot costs little here, so none is followed: all are found anew in each step that may have one.  Near
 // the wall a candidate looks only at the pieces that it can reach before it has moved by a small part of its
-// radius; farther away it looks for the nearest piece alone, and then rests until it can be there.  A branch
-// is a foot of one sheet (brep/README.md), wherever it moves on it, over edges and vertices too.
+// radius, the smaller the slower it is; farther away it looks for the nearest piece alone, and then rests
+// until it can be there.  A branch is a foot of one sheet (brep/README.md), wherever it moves on it, over
+// edges and vertices too.
 #pragma once
 
 #include <vector>
@@ -22,23 +23,30 @@ class FaceTracker final : public FeetTracker {
       : FeetTracker(candidates), search_(search), counts_(counts) {}
 
   void list_is_new() override;
-  void follow(const Query* /*queries*/, int /*count*/) override {}
+  void follow(const Query* queries, int count) override;
   FeetRange feet(const Query& query, const ParticleSlots& slots) override;
 
  private:
   struct State {
     nurbs::Vector3 centre = nurbs::Vector3::Zero();  // when its pieces were chosen
     double reach = 0.0;                              // then; 0: not yet [length]
+    nurbs::Vector3 last = nurbs::Vector3::Zero();    // its foot in the last step, if it had one alone
+    int sheet = -1;                                  // of that; -1: none, or its list is new
+    int looks = 0;                                   // at these pieces
   };
   enum class Of { list, chosen };
   template <class Function>
   void for_each_image(const Query& query, Of of, Function f) const;
   double nearest(const Query& query, double reach, Of of) const;
-  void choose_pieces(const Query& query);
+  void choose_fewer_pieces(const Query& query);
+  void choose_pieces(const Query& query, Of of, double margin);
   void find(const Query& query);
   void keep_one_at_seams();
   double squared_way(const Query& query, const nurbs::Vector3& last, const nurbs::Vector3& now) const;
+  double squared_way(const Query& query, const ContactSlot& slot, const brep::Foot& foot) const;
   void match_slots(const Query& query, const ParticleSlots& slots);
+  bool is_last_foot(const Query& query, const ParticleSlots& slots) const;
+  void match_nearest(const Query& query, const ParticleSlots& slots);
   FeetRange none(const Query& query, const ParticleSlots& slots, double clearance);
 
   const brep::FootSearch& search_;

@@ -19,9 +19,10 @@ struct SearchCounts {
 
   long not_converged() const { return by_status[static_cast<int>(search::FootStatus::not_converged)]; }
   void add(const search::Foot& foot) {
-    ++by_status[static_cast<int>(foot.status)];
+    add_direct(foot);
     iterations += foot.iterations;
   }
+  void add_direct(const search::Foot& foot) { ++by_status[static_cast<int>(foot.status)]; }  ///< no iteration
 };
 
 /// Sum over all ranks (collective).

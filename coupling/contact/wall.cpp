@@ -18,11 +18,17 @@ std::unique_ptr<WallShape> shape_of(const coupling::ContactSurface& given, const
   return std::make_unique<PatchShape>(surface, control_points, given.outward_sign, edge_angle);
 }
 
+bool any_inside(const coupling::ContactSurface& surface) {
+  const std::vector<int>& signs = surface.outward_sign;
+  return std::any_of(signs.begin(), signs.end(), [](int sign) { return sign != 0; });
+}
+
 }  // namespace
 
 Wall::Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange& exchange, double edge_angle)
     : structure_(structure),
       exchange_(exchange),
+      is_closed_(any_inside(structure.surface())),
       surface_(structure.surface().topology),
       shape_(shape_of(structure.surface(), surface_, exchange.positions(), edge_angle)) {
   if (inverse_masses().cols() > 0) largest_inverse_mass_ = inverse_masses().maxCoeff();

@@ -76,7 +76,7 @@ class Wall {
 
   /// +1 where dS/dxi x dS/deta points, -1 on the other side.
   int side_of(const Foot& foot, const Vector3& delta) const;
-  bool has_inside(int patch) const { return shape_->outward_sign(patch) != 0; }
+  bool has_inside(int patch) const { return is_closed_ && shape_->outward_sign(patch) != 0; }
   /// Whether a centre is inside the body.
   bool is_inside(const Foot& foot, const Vector3& delta) const;
   /// A centre nearer than this is on the surface [length].
@@ -98,6 +98,7 @@ class Wall {
 
   const coupling::StructureSolver& structure_;
   coupling::SurfaceExchange& exchange_;
+  bool is_closed_;             // some patch has an inside
   nurbs::MultiPatch surface_;  // of the structure; welded across periodic faces, too
   std::unique_ptr<WallShape> shape_;
   search::Box bounds_;

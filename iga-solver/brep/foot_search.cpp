@@ -5,6 +5,7 @@
 
 #include "brep/minima.h"
 #include "brep/piece_distance.h"
+#include "nurbs/processor.h"
 
 namespace brep {
 
@@ -12,7 +13,11 @@ constexpr int kFew = 3;     // pieces, which are looked at without a filter
 constexpr int kChunk = 32;  // pieces that are filtered together
 
 FootSearch::FootSearch(const Surface& surface)
-    : surface_(surface), tree_(surface), neighbours_(surface), same_point_(10.0 * surface.slack) {}
+    : surface_(surface),
+      tree_(surface),
+      triangles_(plane_triangles(surface)),
+      neighbours_(surface),
+      same_point_(10.0 * surface.slack) {}
 
 void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) const {
   const size_t begin = pieces.size();
@@ -38,17 +43,25 @@ double FootSearch::nearest(const Vector3& d, double reach, const int* pieces, in
   return reach;
 }
 
+void FootSearch::prefetch(const int* pieces, int count) const {
+  if (count <= kFew)
+    for (int k = 0; k < count; ++k) nurbs::prefetch(triangles_[pieces[k]]);
+  else
+    tree_.prefetch(pieces, count);
+}
+
 void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int count,
                       std::vector<Foot>& out) const {
   Minima minima(surface_, same_point_, d, reach, out);
   if (count <= kFew) {
-    for (int k = 0; k < count; ++k) minima.add_of_piece(pieces[k]);
+    for (int k = 0; k < count; ++k) minima.add_of_piece(pieces[k], triangles_[pieces[k]]);
   } else {
     const PieceTree::Query query = tree_.query(d, reach);
     for (int k = 0; k < count; k += kChunk) {
       int kept[kChunk];
       const int maybe = tree_.filter(query, pieces + k, std::min(kChunk, count - k), kept);
-      for (int i = 0; i < maybe; ++i) minima.add_of_piece(kept[i]);
+      for (int i = 0; i < maybe; ++i) nurbs::prefetch(triangles_[kept[i]]);
+      for (int i = 0; i < maybe; ++i) minima.add_of_piece(kept[i], triangles_[kept[i]]);
     }
   }
   minima.finish(neighbours_);

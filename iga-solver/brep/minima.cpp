@@ -12,27 +12,19 @@ namespace brep {
 
 constexpr double kTie = 1e-12;  // sides of a triangle that are nearest alike, relative to a square
 
-void Minima::add_of_triangle(const Piece& piece) {
-  const Frame& plane = surface_.faces[piece.face].frame;
-  const double height = plane.z.dot(d_ - plane.origin);
-  if (std::abs(height) >= reach_) return;
-  const Vector3* corner[3];
-  for (int i = 0; i < 3; ++i) corner[i] = &surface_.vertices[piece.vertex[i]].point;
+void Minima::add_beside_triangle(const Piece& piece) {
+  const Vector3& normal = surface_.faces[piece.face].frame.z;
   double least = reach_ * reach_;
   BesideSide beside[3];
-  bool inside = true;
   for (int i = 0; i < 3; ++i) {
-    const Vector3 from = d_ - *corner[i], way = *corner[(i + 1) % 3] - *corner[i];
-    const double in = plane.z.cross(way).dot(from);
-    if (in >= 0.0) continue;
-    const double length2 = way.squaredNorm();
-    inside = inside && in * in <= slack_ * slack_ * length2;
-    beside[i] = {from.dot(way), length2, 0.0};
-    beside[i].distance2 = (from - std::clamp(beside[i].along / length2, 0.0, 1.0) * way).squaredNorm();
+    const Vector3& corner = surface_.vertices[piece.vertex[i]].point;
+    const Vector3 from = d_ - corner, way = surface_.vertices[piece.vertex[(i + 1) % 3]].point - corner;
+    if (normal.cross(way).dot(from) >= 0.0) continue;
+    beside[i] = {from.dot(way), way.squaredNorm(), 0.0};
+    beside[i].distance2 =
+        (from - std::clamp(beside[i].along / beside[i].length2, 0.0, 1.0) * way).squaredNorm();
     least = std::min(least, beside[i].distance2);
   }
-  if (inside)
-    return add(piece.face, height < 0.0 ? -1 : 1, FootStatus::interior, piece.face, d_ - height * plane.z);
   for (int i = 0; i < 3; ++i)
     if (beside[i].distance2 < reach_ * reach_ && beside[i].distance2 <= least * (1.0 + kTie))
       add_of_side(piece, i, beside[i]);
@@ -148,12 +140,6 @@ void Minima::add(int face, int side, FootStatus status, int entity, const Vector
     xi = shape.project(point).xi;
   }
   keep({{xi, point, (d_ - point).norm(), status, 0, face}, surface_.sheet(face, side), side, entity});
-}
-
-void Minima::keep(const Foot& foot) {
-  for (size_t k = begin_; k < out_.size(); ++k)
-    if (out_[k].status == foot.status && out_[k].entity == foot.entity && out_[k].sheet == foot.sheet) return;
-  out_.push_back(foot);
 }
 
 }  // namespace brep

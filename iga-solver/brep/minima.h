@@ -2,10 +2,12 @@
 // All feet of one point, piece by piece: the rules of the README.
 #pragma once
 
+#include <cmath>
 #include <limits>
 #include <vector>
 
 #include "brep/foot.h"
+#include "brep/plane_triangles.h"
 #include "brep/smooth_neighbours.h"
 #include "brep/surface.h"
 
@@ -23,15 +25,19 @@ class Minima {
         out_(out),
         begin_(out.size()) {}
 
-  void add_of_piece(int piece) {
-    if (surface_.pieces[piece].triangle())
-      add_of_triangle(surface_.pieces[piece]);
-    else
-      add_of_face(surface_.pieces[piece]);
+  void add_of_piece(int piece, const PlaneTriangle& triangle) {
+    if (!triangle.exists()) return add_of_face(surface_.pieces[piece]);
+    const OverTriangle at = triangle.place(d_, reach_, slack_);
+    if (at.where == OverTriangle::Where::over)
+      keep_over(triangle.face(), at);
+    else if (at.where == OverTriangle::Where::beside)
+      add_beside_triangle(surface_.pieces[piece]);
   }
   /// Leaves one foot of several at one point, and of those that slightly concave smooth edges join the
   /// nearest. Feet are by distance then.
-  void finish(const SmoothNeighbours& neighbours);
+  void finish(const SmoothNeighbours& neighbours) {
+    if (out_.size() > begin_ + 1) choose(neighbours);
+  }
 
  private:
   // Where d is beside a side of a triangle whose plane across it d is beyond.
@@ -39,7 +45,14 @@ class Minima {
     double along, length2;  // of the side's length, times that
     double distance2 = std::numeric_limits<double>::infinity();
   };
-  void add_of_triangle(const Piece& piece);
+  void keep_over(int face, const OverTriangle& at) {
+    const int side = at.height < 0.0 ? -1 : 1;
+    keep({{at.xi, d_ - at.height * at.normal, std::abs(at.height), FootStatus::interior, 0, face},
+          surface_.sheet(face, side),
+          side,
+          face});
+  }
+  void add_beside_triangle(const Piece& piece);
   void add_of_side(const Piece& piece, int i, const BesideSide& beside);
   void add_of_face(const Piece& piece);
   void add_of_edge(int use);
@@ -49,7 +62,13 @@ class Minima {
   bool in_group(const Vertex& vertex, int group, const Vector3& w) const;
   int region_of(const Vertex& vertex, const Vector3& w) const;
   void add(int face, int side, FootStatus status, int entity, const Vector3& point);
-  void keep(const Foot& foot);
+  void keep(const Foot& foot) {
+    for (size_t k = begin_; k < out_.size(); ++k)
+      if (out_[k].status == foot.status && out_[k].entity == foot.entity && out_[k].sheet == foot.sheet)
+        return;
+    out_.push_back(foot);
+  }
+  void choose(const SmoothNeighbours& neighbours);
   bool repeats(const Foot& foot, const Foot& other) const;
   bool gives_way(const Foot& foot, const Foot& nearer, const SmoothNeighbours& neighbours) const;
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "brep/surface.h"
+#include "nurbs/processor.h"
 #include "search/box_units.h"
 
 namespace brep {
@@ -35,6 +36,10 @@ class PieceTree {
       number += static_cast<int>(may_be_near(query, discs_[piece]));
     }
     return number;
+  }
+  /// Has the processor fetch what the filter looks at.
+  void prefetch(const int* pieces, int count) const {
+    for (int k = 0; k < count; ++k) nurbs::prefetch(discs_[pieces[k]]);
   }
 
  private:

@@ -40,9 +40,8 @@ bool Minima::repeats(const Foot& foot, const Foot& other) const {
 
 // On borders to within round-off a point can have the feet of a face, of its edge and of a vertex; which of
 // them may give way is not the same, so they are joined last.  The face's stays.
-void Minima::finish(const SmoothNeighbours& neighbours) {
+void Minima::choose(const SmoothNeighbours& neighbours) {
   const auto begin = out_.begin() + static_cast<std::ptrdiff_t>(begin_);
-  if (out_.end() - begin < 2) return;
   std::sort(begin, out_.end(), [](const Foot& a, const Foot& b) { return a.distance < b.distance; });
   auto end = begin;  // of those that stay; what has gone makes others go as well
   for (auto foot = begin; neighbours.any() && foot != out_.end(); ++foot) {

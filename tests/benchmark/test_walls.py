@@ -9,7 +9,7 @@ from scipy.spatial.distance import pdist
 
 import wall_shapes
 import walls
-from wall_runs import DECKS, touching
+from wall_runs import DECKS, touching, touching_rows
 from walls import Measured, Pair, Wall
 
 
@@ -43,11 +43,11 @@ class Report(unittest.TestCase):
     PAIR = Pair("box", Wall("nurbs", "12.stl"), Wall("triangles", "12.stl"), walls.HOLLOW, 0.8)
 
     def test_least_times_of_step_and_contact(self):
-        ours, stock, ratio = walls.rows(self.PAIR, Measured([3e-4, 2e-4], 1000), Measured([4e-4, 9e-4], 800))
+        ours, stock, ratio = walls.rows(self.PAIR, Measured([3e-4, 2e-4], [1100, 900]), Measured([4e-4, 9e-4], [800]))
         self.assertEqual([ours.value, stock.value, ratio.value], [200.0, 400.0, 0.5])
-        self.assertEqual(ours.note, "up to 300 us; 200 ns for each of 1000 that touch")
+        self.assertEqual(ours.note, "up to 300 us; 200 ns for each of 1000 that touch, 900 to 1100")
         self.assertTrue(ratio.passes)
-        self.assertFalse(walls.rows(self.PAIR, Measured([3.3e-4], 1000), Measured([4e-4], 800))[-1].passes)
+        self.assertFalse(walls.rows(self.PAIR, Measured([3.3e-4], [1000]), Measured([4e-4], [800]))[-1].passes)
 
     def test_reading(self):
         seconds, peak = {"nurbs": 3.0, "triangles": 2.0}, {"nurbs": 2.0 * 2**20, "triangles": 2**20}
@@ -57,8 +57,9 @@ class Report(unittest.TestCase):
         self.assertFalse(found["memory_ours_over_stock"].passes)  # 2 of 1.5
 
     def test_touching_is_the_last_number(self):
-        log = "Step Atoms KinEng touching\n 0 1680 0.1 0\n 50 1680 0.2 1234\nLoop time of 1\n"
+        log = "LIGGGHTS\n    Step Atoms KinEng touching\n 0 1680 0.1 0\n 50 1680 0.2 1234\nLoop time of 1\n"
         self.assertEqual(touching(log), 1234)
+        self.assertEqual(touching_rows(log.replace("1234", "99") + log), [0, 1234])
 
 
 class Decks(unittest.TestCase):

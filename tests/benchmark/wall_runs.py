@@ -63,10 +63,15 @@ def data_file(box: Sequence[tuple[float, float]], radii: np.ndarray, centres: np
     return text
 
 
+def touching_rows(log: str) -> list[int]:
+    """Spheres that touch the wall in each row of the last run with in.touching."""
+    last = re.split(r"^\s*Step ", log, flags=re.MULTILINE)[-1]
+    return [int(row) for row in re.findall(r"^\s*\d+\s+\d+\s+\S+\s+(\d+)\s*$", last, re.MULTILINE)]
+
+
 def touching(log: str) -> int:
-    """Spheres that touch the wall at the end of a run with in.touching."""
-    rows = re.findall(r"^\s*\d+\s+\d+\s+\S+\s+(\d+)\s*$", log, re.MULTILINE)
-    return int(rows[-1])
+    """The same at its end."""
+    return touching_rows(log)[-1]
 
 
 def fix_times(log: str) -> tuple[dict[str, float], float]:

@@ -20,7 +20,7 @@ from bounds import AtMost
 from study.build.stl import stl
 from study.build.waves import triangles
 from study.run.summary import Row, table, write_json
-from wall_runs import DECKS, WallRuns, fix_times, touching
+from wall_runs import DECKS, WallRuns, fix_times, touching_rows
 from wavy_memory import memory
 
 SETTLE, BEFORE, STEPS = 4000, 50, 200
@@ -74,10 +74,11 @@ PAIRS = [
 
 @dataclass(frozen=True)
 class Measured:
-    """Of one wall: CPU time of its fixes per step [s] in each run; spheres that touch it."""
+    """Of one wall: CPU time of its fixes per step [s] in each run; spheres that touch it, every ten of the timed steps:
+    a wall that begins to move throws some off."""
 
     seconds: list[float]
-    touching: int
+    touching: list[int]
 
 
 def write_files(folder: Path) -> None:
@@ -115,7 +116,7 @@ def measure(runs: WallRuns, pairs: Sequence[Pair], repeats: int) -> list[Row]:
     # Walls, and what they start from: pairs share runs.
     timed = dict.fromkeys((wall, state(pair.ours.geometry)) for pair in pairs for wall in (pair.ours, pair.stock))
     words = {key: dict(wall=key[0].deck, geometry=key[0].geometry, state=key[1], before=BEFORE) for key in timed}
-    found = {key: Measured([], touching(runs.run("in.touch", **words[key]))) for key in timed}
+    found = {key: Measured([], touching_rows(runs.run("in.touch", **words[key], steps=STEPS))) for key in timed}
     for _ in range(repeats):
         for key in timed:
             fixes, _ = fix_times(runs.run("in.time", **words[key], steps=STEPS, end="end.txt"))
@@ -132,7 +133,9 @@ def rows(pair: Pair, ours: Measured, stock: Measured) -> list[Row]:
     found = []
     for name, wall in (("ours", ours), ("stock", stock)):
         least, most = min(wall.seconds), max(wall.seconds)
-        note = f"up to {1e6 * most:.3g} us; {1e9 * least / wall.touching:.3g} ns for each of {wall.touching} that touch"
+        touch = round(sum(wall.touching) / len(wall.touching))
+        note = f"up to {1e6 * most:.3g} us; {1e9 * least / touch:.3g} ns for each of {touch} that touch"
+        note += f", {min(wall.touching)} to {max(wall.touching)}"
         found.append(Row(pair.case, f"{name}_per_step", 1e6 * least, "us", note=note))
     ratio = min(ours.seconds) / min(stock.seconds)
     return found + [AtMost(pair.case, "ours_over_stock", ratio, "1", pair.aim)]

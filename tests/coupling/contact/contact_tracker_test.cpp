@@ -47,8 +47,8 @@ class Scene {
   }
 
   std::vector<Vector3>& centres() { return centres_; }
-  ParticleSlots memory(int particle) const {
-    return ContactMemory{slots_.data(), static_cast<int>(slots_.size()), 0}.of(particle);
+  ParticleSlots memory(int particle) {
+    return ContactMemory{slots_.data(), static_cast<int>(slots_.size()), 0}.of(particle, used_[particle]);
   }
   const SearchCounts& counts() const { return counts_; }
 
@@ -81,7 +81,7 @@ class Scene {
         tracked.slot = -1;
         continue;
       }
-      if (tracked.slot < 0) tracked.slot = slots.empty_slot();
+      if (tracked.slot < 0) tracked.slot = slots.take_empty();
       slots.slot(tracked.slot).set_foot(tracked.foot.at(), 0);
     }
     take(particle, feet);
@@ -97,6 +97,7 @@ class Scene {
   double touch_, list_;
   std::vector<std::vector<double>> values_;  // of each slot, a row for each particle
   std::vector<double*> slots_;
+  std::vector<int> used_ = std::vector<int>(centres_.size(), 0);  // of them, by particle
 };
 
 // Between two plates each particle has two feet, and each keeps its slot, whatever the size of the block: 300

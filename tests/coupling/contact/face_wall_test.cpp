@@ -91,8 +91,8 @@ TEST(FaceWall, GoesOnToOtherTriangles) {
   Balls balls(2, 1);
   balls.add({0.3, 0.41, kSmall - kOverlap}, kSmall);
   BallsOnWall scene(wall, balls, 1.0, 1.0);
-  for (int step = 1; step <= 100; ++step) {  // half a skin
-    scene.balls.centre(0)[0] += 1e-3;
+  for (int step = 1; step <= 112; ++step) {  // hardly at first, then half a skin
+    scene.balls.centre(0)[0] += step <= 12 ? 1e-6 : 1e-3;
     scene.evaluate();
     ASSERT_EQ(scene.spring.seen.size(), 1u) << step;
     EXPECT_NEAR(scene.balls.force(0)[2], kOverlap, 1e-12);

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What most searches need of a triangle, together in two cache lines: is a point over it, or too far?
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "brep/surface.h"
+
+namespace brep {
+
+/// Where a point is from a triangle.
+struct OverTriangle {
+  enum class Where : std::int8_t { over, beside, too_far };
+  Where where;
+  Vector3 normal;   ///< of the face
+  double height;    ///< along it [length]
+  Parameter<2> xi;  ///< of the foot on the plane
+};
+
+class alignas(64) PlaneTriangle {
+ public:
+  PlaneTriangle() = default;
+  /// `piece`: of `surface`; if it is no triangle, neither is this.
+  PlaneTriangle(const Surface& surface, const Piece& piece);
+
+  bool exists() const { return face_ >= 0; }
+  int face() const { return face_; }
+
+  /// Too far is what is not nearer than `reach` for certain; over it is what is not farther than `slack`
+  /// beyond a side [length].
+  OverTriangle place(const Vector3& d, double reach, double slack) const;
+
+ private:
+  Vector3 origin_, x_, y_;  // of the face's frame
+  double corner_[3][2];     // in that frame
+  std::int32_t face_ = -1;
+  float leeway_ = 0.0f;  // the corners' distance from the plane, at most [length]
+};
+
+inline OverTriangle PlaneTriangle::place(const Vector3& d, double reach, double slack) const {
+  using Where = OverTriangle::Where;
+  const Vector3 from = d - origin_, normal = x_.cross(y_);
+  const double height = normal.dot(from), u = x_.dot(from), v = y_.dot(from);
+  OverTriangle at{Where::over, normal, height, {u, v}};
+  const double far = reach + static_cast<double>(leeway_), left = far * far - height * height;
+  if (std::abs(height) >= reach) at.where = Where::too_far;
+  for (int i = 0; i < 3 && at.where != Where::too_far; ++i) {
+    const double *a = corner_[i], *b = corner_[(i + 1) % 3];
+    const double way[2] = {b[0] - a[0], b[1] - a[1]};
+    const double in = way[0] * (v - a[1]) - way[1] * (u - a[0]);
+    if (in >= 0.0) continue;
+    const double length2 = way[0] * way[0] + way[1] * way[1];
+    if (in * in > left * length2)
+      at.where = Where::too_far;
+    else if (in * in > slack * slack * length2)
+      at.where = Where::beside;
+  }
+  return at;
+}
+
+/// Of all pieces, by their numbers.
+std::vector<PlaneTriangle> plane_triangles(const Surface& surface);
+
+}  // namespace brep
