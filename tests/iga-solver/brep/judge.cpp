@@ -234,23 +234,25 @@ std::vector<Judge::Minimum> Judge::minima(const Vector3& d, double reach, double
   return kept;
 }
 
+// By a way with a slightly concave edge in it; two feet on parts of one plane are two.
 bool Judge::over_smooth_edges(const Minimum& a, const Minimum& b) const {
-  std::set<int> seen, goal;
-  for (const int t : a.triangles) seen.insert(planes_[t]);
+  std::set<int> seen[2], goal;  // without and with such an edge behind
+  for (const int t : a.triangles) seen[0].insert(planes_[t]);
   for (const int t : b.triangles) goal.insert(planes_[t]);
   for (const int plane : goal)
-    if (seen.count(plane) > 0) return false;
-  for (size_t before = 0; before != seen.size();) {
-    before = seen.size();
+    if (seen[0].count(plane) > 0) return false;
+  for (size_t before = 0; before != seen[0].size() + seen[1].size();) {
+    before = seen[0].size() + seen[1].size();
     for (const auto& wedges : wedges_)
       for (const Wedge& w : wedges)
-        if (std::abs(w.angle - nurbs::kPi) <= edge_angle_) {
-          const int x = planes_[w.from / 2], y = planes_[w.to / 2];
-          if (seen.count(x) > 0) seen.insert(y);
-          if (seen.count(y) > 0) seen.insert(x);
+        for (int behind = 0; behind < 2 && std::abs(w.angle - nurbs::kPi) <= edge_angle_; ++behind) {
+          const int x = planes_[w.from / 2], y = planes_[w.to / 2],
+                    after = w.angle < nurbs::kPi - 1e-7 ? 1 : behind;
+          if (seen[behind].count(x) > 0) seen[after].insert(y);
+          if (seen[behind].count(y) > 0) seen[after].insert(x);
         }
   }
-  return std::any_of(goal.begin(), goal.end(), [&](int plane) { return seen.count(plane) > 0; });
+  return std::any_of(goal.begin(), goal.end(), [&](int plane) { return seen[1].count(plane) > 0; });
 }
 
 bool Judge::lasts(const Vector3& d, double reach, const Minimum& minimum, double by) const {
