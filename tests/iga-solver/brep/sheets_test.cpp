@@ -145,7 +145,7 @@ TEST(Summary, CountsEdgesAndMeasures) {
 TEST(Trials, RandomWallsAgreeWithTheJudge) {
   long count = 0;
   for (int index = 0; index < 48; ++index) {
-    trials::Trial trial(7, index);
+    trials::TriangleTrial trial(7, index);
     ASSERT_EQ(trial.try_sheets(), "") << index;
     for (int k = 0; k < 210; ++k) EXPECT_EQ(trial.try_point(k, count), "") << index << ", point " << k;
   }
@@ -154,7 +154,7 @@ TEST(Trials, RandomWallsAgreeWithTheJudge) {
 
 // Exactly over a vertex of a face: the pieces beside see an edge or its end, as round-off has it.
 TEST(Trials, ATieOfAnEdgeAndItsVertexLosesNoFoot) {
-  trials::Trial trial(1, 530);
+  trials::TriangleTrial trial(1, 530);
   ASSERT_EQ(trial.try_sheets(), "");
   long count = 0;
   for (int k = 0; k <= 238; ++k) EXPECT_EQ(trial.try_point(k, count), "") << "point " << k;
