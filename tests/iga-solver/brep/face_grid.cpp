@@ -105,10 +105,10 @@ std::vector<Grid::Lowest> Grid::minima(const Vector3& d, double reach) const {
         if (value[p + row] < value[angle + row]) angle = p;
       }
       if (!lowest) continue;
-      const Lowest x = descend(d, {step(0, angle), step(1, j)});
-      if ((x.point - d).norm() < reach && std::none_of(found.begin(), found.end(), [&](const Lowest& y) {
-            return (x.point - y.point).norm() < 1e-4;
-          }))
+      const Lowest x = descend(d, {step(0, angle), step(1, j)}, 1.0 / n);
+      if (is_stationary(d, x.xi) && (x.point - d).norm() < reach &&
+          std::none_of(found.begin(), found.end(),
+                       [&](const Lowest& y) { return (x.point - y.point).norm() < 1e-4; }))
         found.push_back(x);
     }
   return found;
@@ -141,9 +141,22 @@ bool Grid::is_lowest_around(const Vector3& d, const Parameter<2>& xi) const {
   return true;
 }
 
-Grid::Lowest Grid::descend(const Vector3& d, Parameter<2> xi) const {
-  double size = 1.0 / n, best = (at(xi) - d).norm();
-  while (size > 1e-10) {
+// Near poles the way downhill may end too early.
+bool Grid::is_stationary(const Vector3& d, const Parameter<2>& xi) const {
+  const Vector3 w = (d - at(xi)).normalized();
+  const auto [t0, t1] = tangents_on(face_, xi);
+  const bool at_pole = face_.kind == Kind::sphere && std::cos(xi[1]) < 1e-9;
+  for (int i = at_pole ? 1 : 0; i < 2; ++i) {
+    const double slope = w.dot(i == 0 ? t0 : t1);
+    const bool low = !turn_[i] && xi[i] == face_.low[i], high = !turn_[i] && xi[i] == face_.high[i];
+    if ((slope > 1e-6 && !high) || (slope < -1e-6 && !low)) return false;
+  }
+  return true;
+}
+
+Grid::Lowest Grid::descend(const Vector3& d, Parameter<2> xi, double size) const {
+  double best = (at(xi) - d).norm();
+  for (int step = 0; size > 1e-10 && step < 5000; ++step) {
     bool lower = false;
     for (int k = 0; k < 9 && !lower; ++k) {
       const Parameter<2> to = beside(xi, k, size);

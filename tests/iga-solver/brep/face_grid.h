@@ -32,6 +32,8 @@ class Grid {
   /// Local minima of the distance on the closed face: from the lowest points of a grid downhill, by ever
   /// smaller steps.
   std::vector<Lowest> minima(const Vector3& d, double reach) const;
+  /// Downhill from xi, by steps too small to leave the least hollow.
+  Lowest settle(const Vector3& d, const Parameter<2>& xi) const { return descend(d, xi, 1e-7); }
   /// Whether no point is nearer to d beside xi.
   bool is_lowest_around(const Vector3& d, const Parameter<2>& xi) const;
   /// Whether xi[i] goes round.
@@ -43,7 +45,8 @@ class Grid {
   int next(int i, int k) const;
   Vector3 at(const Parameter<2>& xi) const { return point_on(face_, xi[0], xi[1]); }
   Parameter<2> beside(const Parameter<2>& xi, int k, double share) const;
-  Lowest descend(const Vector3& d, Parameter<2> xi) const;
+  bool is_stationary(const Vector3& d, const Parameter<2>& xi) const;
+  Lowest descend(const Vector3& d, Parameter<2> xi, double size) const;
 
   static constexpr int n = 40;  // cells along each parameter
   Face face_;

@@ -81,8 +81,7 @@ void MixedJudge::add_sector(int f, const Vector3& p, const Parameter<2>& xi, Rou
   }
 }
 
-void MixedJudge::add_at(const Vector3& p, const Vector3& d, double tolerance,
-                        std::vector<Minimum>& found) const {
+void MixedJudge::add_at(const Vector3& p, const Vector3& d, double angle, std::vector<Minimum>& found) const {
   const Vector3 w = d - p;
   const Round here = round(p);
   if (here.inside >= 0) {
@@ -95,7 +94,6 @@ void MixedJudge::add_at(const Vector3& p, const Vector3& d, double tolerance,
   std::vector<int> all(here.face.size());
   std::iota(all.begin(), all.end(), 0);
   constexpr double kNear = 0.01;  // of triangles of size 1
-  const double angle = tolerance > 0.0 ? 1e-5 : -1e-5;
   const Judge planes(here.wall, edge_angle_);
   for (const int side : planes.minima_at(p, all, p + kNear * w.normalized(), kNear * angle))
     found.push_back({sheet(here.face[side / 2], side % 2), p, w.norm(), {}});
@@ -107,11 +105,19 @@ std::vector<Minimum> MixedJudge::minima(const Vector3& d, double reach, double t
   for (const Grid& grid : grids_)
     for (const Grid::Lowest& lowest : grid.minima(d, reach)) places.push_back(lowest.point);
   std::vector<Minimum> found;
+  for (const Vector3& p : also)
+    for (std::size_t f = 0; f < faces_.size(); ++f) {
+      const Parameter<2> xi = nearest_parameters(faces_[f], p);
+      if ((point_on(faces_[f], xi[0], xi[1]) - p).norm() < kSame)
+        places.push_back(grids_[f].settle(d, xi).point);
+    }
   for (std::size_t k = 0; k < places.size(); ++k) {
     const auto here = places.begin() + static_cast<std::ptrdiff_t>(k);
     const bool repeated =
         std::any_of(places.begin(), here, [&](const Vector3& x) { return (x - *here).norm() < kSame; });
-    if (!repeated && (*here - d).norm() < reach) add_at(*here, d, tolerance, found);
+    // Of feet on borders of faces curvature can decide, which planes lack.
+    const double angle = k < also.size() ? 1e-3 : tolerance > 0.0 ? 1e-5 : -1e-5;
+    if (!repeated && (*here - d).norm() < reach) add_at(*here, d, angle, found);
   }
   return found;
 }

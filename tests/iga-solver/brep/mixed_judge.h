@@ -29,7 +29,7 @@ class MixedJudge final : public AnyJudge {
   Round round(const Vector3& p) const;
   void add_sector(int face, const Vector3& p, const Parameter<2>& xi, Round& round) const;
   void join_sides(int face);
-  void add_at(const Vector3& p, const Vector3& d, double tolerance, std::vector<Minimum>& found) const;
+  void add_at(const Vector3& p, const Vector3& d, double angle, std::vector<Minimum>& found) const;
 
   std::vector<Face> faces_;
   std::vector<Grid> grids_;

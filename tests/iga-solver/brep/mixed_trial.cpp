@@ -12,7 +12,7 @@ MixedTrial::MixedTrial(const std::vector<Face>& faces, const std::mt19937& rando
       faces_(faces),
       judge_(faces, surface_.edge_angle),
       sheet_of_judge_(2 * faces.size(), -1) {
-  uneven_ = 3e-8;  // how near a grid comes to a minimum
+  uneven_ = 1e-6;  // how far the judge may take a foot to the border of its face
   beside_ = 3e-5;  // beyond what counts as one point with the judge
 }
 

@@ -54,7 +54,7 @@ std::vector<Face> rounded_box(std::mt19937& random) {
 // Part of a cylinder, planes from its axis to its sides, and one across them.
 std::vector<Face> slice(std::mt19937& random) {
   const double R = between(random, 0.4, 1.0), height = between(random, 0.5, 1.5),
-               angle = between(random, 0.4, 5.5);
+               part = between(random, 0.4, 5.4), angle = part < nurbs::kPi ? part - 0.05 : part + 0.05;
   std::vector<Face> faces{face_of(Kind::cylinder, Frame(), R, 0.0, {0.0, 0.0}, {angle, height})};
   const auto side = [&](const Vector3& a, const Vector3& b) {
     const Vector3 x = (b - a).normalized();
@@ -64,8 +64,10 @@ std::vector<Face> slice(std::mt19937& random) {
   const Vector3 from = R * unit(0), to(R * std::cos(angle), R * std::sin(angle), 0.0);
   if (random() % 3 > 0) side(Vector3::Zero(), from);
   if (random() % 3 > 0) side(Vector3::Zero(), to);
-  if (random() % 3 > 0) side(from, to);
-  if (random() % 3 == 0) side(from, from + Vector3(between(random, -1.0, 1.0), 0.7, 0.0));
+  if (random() % 3 > 0)
+    side(from, to);
+  else
+    side(from, from + Vector3(between(random, 0.1, 1.0) * (random() % 2 == 0 ? 1.0 : -1.0), 0.7, 0.0));
   return faces;
 }
 
@@ -103,7 +105,10 @@ std::vector<Face> capsule(std::mt19937& random) {
   const double R = between(random, 0.2, 0.6), height = between(random, 0.3, 1.0);
   std::vector<Face> faces{face_of(Kind::cylinder, Frame(), R, 0.0, {0.0, 0.0}, {2.0 * nurbs::kPi, height})};
   for (const double end : {-1.0, 1.0}) {
-    const double low = random() % 2 == 0 ? 0.0 : between(random, -0.8, 1.2), ball = R / std::cos(low);
+    const double low = random() % 3 == 0   ? 0.0
+                       : random() % 2 == 0 ? between(random, 0.05, 1.2)
+                                           : between(random, -0.8, -0.05),
+                 ball = R / std::cos(low);
     const Vector3 centre = ((end > 0.0 ? height : 0.0) - end * ball * std::sin(low)) * unit(2);
     faces.push_back(face_of(Kind::sphere, frame_at(centre, unit(2, end), unit(0)), ball, 0.0, {0.0, low},
                             {2.0 * nurbs::kPi, kQuarter}));
