@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "atom.h"
+#include "brep/triangle_mesh.h"
 #include "domain.h"
 #include "geometry_io/geometry_summary.h"
 #include "modify.h"
@@ -102,7 +103,7 @@ void FixWallNurbs::in_step(Action action) const {
 void FixWallNurbs::describe() {
   geometry_io::GeometryFile surface{opened_.units, {}, {}};
   if (const auto& faces = structure_.surface().faces)
-    surface.patches.emplace_back(geometry_io::mesh_of(liggghts_pkg::triangles_of(*faces)));
+    surface.patches.emplace_back(geometry_io::mesh_of(brep::triangles_of(*faces)));
   else
     for (nurbs::Surface& patch : nurbs::split(loop_.wall().surface(), exchange_.positions()))
       surface.patches.emplace_back(std::move(patch));
@@ -111,11 +112,10 @@ void FixWallNurbs::describe() {
 }
 
 void FixWallNurbs::open_files() {
-  const nurbs::MultiPatch& surface = loop_.wall().surface();
   int every = 0;
   if (!options_.output.file.empty()) {
-    output_ =
-        std::make_unique<liggghts_pkg::WallOutput>(world, options_.output, surface, exchange_.positions());
+    output_ = std::make_unique<liggghts_pkg::WallOutput>(
+        world, options_.output, liggghts_pkg::fields_on(world, structure_.surface(), exchange_.positions()));
     observer_ =
         std::make_unique<liggghts_pkg::OutputObserver>(lmp, *output_, loop_.wall().frame(), atom_type_wall_);
     every = options_.output.every;

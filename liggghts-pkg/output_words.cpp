@@ -7,7 +7,7 @@ namespace liggghts_pkg {
 
 namespace {
 
-using Selection = coupling::SurfaceFields::Selection;
+using Selection = coupling::ContactFields::Selection;
 
 struct OutputField {
   const char* word;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "coupling/surface_fields.h"
+#include "coupling/contact_fields.h"
 #include "word_reader.h"
 
 namespace liggghts_pkg {
@@ -14,7 +14,7 @@ namespace liggghts_pkg {
 struct OutputOptions {
   std::string file;  ///< without .pvd; empty: no output
   int every = 0;     ///< steps
-  coupling::SurfaceFields::Selection fields;
+  coupling::ContactFields::Selection fields;
   bool average = true;  ///< over all steps since the last output, else the one step
 };
 

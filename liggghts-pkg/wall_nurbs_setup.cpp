@@ -67,16 +67,6 @@ geometry_io::Units units_of_deck(const char* name) {
   return geometry_io::Units::si;
 }
 
-// What needs control points.
-void check_face_wall(const WallNurbsOptions& options) {
-  const auto refuse = [&](const char* what) {
-    throw std::invalid_argument(
-        fmt::format("'{}' is a wall of triangles, given '{}', expected a wall of NURBS patches for it",
-                    options.file, what));
-  };
-  if (!options.output.file.empty()) refuse("output");
-}
-
 liggghts_pkg::VariableLookup variables_of(LAMMPS* lmp, const std::string& fix_id) {
   return [=](const std::string& name) { return liggghts_pkg::deck_variable(lmp, fix_id, name); };
 }
@@ -149,7 +139,6 @@ WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
       opened_.solver = coupling::with_substeps(std::move(opened_.solver), *options_.substeps);
     }
     check_units(options_, opened_.units, lmp->update->unit_style);
-    if (opened_.solver->surface().faces) check_face_wall(options_);
   } catch (const std::exception& problem) {
     lmp->error->all(FLERR, liggghts_pkg::wall_message(arg[0], problem.what()).c_str());
   }

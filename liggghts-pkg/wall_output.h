@@ -4,10 +4,11 @@
 
 #include <mpi.h>
 
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "coupling/surface_fields.h"
+#include "coupling/contact_fields.h"
 #include "output_words.h"
 #include "vtk/vtu_file.h"
 
@@ -15,9 +16,7 @@ namespace liggghts_pkg {
 
 class WallOutput {
  public:
-  /// Every rank, from the undeformed surface (3 x n).
-  WallOutput(MPI_Comm comm, OutputOptions options, const nurbs::MultiPatch& surface,
-             const coupling::NodalVectors& control_points);
+  WallOutput(MPI_Comm comm, OutputOptions options, std::unique_ptr<coupling::ContactFields> fields);
 
   int every() const { return options_.every; }
   bool tracks_wear() const { return options_.fields.wear; }
@@ -30,7 +29,7 @@ class WallOutput {
   bool at_beginning() const { return at_beginning_; }
 
   /// Collective, as all that follows.  Writes the state and begins the next interval; arguments as in
-  /// SurfaceFields::fields.  Throws std::runtime_error on every rank if rank 0 cannot write.
+  /// ContactFields::state.  Throws std::runtime_error on every rank if rank 0 cannot write.
   void write(long step, double time, const coupling::NodalVectors& control_points,
              const coupling::RigidFrame& frame);
 
@@ -42,11 +41,15 @@ class WallOutput {
  private:
   MPI_Comm comm_;
   OutputOptions options_;
-  coupling::SurfaceFields fields_;
+  std::unique_ptr<coupling::ContactFields> fields_;
   vtk::Series series_;
   double earlier_ = 0.0;              // time of the runs before the restart file
   std::optional<double> saved_time_;  // of that file, until the next run begins
   bool at_beginning_ = true, sampling_ = false, setup_ = false;
 };
+
+/// Of patches or of triangles.  Every rank, from the undeformed surface (3 x n control points of patches).
+std::unique_ptr<coupling::ContactFields> fields_on(MPI_Comm comm, const coupling::ContactSurface& surface,
+                                                   const coupling::NodalVectors& control_points);
 
 }  // namespace liggghts_pkg

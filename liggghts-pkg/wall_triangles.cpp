@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "brep/triangle_mesh.h"
+
 namespace liggghts_pkg {
 
 double WallTriangles::count(int cells) const {
@@ -25,7 +27,7 @@ int WallTriangles::cells_within(double chord) const {
 
 nurbs::TriangleMesh WallTriangles::in_body(int cells) const {
   const coupling::ContactSurface& surface = structure_.surface();
-  return surface.faces ? triangles_of(*surface.faces)
+  return surface.faces ? brep::triangles_of(*surface.faces)
                        : nurbs::tessellate(nurbs::split(surface.topology, exchange_.positions()), cells);
 }
 
@@ -33,15 +35,6 @@ nurbs::TriangleMesh WallTriangles::in_space(int cells) const {
   nurbs::TriangleMesh mesh = in_body(cells);
   const coupling::RigidFrame frame = structure_.frame();
   mesh.vertices = (frame.rotation * mesh.vertices).colwise() + frame.origin;
-  return mesh;
-}
-
-nurbs::TriangleMesh triangles_of(const brep::Surface& faces) {
-  nurbs::TriangleMesh mesh;
-  mesh.vertices.resize(3, static_cast<Eigen::Index>(faces.vertices.size()));
-  for (std::size_t v = 0; v < faces.vertices.size(); ++v) mesh.vertices.col(v) = faces.vertices[v].point;
-  for (const brep::Piece& piece : faces.pieces)
-    mesh.triangles.push_back({piece.vertex[0], piece.vertex[1], piece.vertex[2]});
   return mesh;
 }
 

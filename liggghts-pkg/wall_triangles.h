@@ -31,9 +31,6 @@ class WallTriangles {
   const coupling::SurfaceExchange& exchange_;
 };
 
-/// The triangles of a wall of plane faces.
-nurbs::TriangleMesh triangles_of(const brep::Surface& faces);
-
 }  // namespace liggghts_pkg
 
 #endif

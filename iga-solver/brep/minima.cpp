@@ -87,7 +87,9 @@ void Minima::add_of_vertex(int v, int face) {
     if (corner.face != face) continue;
     for (int s = 0; s < 2; ++s) {
       if (!corner.leads[s] || !in_group(vertex, corner.group[s], w)) continue;
-      if (corner.region[s] == region_of(vertex, w))
+      const Region here = region_of(vertex, w);
+      // What is a minimum only on the border, by the slack, is none for any point beside it.
+      if (corner.region[s] == here.number && in_group(vertex, corner.group[s], w + here.inward))
         add(face, s == 0 ? 1 : -1, FootStatus::corner, v, vertex.point);
     }
   }
@@ -105,10 +107,11 @@ bool Minima::in_group(const Vertex& vertex, int group, const Vector3& w) const {
   return true;
 }
 
-int Minima::region_of(const Vertex& vertex, const Vector3& w) const {
+Minima::Region Minima::region_of(const Vertex& vertex, const Vector3& w) const {
   const Corner* corners = surface_.corners.data() + vertex.first_corner;
   double steepest = -2.0 * w.norm();
-  int region = 0, nearest = -1;
+  Region region;
+  int nearest = -1;
   for (int c = 0; c < vertex.corner_count; ++c) {
     const Sector sector(surface_, vertex, corners[c]);
     for (const int ray : corners[c].ray)
@@ -120,13 +123,16 @@ int Minima::region_of(const Vertex& vertex, const Vector3& w) const {
     if (inside < steepest) continue;
     steepest = inside;
     nearest = -1;
-    region = corners[c].region[sector.side(w) < 0];
+    const int side = sector.side(w);
+    region.number = corners[c].region[side < 0];
+    region.inward.setZero();
+    if (std::abs(sector.height(w)) <= slack_) region.inward = 2.0 * side * slack_ * sector.axis();
   }
   if (nearest < 0) return region;
   const int use = use_at_wedge_of_ray(surface_, nearest, w);
   for (int c = 0; c < vertex.corner_count; ++c)
     for (const int ray : corners[c].ray)
-      if (ray == 2 * use + nearest % 2) return corners[c].region[surface_.uses[use].side < 0];
+      if (ray == 2 * use + nearest % 2) return {corners[c].region[surface_.uses[use].side < 0]};
   return region;
 }
 

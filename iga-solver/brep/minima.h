@@ -60,7 +60,13 @@ class Minima {
                     const Vector3& point);
   void add_of_vertex(int vertex, int face);
   bool in_group(const Vertex& vertex, int group, const Vector3& w) const;
-  int region_of(const Vertex& vertex, const Vector3& w) const;
+  // Of the space round a vertex.  On a border of two regions, to within the slack, it is one of them, and
+  // `inward` leads from w to where that is clear; else that is zero.
+  struct Region {
+    int number = 0;
+    Vector3 inward = Vector3::Zero();
+  };
+  Region region_of(const Vertex& vertex, const Vector3& w) const;
   void add(int face, int side, FootStatus status, int entity, const Vector3& point);
   void keep(const Foot& foot) {
     for (size_t k = begin_; k < out_.size(); ++k)

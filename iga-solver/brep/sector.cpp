@@ -38,9 +38,9 @@ double Sector::steepest(const Vector3& w, double rays) const {
   return -cos_ * along + sin_ * (w - along * axis_).norm();
 }
 
-int Sector::side(const Vector3& w) const {
+double Sector::height(const Vector3& w) const {
   const double along = w.dot(axis_);
-  return cos_ * (w - along * axis_).norm() + sin_ * along > 0.0 ? 1 : -1;
+  return cos_ * (w - along * axis_).norm() + sin_ * along;
 }
 
 }  // namespace brep

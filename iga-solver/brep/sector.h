@@ -15,7 +15,11 @@ class Sector {
   /// Whether w is over the sector, nearest to a direction inside it.
   bool over(const Vector3& w) const;
   /// +1 or -1: the side of the face that looks to w, which is over the sector.
-  int side(const Vector3& w) const;
+  int side(const Vector3& w) const { return height(w) > 0.0 ? 1 : -1; }
+  /// How far w is from the sector, which it is over, on side +.
+  double height(const Vector3& w) const;
+  /// Off side +: the normal of a plane, the axis of a tip.
+  const Vector3& axis() const { return axis_; }
   const Vector3& ray(int k) const { return ray_[k]; }
 
  private:

@@ -2,12 +2,12 @@
 #include "brep/smooth_neighbours.h"
 
 #include <algorithm>
-#include <utility>
+#include <tuple>
 
 namespace brep {
 namespace {
 
-constexpr int kFaces = 64;  // looked at: feet that are joined have few between them
+constexpr int kSteps = 128;  // looked at: feet that are joined have few faces between them
 
 bool has(const std::vector<int>& faces, int face) {
   return std::find(faces.begin(), faces.end(), face) != faces.end();
@@ -16,39 +16,41 @@ bool has(const std::vector<int>& faces, int face) {
 }  // namespace
 
 SmoothNeighbours::SmoothNeighbours(const Surface& surface) {
-  std::vector<std::pair<int, int>> pairs;
-  bool concave = false;
+  std::vector<std::tuple<int, int, bool>> pairs;
+  bool any_concave = false;
   for (const Edge& edge : surface.edges)
     for (int u = edge.first_use; u < edge.first_use + edge.use_count; ++u) {
       const EdgeUse &use = surface.uses[u], &next = surface.next_use(edge, u);
       if (use.wedge != Wedge::smooth && use.wedge != Wedge::smooth_concave) continue;
-      concave = concave || use.wedge == Wedge::smooth_concave;
-      pairs.emplace_back(use.face, next.face);
-      pairs.emplace_back(next.face, use.face);
+      const bool concave = use.wedge == Wedge::smooth_concave;
+      any_concave = any_concave || concave;
+      pairs.emplace_back(use.face, next.face, concave);
+      pairs.emplace_back(next.face, use.face, concave);
     }
-  if (!concave) return;
+  if (!any_concave) return;
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   first_.assign(surface.faces.size() + 1, 0);
   beyond_.reserve(pairs.size());
-  for (const auto& [from, to] : pairs) {
+  for (const auto& [from, to, concave] : pairs) {
     ++first_[from + 1];
-    beyond_.push_back(to);
+    beyond_.push_back({to, concave});
   }
   for (size_t f = 0; f < surface.faces.size(); ++f) first_[f + 1] += first_[f];
 }
 
 bool SmoothNeighbours::joined(const std::vector<int>& from, const std::vector<int>& to) const {
-  int seen[kFaces], count = 0;
+  int seen[kSteps], count = 0;  // 2 * face + whether a concave edge lies behind
   for (const int face : from) {
     if (has(to, face)) return false;  // one face, no edge between them
-    if (count < kFaces) seen[count++] = face;
+    if (count < kSteps) seen[count++] = 2 * face;
   }
   for (int k = 0; k < count; ++k)
-    for (int i = first_[seen[k]]; i < first_[seen[k] + 1]; ++i) {
-      const int face = beyond_[i];
-      if (has(to, face)) return true;
-      if (count < kFaces && std::find(seen, seen + count, face) == seen + count) seen[count++] = face;
+    for (int i = first_[seen[k] / 2]; i < first_[seen[k] / 2 + 1]; ++i) {
+      const bool concave = seen[k] % 2 == 1 || beyond_[i].concave;
+      if (concave && has(to, beyond_[i].face)) return true;
+      const int step = 2 * beyond_[i].face + (concave ? 1 : 0);
+      if (count < kSteps && std::find(seen, seen + count, step) == seen + count) seen[count++] = step;
     }
   return false;
 }

@@ -52,13 +52,13 @@ void FieldSeries::write(const SolidState& state) {
   for (Place& place : places_) {
     const long number = place.series.count();
     if (!place.faces) {
-      place.series.write<3>(number, state.time, volumes);
+      place.series.write(number, state.time, volumes);
       continue;
     }
     std::vector<vtk::PatchFields<2>> patches;
     for (const structure::SkinPiece& piece : *place.faces)
       patches.push_back(vtk::on_face(volumes[piece.patch], piece.face));
-    place.series.write<2>(number, state.time, patches);
+    place.series.write(number, state.time, patches);
   }
 }
 

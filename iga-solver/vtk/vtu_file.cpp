@@ -106,17 +106,7 @@ void save(const pugi::xml_document& document, const std::string& path) {
   if (!problem.empty()) throw std::runtime_error(fmt::format("cannot write '{}': {}", path, problem));
 }
 
-// 20 of "wall_20.vtu"
-long step_of(const std::string& file) {
-  const std::size_t underscore = file.rfind('_');
-  return underscore == std::string::npos ? 0 : std::atol(file.c_str() + underscore + 1);
-}
-
-}  // namespace
-
-template <int Dim>
-void write_vtu(const std::string& path, const std::vector<PatchFields<Dim>>& patches, const About& about) {
-  const BezierCells cells = bezier_cells(patches);
+void write_cells(const std::string& path, const BezierCells& cells, const About& about) {
   pugi::xml_document document;
   pugi::xml_node root = start(document, "UnstructuredGrid", "2.2");
   root.append_attribute("header_type") = "UInt64";
@@ -134,8 +124,10 @@ void write_vtu(const std::string& path, const std::vector<PatchFields<Dim>>& pat
   }
   pugi::xml_node cell_data = piece.append_child("CellData");
   add_arrays(cell_data, cells.cell_fields);
-  cell_data.append_attribute("HigherOrderDegrees") = "degrees";
-  add_array(cell_data, "degrees", 3, cells.degrees);
+  if (!cells.degrees.empty()) {
+    cell_data.append_attribute("HigherOrderDegrees") = "degrees";
+    add_array(cell_data, "degrees", 3, cells.degrees);
+  }
 
   add_array(piece.append_child("Points"), "points", 3, cells.points);
   pugi::xml_node topology = piece.append_child("Cells");
@@ -143,6 +135,23 @@ void write_vtu(const std::string& path, const std::vector<PatchFields<Dim>>& pat
   add_array(topology, "offsets", 1, cells.offsets);
   add_array(topology, "types", 1, std::vector<std::uint8_t>(cells.offsets.size(), cells.cell_type));
   save(document, path);
+}
+
+// 20 of "wall_20.vtu"
+long step_of(const std::string& file) {
+  const std::size_t underscore = file.rfind('_');
+  return underscore == std::string::npos ? 0 : std::atol(file.c_str() + underscore + 1);
+}
+
+}  // namespace
+
+template <int Dim>
+void write_vtu(const std::string& path, const std::vector<PatchFields<Dim>>& patches, const About& about) {
+  write_cells(path, bezier_cells(patches), about);
+}
+
+void write_vtu(const std::string& path, const TriangleFields& triangles, const About& about) {
+  write_cells(path, triangle_cells(triangles), about);
 }
 
 std::vector<Series::Entry> Series::entries_of_file() const {
@@ -169,10 +178,10 @@ std::optional<double> Series::resume_at(double time) {
   return entries_.back().first;
 }
 
-template <int Dim>
-void Series::write(long step, double time, const std::vector<PatchFields<Dim>>& patches) {
+template <class Fields>
+void Series::write(long step, double time, const Fields& fields) {
   const std::string file = fmt::format("{}_{}.vtu", stem_, step);
-  write_vtu(file, patches, {time, units_});
+  write_vtu(file, fields, {time, units_});
   entries_.emplace_back(time, std::filesystem::path(file).filename().string());
   write_index();
 }
@@ -192,5 +201,6 @@ template void write_vtu(const std::string&, const std::vector<PatchFields<2>>&, 
 template void write_vtu(const std::string&, const std::vector<PatchFields<3>>&, const About&);
 template void Series::write(long, double, const std::vector<PatchFields<2>>&);
 template void Series::write(long, double, const std::vector<PatchFields<3>>&);
+template void Series::write(long, double, const TriangleFields&);
 
 }  // namespace vtk

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "vtk/bezier_cells.h"
+#include "vtk/triangle_cells.h"
 
 namespace vtk {
 
@@ -20,10 +20,11 @@ struct About {
 
 /// Writes an unstructured grid; all arrays are base64 in double precision, a field's unit is VTK's key
 /// UNITS_LABEL.  Throws std::runtime_error that names the file if it cannot be written, std::invalid_argument
-/// as bezier_cells.
+/// as bezier_cells and triangle_cells.
 template <int Dim>
 void write_vtu(const std::string& path, const std::vector<PatchFields<Dim>>& patches,
                const About& about = {});
+void write_vtu(const std::string& path, const TriangleFields& triangles, const About& about = {});
 
 /// STEM.pvd and STEM_<step>.vtu.
 class Series {
@@ -36,9 +37,9 @@ class Series {
   void resume(long step);
   /// The same with the states up to `time`, which are counted 0, 1, 2, ...: the time of the last.
   std::optional<double> resume_at(double time);
-  /// Throws as write_vtu.
-  template <int Dim>
-  void write(long step, double time, const std::vector<PatchFields<Dim>>& patches);
+  /// `fields` and what it throws are those of write_vtu.
+  template <class Fields>
+  void write(long step, double time, const Fields& fields);
   bool empty() const { return entries_.empty(); }
   long count() const { return static_cast<long>(entries_.size()); }
   std::string path() const { return stem_ + ".pvd"; }

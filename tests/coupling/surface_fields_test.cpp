@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "brep/builder.h"
+#include "coupling/face_fields.h"
 #include "coupling/finnie.h"
 #include "coupling/surface_fields.h"
 #include "nurbs/control_area.h"
@@ -244,6 +246,56 @@ TEST(SurfaceFields, AreThoseAskedFor) {
   EXPECT_EQ(result[0].control_points[0].name, "shear");
   EXPECT_EQ(result[0].control_points[1].name, "wear");
   EXPECT_TRUE(result[0].elements.empty());
+}
+
+/// A square of 4 x 4 x 2 triangles in one plane and a wall on one of its sides.
+std::shared_ptr<const brep::Surface> square_and_wall() {
+  constexpr int n = 4;
+  nurbs::NodalVectors points(3, (n + 1) * (n + 2));
+  std::vector<int> corners;
+  for (int j = 0; j <= n + 1; ++j)
+    for (int i = 0; i <= n; ++i) points.col(i + (n + 1) * j) << i, std::min(j, n), j > n ? 1.0 : 0.0;
+  for (int j = 0; j <= n; ++j)
+    for (int i = 0; i < n; ++i) {
+      const int a = i + (n + 1) * j, b = a + n + 1;
+      corners.insert(corners.end(), {a, a + 1, b + 1, a, b + 1, b});
+    }
+  return std::make_shared<brep::Surface>(brep::from_triangles(points, corners));
+}
+
+TEST(FaceFields, BelongToTheTriangleThatTheFootIsIn) {
+  const auto wall = square_and_wall();
+  coupling::FaceFields fields(MPI_COMM_WORLD, wall);
+  fields.begin_sample();
+  // One force of its own in each triangle: at the middle of cell (i, j) moved off the diagonal.
+  int tag = 0;
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i)
+      for (const double off : {-0.2, 0.2}) {
+        const Vector3 at(i + 0.5 - off, j + 0.5 + off, 0.0);
+        const brep::Frame& plane = wall->faces[0].frame;
+        const Vector3 from = at - plane.origin;
+        SurfaceContact c{{0, {from.dot(plane.x), from.dot(plane.y)}}, {1.0, 0, 0}, {0, 0, 1}, 0.0};
+        c.force[2] = -(i + 10.0 * j) - (off > 0.0 ? 0.5 : 0.0);
+        c.worn_volume = 2.0 * at[0];
+        if (rank_of(++tag) == my_rank()) fields.add(c);
+      }
+  ASSERT_EQ(wall->faces[0].piece_count, 32);
+  const auto state = std::get<vtk::TriangleFields>(fields.state({}, kAtRest, kAll));
+  if (my_rank() != 0) return;
+  for (std::size_t t = 0; t < state.mesh.triangles.size(); ++t) {
+    Vector3 middle = Vector3::Zero();
+    for (const int v : state.mesh.triangles[t]) middle += state.mesh.vertices.col(v) / 3.0;
+    const double i = std::floor(middle[0]), j = std::floor(middle[1]), x = middle[0] - i, y = middle[1] - j;
+    const bool floor = middle[2] == 0.0;
+    const auto value = [&](int field, int row) { return state.cells[field].values(row, t); };
+    EXPECT_NEAR(value(0, 0), floor ? 2.0 * (i + 10.0 * j + (y > x ? 0.5 : 0.0)) : 0.0, 1e-12);
+    EXPECT_NEAR(value(1, 0), floor ? 2.0 : 0.0, 1e-12);
+    EXPECT_NEAR(value(2, 0), floor ? 4.0 * (i + 0.5 + (y > x ? -0.2 : 0.2)) : 0.0, 1e-12);
+    EXPECT_EQ(value(3, 0), floor ? 1.0 : 0.0);
+  }
+  EXPECT_EQ(state.cells[1].name, "shear");
+  EXPECT_EQ(state.cells[3].name, "contact_count");
 }
 
 TEST(Finnie, HasTheFormulasOfBothRegimes) {

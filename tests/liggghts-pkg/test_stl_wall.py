@@ -142,7 +142,6 @@ class Errors(unittest.TestCase):
         wall = WALLS[decks.NURBS]
         for line, words in (
             (wall.replace("surface all", "surface lid"), ["'lid'", "floor", "rim"]),
-            (wall + " output fields every 10", ["'output'", "NURBS"]),
             (wall.replace("geometry", "structure"), ["tray.stl"]),
             (wall.replace("tray.stl", "cut.stl"), ["cut.stl:"]),
             (wall + " edge_angle -1", ["edge_angle", "-1"]),

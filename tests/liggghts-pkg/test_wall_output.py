@@ -150,6 +150,55 @@ run 400
                 self.assertGreater(expected, 0.0)
                 np.testing.assert_allclose(self.total(400, "wear"), expected, rtol=tolerance)
 
+    def test_triangles_have_the_fields_of_a_stock_mesh(self):
+        """Pressure, shear and wear of each triangle of an STL file, which are values of its cell."""
+        fields = "fields pressure shear contact_count wear average no"
+        ours = BALLS + wall(self.folder, 50, fields).replace("floor.yaml surface floor", "plane.stl surface all")
+        table = self.run_deck(ours + THERMO.format(every=50) + "run 200\n").table
+        stock = f"""
+fix mesh all mesh/surface/stress file plane.stl type 2 wear finnie
+fix wall all wall/gran {MODELS} mesh n_meshes 1 meshes mesh
+dump mesh all mesh/vtk 50 {self.folder}/mesh*.vtk stress wear mesh
+thermo 50
+run 200
+"""
+        self.run_deck(BALLS + stock, program=decks.STOCK)
+        for k, step in enumerate((50, 100, 150, 200), 1):
+            lines = (Path(self.folder) / f"mesh{step}.vtk").read_text().splitlines()
+            starts = ("normal_stress_average", "shear_stress_average", "wear")
+            pressure, shear, wear = (
+                np.array(lines[lines.index(f"{name} 1 2 double") + 1].split(), dtype=float) for name in starts
+            )
+            state = self.state(step)
+            # the file's first triangle is the one below the diagonal
+            middles = np.array([state.points[cell].mean(axis=0) for cell in state.cells])
+            order = np.argsort(middles[:, 1] - middles[:, 0])
+            got = {name: values[order] for name, values in state.elements.items()}
+            np.testing.assert_allclose(got["pressure"], pressure, rtol=1e-6, err_msg=str(step))
+            np.testing.assert_allclose(np.linalg.norm(got["shear"], axis=1), shear, rtol=1e-6, err_msg=str(step))
+            # LIGGGHTS has 0.33333 for 1/3
+            np.testing.assert_allclose(got["wear"], wear, rtol=2e-5, err_msg=str(step))
+            self.assertEqual(got["contact_count"].sum(), table["wall[7]"][k])
+        self.assertGreater(wear.min(), 0.0)
+
+    def test_fields_of_triangles_move_and_go_on_on_ranks_and_after_a_restart(self):
+        triangles = wall(self.folder, 50, "fields pressure shear contact_count wear motion linear 0.1 0.2 0.01")
+        triangles = triangles.replace("floor.yaml surface floor", "plane.stl surface all")
+        restart = f"{self.folder}/half.restart"
+        head = BALLS + triangles + THERMO.format(every=100)
+        self.run_deck(head + f"run 120\nwrite_restart {restart}\nrun 80\n")
+        one = self.state(200)
+        np.testing.assert_allclose(one.points.min(axis=0), [-SIDE / 2 + 2e-5, -SIDE / 2 + 4e-5, 2e-6], atol=1e-15)
+        self.run_deck(head + "run 120\nrun 80\n", ranks=2)
+        two = self.state(200)
+        self.run_deck(START.again(restart) + triangles + INTEGRATION + THERMO.format(every=100) + "run 80\n")
+        again = self.state(200)
+        self.assertGreater(one.elements["wear"].min(), 0.0)
+        for other in (two, again):
+            for name, expected in one.elements.items():
+                scale = 1e-12 * np.abs(expected).max()
+                np.testing.assert_allclose(other.elements[name], expected, rtol=1e-9, atol=scale, err_msg=name)
+
     def test_fields_are_the_same_on_two_ranks(self):
         fields = "fields pressure shear contact_count wear"
         deck = BALLS + wall(self.folder, 50, fields) + THERMO.format(every=50) + "run 200\n"

@@ -9,131 +9,16 @@
 #include "brep/builder.h"
 #include "brep/foot_search.h"
 #include "brep/summary.h"
-#include "trials.h"
+#include "face_grid.h"
+#include "mixed_trial.h"
 
 namespace brep {
 namespace {
 
+using trials::face_of;
 using trials::feet;
-
-Face face_of(Kind kind, const Frame& frame, double R, double r, Parameter<2> low, Parameter<2> high) {
-  Face face;
-  face.kind = kind;
-  face.frame = frame;
-  face.R = R, face.r = r;
-  face.low = low, face.high = high;
-  return face;
-}
-
-// Points of a face, its range closed, written from the table in brep/face.h.
-Vector3 point(const Face& face, double a, double b) {
-  const Frame& f = face.frame;
-  const Vector3 e = std::cos(a) * f.x + std::sin(a) * f.y;
-  switch (face.kind) {
-    case Kind::plane:
-      return f.origin + a * f.x + b * f.y;
-    case Kind::cylinder:
-      return f.origin + face.R * e + b * f.z;
-    case Kind::cone:
-      return f.origin + b * (std::cos(face.r) * f.z + std::sin(face.r) * e);
-    case Kind::sphere:
-      return f.origin + face.R * (std::cos(b) * e + std::sin(b) * f.z);
-    default:
-      return f.origin + (face.R + face.r * std::cos(b)) * e + face.r * std::sin(b) * f.z;
-  }
-}
-
-// Local minima of the distance on the closed face: from the lowest points of a grid downhill, by ever smaller
-// steps.
-class Grid {
- public:
-  explicit Grid(const Face& face) : face_(face) {
-    for (int i = 0; i < 2; ++i)
-      turn_[i] = face.high[i] - face.low[i] > 2.0 * nurbs::kPi - 1e-6 &&
-                 (i == 0 || face.kind == Kind::torus) && face.kind != Kind::plane;
-  }
-  std::vector<Vector3> minima(const Vector3& d, double reach) const {
-    constexpr int n = 40;
-    std::vector<double> value((n + 1) * (n + 1));
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n; ++j) value[i + (n + 1) * j] = (at({step(0, i, n), step(1, j, n)}) - d).norm();
-    std::vector<Vector3> found;
-    for (int i = 0; i <= n; ++i)
-      for (int j = 0; j <= n; ++j) {
-        bool lowest = true;
-        for (int k = 0; k < 9; ++k) {
-          const int p = next(0, i + k % 3 - 1, n), q = next(1, j + k / 3 - 1, n);
-          if (p >= 0 && q >= 0 && !(j == q && pole(j, n)))
-            lowest = lowest && value[i + (n + 1) * j] <= value[p + (n + 1) * q];
-        }
-        int angle = i;  // at a pole the one at which it goes down if it does
-        for (int p = 0; p <= n && pole(j, n); ++p) {
-          const int row = (n + 1) * (j == 0 ? 1 : n - 1);
-          lowest = lowest && value[i + (n + 1) * j] <= value[p + row];
-          if (value[p + row] < value[angle + row]) angle = p;
-        }
-        if (!lowest) continue;
-        const Vector3 x = descend(d, {step(0, angle, n), step(1, j, n)}, n);
-        if ((x - d).norm() < reach &&
-            std::none_of(found.begin(), found.end(), [&](const Vector3& y) { return (x - y).norm() < 1e-4; }))
-          found.push_back(x);
-      }
-    return found;
-  }
-
- private:
-  double step(int i, int k, int n) const { return face_.low[i] + (face_.high[i] - face_.low[i]) * k / n; }
-  // Where all of a side is one point.
-  bool pole(int j, int n) const {
-    return (j == 0 || j == n) &&
-           (at({step(0, 0, n), step(1, j, n)}) - at({step(0, 1, n), step(1, j, n)})).norm() < 1e-12;
-  }
-  int next(int i, int k, int n) const {
-    if (turn_[i]) return (k + n) % n;
-    return k < 0 || k > n ? -1 : k;
-  }
-  Vector3 at(const Parameter<2>& xi) const { return point(face_, xi[0], xi[1]); }
-
- public:
-  /// Whether no point is nearer to d beside xi.
-  bool is_lowest_around(const Vector3& d, const Parameter<2>& xi) const {
-    constexpr double kBeside = 1e-4, kRoundOff = 1e-14;
-    const double here = (at(xi) - d).norm();
-    for (int k = 0; k < 9; ++k) {
-      Parameter<2> to = xi;
-      for (int i = 0; i < 2; ++i) {
-        to[i] += ((i == 0 ? k % 3 : k / 3) - 1) * kBeside * (face_.high[i] - face_.low[i]);
-        if (!turn_[i]) to[i] = std::clamp(to[i], face_.low[i], face_.high[i]);
-      }
-      if ((at(to) - d).norm() < here - kRoundOff) return false;
-    }
-    return true;
-  }
-
- private:
-  Vector3 descend(const Vector3& d, Parameter<2> xi, int n) const {
-    double size = 1.0 / n, best = (at(xi) - d).norm();
-    while (size > 1e-10) {
-      bool lower = false;
-      for (int k = 0; k < 9; ++k) {
-        Parameter<2> to = xi;
-        for (int i = 0; i < 2; ++i) {
-          to[i] += ((i == 0 ? k % 3 : k / 3) - 1) * size * (face_.high[i] - face_.low[i]);
-          if (!turn_[i]) to[i] = std::clamp(to[i], face_.low[i], face_.high[i]);
-        }
-        if (const double value = (at(to) - d).norm(); value < best) {
-          best = value, xi = to, lower = true;
-          break;
-        }
-      }
-      if (!lower) size *= 0.5;
-    }
-    return at(xi);
-  }
-
-  Face face_;
-  bool turn_[2];
-};
+using trials::Grid;
+using trials::point_on;
 
 class OneFace : public testing::TestWithParam<int> {};
 
@@ -168,13 +53,13 @@ TEST_P(OneFace, HasTheMinimaThatAGridHas) {
       Parameter<2> xi;
       for (int i = 0; i < 2; ++i) xi[i] = face.low[i] + share(random) * (face.high[i] - face.low[i]);
       const double length = 0.3 * uniform(random);
-      d = point(face, xi[0], xi[1]) + length * trials::random_direction(random);
+      d = point_on(face, xi[0], xi[1]) + length * trials::random_direction(random);
     }
     const double reach = 0.3 + share(random);
     const auto expected = grid.minima(d, reach);
     const auto found = feet(surface, d, reach);
     EXPECT_GE(found.size(), expected.size()) << "d = " << d.transpose();
-    for (const Vector3& x : expected) {
+    for (const auto& [x, xi] : expected) {
       double nearest = 1.0;
       for (const Foot& foot : found) nearest = std::min(nearest, (x - foot.point).norm());
       EXPECT_LT(nearest, 1e-6) << "d = " << d.transpose() << ", minimum " << x.transpose();
@@ -183,7 +68,7 @@ TEST_P(OneFace, HasTheMinimaThatAGridHas) {
       // the grid may be too coarse for a shallow one
       EXPECT_TRUE(grid.is_lowest_around(d, foot.xi))
           << "d = " << d.transpose() << ", foot " << foot.point.transpose();
-      EXPECT_LT((point(face, foot.xi[0], foot.xi[1]) - foot.point).norm(), 1e-12);
+      EXPECT_LT((point_on(face, foot.xi[0], foot.xi[1]) - foot.point).norm(), 1e-12);
       EXPECT_NEAR((d - foot.point).norm(), foot.distance, 1e-14);
       if (foot.status == FootStatus::interior) {
         EXPECT_GT(foot.side * face.normal(foot.xi).dot(d - foot.point),
@@ -202,7 +87,7 @@ TEST(Faces, NormalsAndCurvaturesAreThoseOfDifferences) {
     const Face face = face_of(kind, frame, 1.3, 0.4, {0.0, 0.0}, {1.0, 1.0});
     const Parameter<2> xi{0.7, 0.5};
     const double h = 1e-4;
-    const auto at = [&](double a, double b) { return point(face, xi[0] + a, xi[1] + b); };
+    const auto at = [&](double a, double b) { return point_on(face, xi[0] + a, xi[1] + b); };
     const Vector3 n = (at(h, 0) - at(-h, 0)).cross(at(0, h) - at(0, -h)).normalized();
     EXPECT_LT((face.normal(xi) - n).norm(), 1e-7);
     EXPECT_LT((face.point(xi) - at(0, 0)).norm(), 1e-14);
@@ -287,6 +172,16 @@ TEST(Faces, CirclesOfFacesRoundOneAxisAreOneEdge) {
   // Inside, over the concave edge: the cylinder's foot and the cone's.
   const auto found = feet(silo, frame.origin + 0.9 * frame.x + 0.1 * frame.z, 0.3);
   EXPECT_EQ(found.size(), 2u);
+}
+
+TEST(Trials, RandomMixedWallsAgreeWithTheirJudge) {
+  long count = 0;
+  for (int index = 0; index < 24; ++index) {
+    trials::MixedTrial trial(4, index);
+    ASSERT_EQ(trial.try_sheets(), "") << index;
+    for (int k = 0; k < 24; ++k) EXPECT_EQ(trial.try_point(k, count), "") << index << ", point " << k;
+  }
+  EXPECT_GT(count, 500);
 }
 
 TEST(Faces, AreRefusedWithTheirNumber) {

@@ -1,38 +1,46 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Feet on random walls against the judge (judge.h).  A miss is printed with what repeats it: --seed S --only
-// WALL. Exit code 1 if there is any.
+// Feet on random walls against the judges (judge.h, mixed_judge.h).  A miss is printed with what repeats it:
+// --seed S --only WALL [--mixed].  Exit code 1 if there is any.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <memory>
 
-#include "trials.h"
+#include "mixed_trial.h"
 
 int main(int argc, char** argv) {
   long count = 20000, misses = 0, trials = 0, feet = 0;
   unsigned seed = 1;
   int only = -1, points = 300;
-  CLI::App app("Feet on random walls of triangles, judged by brute force");
+  bool mixed = false;
+  CLI::App app("Feet on random walls, judged by brute force");
   app.add_option("--count", count, "least number of points")->check(CLI::PositiveNumber);
   app.add_option("--seed", seed, "of the random numbers");
   app.add_option("--points", points, "of each wall");
+  app.add_flag("--mixed", mixed, "planes, cylinders, cones, spheres and tori in place of triangles");
   app.add_option("--only", only, "number of the one wall to repeat");
   CLI11_PARSE(app, argc, argv);
   try {
     using namespace brep::trials;
     for (int index = only < 0 ? 0 : only; trials < count; ++index) {
-      Trial trial(seed, index);
-      std::string wrong = trial.try_sheets();
+      std::unique_ptr<Trial> trial;
+      if (mixed)
+        trial = std::make_unique<MixedTrial>(seed, index);
+      else
+        trial = std::make_unique<TriangleTrial>(seed, index);
+      const std::string what =
+          fmt::format("miss: {}--seed {} --only {} ({})", mixed ? "--mixed " : "", seed, index,
+                      mixed ? mixed_family_name(index % kMixedFamilies) : family_name(index % kFamilies));
+      std::string wrong = trial->try_sheets();
       for (int k = 0; k < points && wrong.empty(); ++k, ++trials) {
-        wrong = trial.try_point(k, feet);
+        wrong = trial->try_point(k, feet);
         if (wrong.empty()) continue;
         ++misses;
-        fmt::print("miss: --seed {} --only {} ({}), point {}: {}\n", seed, index,
-                   family_name(index % kFamilies), k, wrong);
+        fmt::print("{}, point {}: {}\n", what, k, wrong);
         wrong.clear();
       }
-      if (!wrong.empty())
-        fmt::print("miss: --seed {} --only {}: {}\n", seed, index, wrong), ++misses, ++trials;
+      if (!wrong.empty()) fmt::print("{}: {}\n", what, wrong), ++misses, ++trials;
       if (only >= 0) break;
     }
     fmt::print("{} points, {} feet, misses: {}\n", trials, feet, misses);

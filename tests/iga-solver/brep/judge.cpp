@@ -127,19 +127,7 @@ struct Into {
 
 }  // namespace
 
-void Judge::add_at(const Vector3& p, const std::vector<int>& triangles, const Vector3& d, double reach,
-                   double tolerance, std::vector<Minimum>& found) const {
-  const Vector3 w = d - p;
-  if (w.norm() >= reach) return;
-  const int count = static_cast<int>(triangles.size());
-  const auto place = [&](int t) {
-    return static_cast<int>(std::find(triangles.begin(), triangles.end(), t) - triangles.begin());
-  };
-  std::vector<Into> into;
-  for (const int t : triangles) into.emplace_back(p, point(t, 0), point(t, 1), point(t, 2));
-
-  // What hangs together round p.
-  Labels fans(count), regions(2 * count), groups(2 * count);
+std::vector<int> Judge::edges_through(const Vector3& p, const std::vector<int>& triangles) const {
   std::set<int> through;
   for (const int t : triangles)
     for (const int corner : wall_.triangles[t])
@@ -149,7 +137,39 @@ void Judge::add_at(const Vector3& p, const std::vector<int>& triangles, const Ve
             (p - a).norm() + (p - b).norm() < (b - a).norm() + 1e-10)
           through.insert(e);
       }
-  for (const int e : through)
+  return {through.begin(), through.end()};
+}
+
+std::vector<Judge::Wedge> Judge::wedges_at(const Vector3& p) const {
+  std::vector<int> all(wall_.triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<Wedge> found;
+  for (const int e : edges_through(p, all)) found.insert(found.end(), wedges_[e].begin(), wedges_[e].end());
+  return found;
+}
+
+void Judge::add_at(const Vector3& p, const std::vector<int>& triangles, const Vector3& d, double reach,
+                   double tolerance, std::vector<Minimum>& found) const {
+  const double distance = (d - p).norm();
+  if (distance >= reach) return;
+  for (const int side : minima_at(p, triangles, d, tolerance))
+    found.push_back({sheets_[side], p, distance, triangles});
+}
+
+std::vector<int> Judge::minima_at(const Vector3& p, const std::vector<int>& triangles, const Vector3& d,
+                                  double tolerance) const {
+  const Vector3 w = d - p;
+  std::vector<int> found;
+  const int count = static_cast<int>(triangles.size());
+  const auto place = [&](int t) {
+    return static_cast<int>(std::find(triangles.begin(), triangles.end(), t) - triangles.begin());
+  };
+  std::vector<Into> into;
+  for (const int t : triangles) into.emplace_back(p, point(t, 0), point(t, 1), point(t, 2));
+
+  // What hangs together round p.
+  Labels fans(count), regions(2 * count), groups(2 * count);
+  for (const int e : edges_through(p, triangles))
     for (const Wedge& wedge : wedges_[e]) {
       const int from = place(wedge.from / 2), to = place(wedge.to / 2);
       fans.same(from, to);
@@ -187,12 +207,14 @@ void Judge::add_at(const Vector3& p, const std::vector<int>& triangles, const Ve
           for (const Vector3& direction : into[k / 2].directions)
             steepest = std::max(steepest, w.dot(direction));
       if (steepest > tolerance) continue;
-      found.push_back({sheets_[2 * triangles[g / 2] + g % 2], p, w.norm(), triangles});
+      found.push_back(2 * triangles[g / 2] + g % 2);
     }
   }
+  return found;
 }
 
-std::vector<Judge::Minimum> Judge::minima(const Vector3& d, double reach, double tolerance) const {
+std::vector<Minimum> Judge::minima(const Vector3& d, double reach, double tolerance,
+                                   const std::vector<Vector3>& /*also*/) const {
   std::vector<Minimum> all;
   for (size_t t = 0; t < wall_.triangles.size(); ++t) {
     const Vector3 a = point(t, 0), b = point(t, 1), c = point(t, 2), n = (b - a).cross(c - a).normalized();
@@ -234,26 +256,28 @@ std::vector<Judge::Minimum> Judge::minima(const Vector3& d, double reach, double
   return kept;
 }
 
+// By a way with a slightly concave edge in it; two feet on parts of one plane are two.
 bool Judge::over_smooth_edges(const Minimum& a, const Minimum& b) const {
-  std::set<int> seen, goal;
-  for (const int t : a.triangles) seen.insert(planes_[t]);
+  std::set<int> seen[2], goal;  // without and with such an edge behind
+  for (const int t : a.triangles) seen[0].insert(planes_[t]);
   for (const int t : b.triangles) goal.insert(planes_[t]);
   for (const int plane : goal)
-    if (seen.count(plane) > 0) return false;
-  for (size_t before = 0; before != seen.size();) {
-    before = seen.size();
+    if (seen[0].count(plane) > 0) return false;
+  for (size_t before = 0; before != seen[0].size() + seen[1].size();) {
+    before = seen[0].size() + seen[1].size();
     for (const auto& wedges : wedges_)
       for (const Wedge& w : wedges)
-        if (std::abs(w.angle - nurbs::kPi) <= edge_angle_) {
-          const int x = planes_[w.from / 2], y = planes_[w.to / 2];
-          if (seen.count(x) > 0) seen.insert(y);
-          if (seen.count(y) > 0) seen.insert(x);
+        for (int behind = 0; behind < 2 && std::abs(w.angle - nurbs::kPi) <= edge_angle_; ++behind) {
+          const int x = planes_[w.from / 2], y = planes_[w.to / 2],
+                    after = w.angle < nurbs::kPi - 1e-7 ? 1 : behind;
+          if (seen[behind].count(x) > 0) seen[after].insert(y);
+          if (seen[behind].count(y) > 0) seen[after].insert(x);
         }
   }
-  return std::any_of(goal.begin(), goal.end(), [&](int plane) { return seen.count(plane) > 0; });
+  return std::any_of(goal.begin(), goal.end(), [&](int plane) { return seen[1].count(plane) > 0; });
 }
 
-bool Judge::lasts(const Vector3& d, double reach, const Minimum& minimum, double by) const {
+bool AnyJudge::lasts(const Vector3& d, double reach, const Minimum& minimum, double by) const {
   std::mt19937 random(1);
   for (int k = 0; k < 10; ++k) {
     const auto moved = minima(d + by * random_direction(random), reach - 2.0 * by, -1e-9);

@@ -10,20 +10,26 @@
 namespace brep::trials {
 namespace {
 
+std::string text(const Vector3& x) { return fmt::format("({:.17g}, {:.17g}, {:.17g})", x[0], x[1], x[2]); }
+
+}  // namespace
+
 std::mt19937 seeded(unsigned seed, int index) {
   std::seed_seq seeds{seed, static_cast<unsigned>(index)};
   return std::mt19937(seeds);
 }
 
-std::string text(const Vector3& x) { return fmt::format("({:.17g}, {:.17g}, {:.17g})", x[0], x[1], x[2]); }
+Trial::Trial(std::mt19937 random, Surface surface)
+    : random_(random), surface_(std::move(surface)), search_(surface_) {}
 
-}  // namespace
+TriangleTrial::TriangleTrial(unsigned seed, int index) : TriangleTrial(seeded(seed, index), index) {}
 
-Trial::Trial(unsigned seed, int index)
-    : random_(seeded(seed, index)),
-      wall_(random_wall(random_, index % kFamilies)),
-      surface_(from_triangles(wall_.coordinates(), wall_.corners())),
-      search_(surface_),
+TriangleTrial::TriangleTrial(std::mt19937 random, int index)
+    : TriangleTrial(random_wall(random, index % kFamilies), random) {}
+
+TriangleTrial::TriangleTrial(const Wall& wall, const std::mt19937& random)
+    : Trial(random, from_triangles(wall.coordinates(), wall.corners())),
+      wall_(wall),
       judge_(wall_, surface_.edge_angle) {
   for (const Piece& piece : surface_.pieces)
     for (const int v : piece.vertex) {
@@ -32,7 +38,7 @@ Trial::Trial(unsigned seed, int index)
     }
 }
 
-std::string Trial::try_sheets() {
+std::string TriangleTrial::try_sheets() {
   std::map<int, int> of_judge, back;
   for (size_t t = 0; t < wall_.triangles.size(); ++t) {
     const Vector3 &a = wall_.points[wall_.triangles[t][0]], &b = wall_.points[wall_.triangles[t][1]],
@@ -61,7 +67,7 @@ std::string Trial::try_sheets() {
 }
 
 std::string Trial::try_point(int number, long& count) {
-  const Vector3 d = random_point(random_, wall_, number % kPlaces);
+  const Vector3 d = draw(number % kPlaces);
   const double reach = std::uniform_real_distribution<double>(0.1, 1.2)(random_);
   near_.clear(), feet_.clear(), from_active_.clear();
   search_.near(d, reach, near_);
@@ -86,16 +92,19 @@ std::string Trial::try_point(int number, long& count) {
 bool Trial::minimum_beside(const Vector3& d, double reach, const Foot& foot) const {
   std::mt19937 random(1);
   for (int k = 0; k < 30; ++k)
-    for (const auto& m : judge_.minima(d + 1e-6 * random_direction(random), reach + 1e-5, 1e-9))
-      if (foot.sheet == sheet_of_judge_[m.sheet] && (foot.point - m.point).norm() < 1e-4) return true;
+    for (const auto& m :
+         judge().minima(d + beside_ * random_direction(random), reach + 10.0 * beside_, 1e-9, {foot.point}))
+      if (foot.sheet == sheet_of(m) && (foot.point - m.point).norm() < 100.0 * beside_) return true;
   return false;
 }
 
 std::string Trial::compare(const Vector3& d, double reach, const std::vector<Foot>& feet) const {
-  const auto same = [&](const Foot& foot, const Judge::Minimum& m) {
-    return foot.sheet == sheet_of_judge_[m.sheet] && (foot.point - m.point).norm() < 1e-7 + 30.0 * uneven_;
+  const auto same = [&](const Foot& foot, const Minimum& m) {
+    return foot.sheet == sheet_of(m) && (foot.point - m.point).norm() < 1e-7 + 30.0 * uneven_;
   };
-  const auto lenient = judge_.minima(d, reach + 1e-9, 1e-9);
+  std::vector<Vector3> found;
+  for (const Foot& foot : feet) found.push_back(foot.point);
+  const auto lenient = judge().minima(d, reach + 1e-9, 1e-9, found);
   for (size_t k = 0; k < feet.size(); ++k) {
     const Foot& foot = feet[k];
     if (foot.distance < 1e-9 + 2.0 * uneven_)
@@ -115,8 +124,8 @@ std::string Trial::compare(const Vector3& d, double reach, const std::vector<Foo
   }
   for (const auto& m : lenient)
     if (std::none_of(feet.begin(), feet.end(), [&](const Foot& foot) { return same(foot, m); }) &&
-        m.distance > 1e-9 && judge_.lasts(d, reach, m, 1e-6))
-      return fmt::format("minimum {} on sheet {} is missed", text(m.point), sheet_of_judge_[m.sheet]);
+        m.distance > 1e-9 && judge().lasts(d, reach, m, beside_))
+      return fmt::format("minimum {} on sheet {} is missed", text(m.point), sheet_of(m));
   return {};
 }
 

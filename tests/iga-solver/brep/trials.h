@@ -12,28 +12,55 @@ namespace brep::trials {
 
 class Trial {
  public:
-  Trial(unsigned seed, int index);
-  const Wall& wall() const { return wall_; }
+  virtual ~Trial() = default;
   const Surface& surface() const { return surface_; }
   /// What is wrong with the sheets, or an empty text.
-  std::string try_sheets();
+  virtual std::string try_sheets() = 0;
   /// The same for the feet of a point that is drawn; counts those found.
   std::string try_point(int number, long& feet);
+
+ protected:
+  Trial(std::mt19937 random, Surface surface);
+  /// A point to be tried.
+  virtual Vector3 draw(int place) = 0;
+  /// The judge's sheets, as the wall counts them.
+  virtual int sheet_of(const Minimum& minimum) const = 0;
+  virtual const AnyJudge& judge() const = 0;
+
+  std::mt19937 random_;
+  Surface surface_;
+  double uneven_ = 0.0;   // how far points may be off their faces
+  double beside_ = 1e-6;  // how far a point is moved off a border
 
  private:
   bool minimum_beside(const Vector3& d, double reach, const Foot& foot) const;
   std::string compare(const Vector3& d, double reach, const std::vector<Foot>& feet) const;
 
-  std::mt19937 random_;
-  Wall wall_;
-  Surface surface_;
   FootSearch search_;
-  Judge judge_;
-  double uneven_ = 0.0;  // how far points are off the planes of their faces, below 1e-6 of the size
-  std::vector<int> sheet_of_judge_;  // the wall's
   std::vector<int> near_, active_;
   std::vector<Foot> feet_, from_active_;
 };
+
+/// A random wall of triangles.
+class TriangleTrial final : public Trial {
+ public:
+  TriangleTrial(unsigned seed, int index);
+  std::string try_sheets() override;
+
+ private:
+  TriangleTrial(std::mt19937 random, int index);  // the order: the wall is drawn first, then points
+  TriangleTrial(const Wall& wall, const std::mt19937& random);
+  Vector3 draw(int place) override { return random_point(random_, wall_, place); }
+  int sheet_of(const Minimum& minimum) const override { return sheet_of_judge_[minimum.sheet]; }
+  const AnyJudge& judge() const override { return judge_; }
+
+  Wall wall_;
+  Judge judge_;
+  std::vector<int> sheet_of_judge_;  // the wall's
+};
+
+/// A generator for one wall of a row.
+std::mt19937 seeded(unsigned seed, int index);
 
 /// All feet of d, found without a list.
 inline std::vector<Foot> feet(const Surface& surface, const Vector3& d, double reach) {

@@ -65,9 +65,9 @@ TEST(PointOrder, NamesEveryPointOfAHexahedronOnce) {
 TEST_F(VtkSeries, HoldsEveryStateAfterEachWrite) {
   vtk::Series series((*this)("wall"));
   EXPECT_TRUE(series.empty());
-  series.write<2>(0, 0.0, {square()});
+  series.write(0, 0.0, std::vector{square()});
   EXPECT_THAT(text("wall.pvd"), HasSubstr("wall_0.vtu"));
-  series.write<2>(50, 0.5, {square()});
+  series.write(50, 0.5, std::vector{square()});
   EXPECT_THAT(text("wall.pvd"), HasSubstr("timestep=\"0.5\" file=\"wall_50.vtu\""));
   EXPECT_THAT(text("wall.pvd"), HasSubstr("wall_0.vtu"));
   EXPECT_EQ(count(), 3) << "no unfinished file is left";
@@ -75,16 +75,16 @@ TEST_F(VtkSeries, HoldsEveryStateAfterEachWrite) {
 
 TEST_F(VtkSeries, IsNotWrittenIntoAPipe) {
   ASSERT_EQ(mkfifo((*this)("wall_0.vtu").c_str(), 0600), 0);
-  EXPECT_THAT([&] { vtk::Series((*this)("wall")).write<2>(0, 0.0, {square()}); },
+  EXPECT_THAT([&] { vtk::Series((*this)("wall")).write(0, 0.0, std::vector{square()}); },
               testing::ThrowsMessage<std::runtime_error>(HasSubstr("wall_0.vtu': Is a named pipe")));
 }
 
 TEST_F(VtkSeries, GoesOnAfterARestart) {
   vtk::Series before((*this)("wall"));
-  for (long step : {0L, 10L, 20L}) before.write<2>(step, 0.1 * step, {square()});
+  for (long step : {0L, 10L, 20L}) before.write(step, 0.1 * step, std::vector{square()});
   vtk::Series after((*this)("wall"));
   after.resume(10);
-  after.write<2>(15, 1.5, {square()});
+  after.write(15, 1.5, std::vector{square()});
   const std::string index = text("wall.pvd");
   EXPECT_THAT(index, HasSubstr("wall_10.vtu"));
   EXPECT_THAT(index, HasSubstr("wall_15.vtu"));
@@ -94,11 +94,11 @@ TEST_F(VtkSeries, GoesOnAfterARestart) {
 TEST_F(VtkSeries, GoesOnAtATime) {
   vtk::Series before((*this)("wall"));
   EXPECT_EQ(vtk::Series((*this)("wall")).resume_at(1.0), std::nullopt);
-  for (long n : {0L, 1L, 2L}) before.write<2>(n, 0.5 * n, {square()});
+  for (long n : {0L, 1L, 2L}) before.write(n, 0.5 * n, std::vector{square()});
   vtk::Series after((*this)("wall"));
   EXPECT_EQ(after.resume_at(0.5), 0.5);
   EXPECT_EQ(after.count(), 2);
-  after.write<2>(2, 0.75, {square()});
+  after.write(2, 0.75, std::vector{square()});
   EXPECT_THAT(text("wall.pvd"), HasSubstr("timestep=\"0.75\" file=\"wall_2.vtu\""));
   EXPECT_THAT(text("wall.pvd"), Not(HasSubstr("timestep=\"1\"")));
 }
@@ -106,10 +106,10 @@ TEST_F(VtkSeries, GoesOnAtATime) {
 // All digits, also through a restart, which writes what it has read.
 TEST_F(VtkSeries, TimesReadBackToTheLastBit) {
   const double time = 1.0 / 3.0 + 1e-15;
-  vtk::Series((*this)("wall")).write<2>(7, time, {square()});
+  vtk::Series((*this)("wall")).write(7, time, std::vector{square()});
   vtk::Series after((*this)("wall"));
   after.resume(7);
-  after.write<2>(8, 2.0 * time, {square()});
+  after.write(8, 2.0 * time, std::vector{square()});
   const std::string index = text("wall.pvd"), key = "timestep=\"";
   std::vector<double> times;
   for (std::size_t at = index.find(key); at != std::string::npos; at = index.find(key, at + 1))
@@ -120,10 +120,10 @@ TEST_F(VtkSeries, TimesReadBackToTheLastBit) {
 // Whoever looks while a state is written sees the former one: the new one takes its place in one moment.
 TEST_F(VtkSeries, TheFormerIndexIsNotTouched) {
   vtk::Series series((*this)("wall"));
-  series.write<2>(0, 0.0, {square()});
+  series.write(0, 0.0, std::vector{square()});
   std::filesystem::create_hard_link((*this)("wall.pvd"), (*this)("seen.pvd"));
   const std::string former = text("wall.pvd");
-  series.write<2>(1, 0.1, {square()});
+  series.write(1, 0.1, std::vector{square()});
   EXPECT_EQ(text("seen.pvd"), former);
   EXPECT_NE(text("wall.pvd"), former);
 }
@@ -136,7 +136,7 @@ TEST_F(VtkSeries, DoesNotContinueAnotherFile) {
 
 TEST_F(VtuFile, NamesTheFileThatCannotBeWritten) {
   const std::string path = (*this)("no/such/wall.vtu");
-  EXPECT_THAT([&] { vtk::write_vtu<2>(path, {square()}); },
+  EXPECT_THAT([&] { vtk::write_vtu<2>(path, std::vector{square()}); },
               testing::ThrowsMessage<std::runtime_error>(
                   AllOf(HasSubstr(path), HasSubstr("No such file or directory"))));
 }

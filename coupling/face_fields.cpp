@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/face_fields.h"
+
+#include <Eigen/Geometry>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "brep/triangle_mesh.h"
+
+namespace coupling {
+namespace {
+
+// Of the point from the nearest side of the triangle, in the plane with this normal; negative outside.
+double depth_in(const brep::Surface& surface, const brep::Piece& piece, const Vector3& point,
+                const Vector3& normal) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    const Vector3& from = surface.vertices[piece.vertex[i]].point;
+    const Vector3 way = surface.vertices[piece.vertex[(i + 1) % 3]].point - from;
+    least = std::min(least, normal.cross(way).dot(point - from) / way.norm());
+  }
+  return least;
+}
+
+}  // namespace
+
+FaceFields::FaceFields(MPI_Comm comm, std::shared_ptr<const brep::Surface> surface)
+    : ContactFields(comm, static_cast<int>(surface->pieces.size()), static_cast<int>(surface->pieces.size())),
+      surface_(std::move(surface)),
+      tree_(*surface_),
+      area_(static_cast<Eigen::Index>(surface_->pieces.size())) {
+  near_.reserve(surface_->pieces.size());
+  for (Eigen::Index k = 0; k < area_.size(); ++k) {
+    const auto corner = [&](int i) { return surface_->vertices[surface_->pieces[k].vertex[i]].point; };
+    area_[k] = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+  }
+}
+
+int FaceFields::piece_at(const nurbs::SurfacePoint& foot) {
+  const brep::Face& face = surface_->faces[foot.patch];
+  const Vector3 point = face.point(foot.xi);
+  constexpr double kUneven = 1e-5;  // of the size: triangles are in their face's plane to 1e-6 of it
+  near_.clear();
+  tree_.near(tree_.query(point, kUneven * surface_->size), near_);
+  int found = -1;
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (const int piece : near_) {
+    if (surface_->pieces[piece].face != foot.patch || area_[piece] == 0.0) continue;
+    const double depth = depth_in(*surface_, surface_->pieces[piece], point, face.frame.z);
+    if (depth < deepest || (depth == deepest && piece > found)) continue;
+    deepest = depth;
+    found = piece;
+  }
+  if (found < 0)
+    throw std::logic_error("a contact on face " + std::to_string(foot.patch) +
+                           " is in none of its triangles");
+  return found;
+}
+
+void FaceFields::add(const SurfaceContact& contact) {
+  const int piece = piece_at(contact.foot);
+  add_at(piece, rows_of(contact));
+  count_in(piece);
+}
+
+ContactFields::State FaceFields::state(const NodalVectors& /*control_points*/, const RigidFrame& frame,
+                                       const Selection& selection) {
+  Eigen::MatrixXd per_area = all_forces();
+  for (Eigen::Index k = 0; k < area_.size(); ++k)
+    if (area_[k] > 0.0) per_area.col(k) /= area_[k];
+  vtk::TriangleFields fields{brep::triangles_of(*surface_), fields_of_places(per_area, frame, selection)};
+  for (vtk::Field& field : fields_of_cells(all_contacts(), selection))
+    fields.cells.push_back(std::move(field));
+  fields.mesh.vertices = (frame.rotation * fields.mesh.vertices).colwise() + frame.origin;
+  return fields;
+}
+
+}  // namespace coupling
