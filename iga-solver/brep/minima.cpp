@@ -10,6 +10,7 @@
 
 namespace brep {
 
+constexpr double kSame = 1e-6;  // of two distances that would differ by much
 constexpr double kTie = 1e-12;  // sides of a triangle that are nearest alike, relative to a square
 
 void Minima::add_beside_triangle(const Piece& piece) {
@@ -66,10 +67,19 @@ void Minima::add_of_edge(int use) {
   add_in_wedge(visiting, surface_.uses[u], surface_.next_use(edge, u), foot.q, foot.point());
 }
 
+// Of a point where d is square above the face: on a curved one it can be the farthest, beyond the centre.
+bool Minima::is_nearest_of_whole(int face, const Vector3& point) const {
+  const Face& shape = surface_.faces[face];
+  return shape.kind == Kind::plane || (d_ - point).norm() <= (1.0 + kSame) * shape.distance_of_whole(d_);
+}
+
 void Minima::add_in_wedge(const EdgeUse& visiting, const EdgeUse& use, const EdgeUse& next, const double* q,
                           const Vector3& point) {
-  const bool off_use = q[0] * use.conormal[0] + q[1] * use.conormal[1] <= slack_;
-  const bool off_next = q[0] * next.conormal[0] + q[1] * next.conormal[1] <= slack_;
+  const auto is_off = [&](const EdgeUse& use_of) {
+    const double into = q[0] * use_of.conormal[0] + q[1] * use_of.conormal[1];
+    return into < -slack_ || (into <= slack_ && is_nearest_of_whole(use_of.face, point));
+  };
+  const bool off_use = is_off(use), off_next = is_off(next);
   if (joins(use.wedge)) {
     if (off_use && off_next) add(use.face, use.side, FootStatus::edge, use.edge, point);
     return;
@@ -95,12 +105,20 @@ void Minima::add_of_vertex(int v, int face) {
   }
 }
 
+// Not uphill along an edge from its end; square above an arc d can be beyond its centre.
+bool Minima::is_off_ray(int ray, const Vector3& w) const {
+  const double along = ray_direction(surface_, ray).dot(w);
+  if (along > slack_) return false;
+  const Edge& edge = surface_.edges[surface_.uses[ray / 2].edge];
+  return along < -slack_ || edge.line() || w.squaredNorm() <= (1.0 + kSame) * EdgeFoot(edge, d_).distance2();
+}
+
 bool Minima::in_group(const Vertex& vertex, int group, const Vector3& w) const {
   for (int c = vertex.first_corner; c < vertex.first_corner + vertex.corner_count; ++c) {
     const Corner& corner = surface_.corners[c];
     if (corner.group[0] != group && corner.group[1] != group) continue;
     for (const int ray : corner.ray)
-      if (ray >= 0 && ray_direction(surface_, ray).dot(w) > slack_) return false;
+      if (ray >= 0 && !is_off_ray(ray, w)) return false;
     if (!corner.reflex && surface_.faces[corner.face].kind != Kind::cone) continue;
     if (Sector(surface_, vertex, corner).steepest(w, 0.0) > slack_) return false;
   }

@@ -56,9 +56,11 @@ class Minima {
   void add_of_side(const Piece& piece, int i, const BesideSide& beside);
   void add_of_face(const Piece& piece);
   void add_of_edge(int use);
+  bool is_nearest_of_whole(int face, const Vector3& point) const;
   void add_in_wedge(const EdgeUse& visiting, const EdgeUse& use, const EdgeUse& next, const double* q,
                     const Vector3& point);
   void add_of_vertex(int vertex, int face);
+  bool is_off_ray(int ray, const Vector3& w) const;
   bool in_group(const Vertex& vertex, int group, const Vector3& w) const;
   // Of the space round a vertex.  On a border of two regions, to within the slack, it is one of them, and
   // `inward` leads from w to where that is clear; else that is zero.

@@ -154,6 +154,23 @@ TEST(Faces, AcrossSmoothEdgesThereIsOneFootThroughout) {
   }
 }
 
+// In the plane through the axis and a straight side of a pipe's part: the side is what is nearest, or, for a
+// point beyond the axis, what is farthest along the pipe.
+TEST(Faces, ASideThatIsFarthestIsNoFoot) {
+  const Face pipe = face_of(Kind::cylinder, Frame(), 1.0, 0.0, {0.0, 0.0}, {3.8, 1.0});
+  const Face plate = face_of(Kind::plane, frame_at({0.0, 0.0, 0.0}, {0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}), 0.0,
+                             0.0, {0.0, 0.0}, {1.0, 1.0});
+  for (const double z : {0.0, 0.5, 1.0}) {  // the ends of the side, too
+    const auto before = feet(from_faces({pipe}), {0.3, 0.0, z}, 1.2);
+    ASSERT_EQ(before.size(), 1u);
+    EXPECT_LT((before[0].point - Vector3(1.0, 0.0, z)).norm(), 1e-12);
+    const auto beyond = feet(from_faces({pipe}), {-0.1, 0.0, z}, 1.2);
+    ASSERT_EQ(beyond.size(), 1u);
+    EXPECT_LT((beyond[0].point - Vector3(-1.0, 0.0, z)).norm(), 1e-12);
+    EXPECT_EQ(feet(from_faces({pipe, plate}), {-0.1, 0.0, z}, 1.2).size(), 2u) << "and the plate's edge";
+  }
+}
+
 TEST(Faces, CirclesOfFacesRoundOneAxisAreOneEdge) {
   const Frame frame = frame_at({0.1, 0.2, 0.3}, {0.0, 0.6, 0.8}, {1.0, 0.0, 0.0});
   const Frame turned = frame_at({0.1, 0.2, 0.3}, {0.0, 0.6, 0.8}, {0.3, 0.8, -0.6});

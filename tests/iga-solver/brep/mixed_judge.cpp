@@ -9,7 +9,7 @@
 namespace brep::trials {
 namespace {
 
-constexpr double kSame = 1e-6;  // points, lengths
+constexpr double kSame = 3e-7;  // points, lengths
 
 }  // namespace
 
