@@ -51,8 +51,8 @@ MixedJudge::Round MixedJudge::round(const Vector3& p) const {
 
 void MixedJudge::add_sector(int f, const Vector3& p, const Parameter<2>& xi, Round& found) const {
   const Face& face = faces_[f];
-  const auto [t0, t1] = tangents_on(face, xi);
-  const Vector3 t[2] = {t0, t1};
+  const std::pair<Vector3, Vector3> tangents = tangents_on(face, xi);
+  const Vector3 t[2] = {tangents.first, tangents.second};
   Vector3 into[2] = {Vector3::Zero(), Vector3::Zero()};
   for (int i = 0; i < 2; ++i) {
     if (grids_[f].turns(i)) continue;
@@ -62,7 +62,7 @@ void MixedJudge::add_sector(int f, const Vector3& p, const Parameter<2>& xi, Rou
   const bool side[2] = {!into[0].isZero(), !into[1].isZero()};
   const bool pole = face.kind == Kind::sphere && std::abs(std::abs(xi[1]) - 0.5 * nurbs::kPi) < kSame;
   const auto add = [&](const Vector3& a, const Vector3& b, const Vector3& c) {
-    const bool turned = (b - a).cross(c - a).dot(t0.cross(t1)) < 0.0;
+    const bool turned = (b - a).cross(c - a).dot(t[0].cross(t[1])) < 0.0;
     found.wall.add_triangle(a, turned ? c : b, turned ? b : c);
     found.face.push_back(f);
   };
