@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "brep/surface.h"
+#include "brep/closed_form.h"
 #include "nurbs/multi_patch.h"
 
 namespace coupling {
@@ -85,6 +85,8 @@ struct ContactSurface {
   std::vector<int> outward_sign;
   /// In place of patches, of which there are none then: faces, edges and vertices, two-sided.
   std::shared_ptr<const brep::Surface> faces = nullptr;
+  /// The patches once more, for feet alone: all else, and the parameters of feet, stay those of the patches.
+  std::shared_ptr<const brep::ClosedForms> closed_forms = nullptr;
 };
 
 }  // namespace coupling

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "brep/builder.h"
+#include "brep/closed_form.h"
 #include "coupling/model_text.h"
 #include "coupling/open_structure.h"
 #include "coupling/rigid/rigid_surface.h"
@@ -57,13 +58,20 @@ OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const
   }
   std::vector<nurbs::Surface> patches;
   std::vector<int> outward_sign;
+  bool from_words = options.closed_forms;
   for (geometry_io::OrientedSurface& patch : geometry_io::named_surface(file, surface, path)) {
     place(patch.surface.control_points, options, path);
+    from_words = from_words && patch.from_words;
     patches.push_back(std::move(patch.surface));
     outward_sign.push_back(patch.outward_sign);
   }
   expect_room(patches, path);
-  return {std::make_unique<RigidSurface>(patches, std::move(outward_sign)), file.units};
+  std::shared_ptr<const brep::ClosedForms> closed_forms;
+  if (from_words)
+    if (std::optional<brep::ClosedForms> forms = brep::closed_forms(patches, options.edge_angle))
+      closed_forms = std::make_shared<const brep::ClosedForms>(std::move(*forms));
+  return {std::make_unique<RigidSurface>(patches, std::move(outward_sign), std::move(closed_forms)),
+          file.units};
 }
 
 }  // namespace

@@ -81,7 +81,8 @@ coupling::OpenedStructure open(MPI_Comm world, const WallNurbsOptions& options, 
       break;
   }
   return coupling::open_rigid_surface(world, options.file, options.surface, options.drive,
-                                      {units_of_deck(deck_units), options.placement, options.edge_angle});
+                                      {units_of_deck(deck_units), options.placement, options.edge_angle,
+                                       options.search == contact::SearchMethod::newton});
 }
 
 /// Of the particles of all ranks; infinite if there are none.

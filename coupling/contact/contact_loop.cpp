@@ -131,6 +131,8 @@ inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo
     if (tracker_->is_quiet(candidate, query.centre, query.touch_reach)) continue;
     query.candidate = candidate;
     query.list_reach = list_reach_[i];
+    query.squared_travel =
+        2.0 * (step.dt * step.dt * particles.velocity(i).squaredNorm() + wall_travel_ * wall_travel_);
     ++count;
   }
   return count;
@@ -149,6 +151,7 @@ inline void ContactLoop::find_contacts(const ParticleView& particles, const Step
       const bool is_known = tracked.slot >= 0 && slots.slot(tracked.slot).foot().patch == foot.patch;
       delta = wall_.leave(foot, delta, is_known ? slots.slot(tracked.slot).side() : 0, radius,
                           particles.centre(i), particles.velocity(i));
+      tracked.side = 0;
     }
     Vector3 v_wall;
     if (touches || may_cross(particles, step, i, foot.distance)) {
@@ -198,7 +201,7 @@ inline int ContactLoop::take_slot(const ParticleView& particles, const StepInfo&
   if (same_patch && slot.side() != 0 && tracked.foot.distance >= kDeep * particles.radius[i])
     slot.set_parameters(tracked.foot.at());
   else
-    slot.set_foot(tracked.foot.at(), wall_.side_of(tracked.foot, delta));
+    slot.set_foot(tracked.foot.at(), tracked.side != 0 ? tracked.side : wall_.side_of(tracked.foot, delta));
   return place;
 }
 

@@ -18,6 +18,12 @@ constexpr double kMargin = 0.2, kNear = 1.1;
 constexpr int kCalm = 8;  // looks at the same pieces, after which it may do with fewer
 constexpr double kNoWay = std::numeric_limits<double>::infinity();
 
+// What just touches does.
+double beyond(const FeetTracker::Query& query) {
+  constexpr double kRoundOff = std::numeric_limits<double>::epsilon();
+  return query.touch_reach * (1.0 + kRoundOff);
+}
+
 }  // namespace
 
 void FaceTracker::list_is_new() {
@@ -40,21 +46,34 @@ void FaceTracker::follow(const Query* queries, int count) {
 FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
   NURBS_ASSERT(states_.size() == candidates_.candidates().size(), states_.size());
   State& state = states_[query.candidate];
+  if (query.squared_travel > query.touch_reach * query.touch_reach) return feet_of_fast(query, slots);
   const double moved2 = (query.centre - state.centre).squaredNorm(), margin = state.reach - query.touch_reach;
-  if (margin < 0.0 || moved2 > margin * margin) {
+  const bool is_near = margin >= 0.0 && moved2 <= margin * margin;
+  if (is_near && find_steady(query, state, slots)) return {&steady_, 1};
+  if (!is_near) {
     const double distance = nearest(query, query.list_reach, Of::list);
     if (distance > kNear * query.touch_reach) return none(query, slots, distance);
     choose_pieces(query, Of::list, kMargin * query.touch_reach);
   } else if (++state.looks == kCalm) {
     choose_fewer_pieces(query);
   }
-  find(query);
+  find(query, beyond(query));
   if (found_.empty()) {
     const double known = state.reach - (query.centre - state.centre).norm();
     return none(query, slots, nearest(query, known, Of::chosen));
   }
   match_slots(query, slots);
   keep_clearance(query, 0.0);
+  return {feet_.data(), static_cast<int>(feet_.size())};
+}
+
+// It may be across in the next step without having touched.
+FeetRange FaceTracker::feet_of_fast(const Query& query, const ParticleSlots& slots) {
+  choose_pieces(query, Of::list, query.list_reach - query.touch_reach);
+  find(query, query.list_reach);
+  if (found_.empty()) return none(query, slots, query.list_reach);
+  match_slots(query, slots);
+  keep_clearance(query, found_[0].distance);
   return {feet_.data(), static_cast<int>(feet_.size())};
 }
 
@@ -107,14 +126,33 @@ void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
   for_each_image(query, of, [&](const Vector3& d, const int* pieces, int number, const Vector3&) {
     *count++ = search_.activate(d, state.reach, pieces, number, pieces_.data() + (image++)->first);
   });
+  state.alone = -1;
+  const int* const first = pieces_.data() + candidates_.image_elements(candidate)->first;
+  if (candidate.image_count == 1 && piece_counts_[candidate.first_image] == 1 &&
+      candidates_.images()[candidates_.image_elements(candidate)->image].isZero(0.0) &&
+      search_.is_well_inside(*first, query.centre, state.reach, margin))
+    state.alone = *first;
 }
 
-void FaceTracker::find(const Query& query) {
+// Of a candidate that had this contact alone in the step before.
+inline bool FaceTracker::find_steady(const Query& query, State& state, const ParticleSlots& slots) {
+  if (state.alone < 0 || state.sheet < 0 || slots.used() != 1) return false;
+  search::Foot& foot = steady_.foot;
+  const int side = search_.foot_inside(state.alone, query.centre, beyond(query), charts_, foot);
+  if (side == 0 || search_.surface().sheet(foot.patch, side) != state.sheet) return false;
+  state.last = foot.point;
+  steady_.slot = 0;
+  steady_.side = of_patch(foot.patch, side);
+  counts_.add_direct(foot);
+  return true;
+}
+
+void FaceTracker::find(const Query& query, double reach) {
   found_.clear();
   for_each_image(query, Of::chosen,
                  [&](const Vector3& d, const int* pieces, int count, const Vector3& image) {
                    const std::size_t first = found_.size();
-                   search_.feet(d, query.touch_reach, pieces, count, found_);
+                   search_.feet(d, reach, pieces, count, found_);
                    brep::Foot* const end = found_.data() + found_.size();
                    for (brep::Foot* foot = found_.data() + first; foot != end; ++foot) {
                      foot->image = image;
@@ -160,14 +198,22 @@ double FaceTracker::squared_way(const Query& query, const Vector3& last, const V
 double FaceTracker::squared_way(const Query& query, const ContactSlot& slot, const brep::Foot& foot) const {
   const nurbs::SurfacePoint last = slot.foot();
   const brep::Surface& surface = search_.surface();
-  if (surface.sheet(last.patch, slot.side()) != foot.sheet) return kNoWay;
-  const double way2 = squared_way(query, surface.faces[last.patch].point(last.xi), foot.point);
-  return way2 <= query.touch_reach * query.touch_reach ? way2 : kNoWay;
+  if (surface.sheet(last.patch, of_patch(last.patch, slot.side())) != foot.sheet) return kNoWay;
+  const brep::Parameter<2> xi = charts_ ? (*charts_)[last.patch].to_face(last.xi) : last.xi;
+  const double way2 = squared_way(query, surface.faces[last.patch].point(xi), foot.point);
+  // On one face a particle may have been displaced, however far.
+  return last.patch == foot.patch || way2 <= query.touch_reach * query.touch_reach ? way2 : kNoWay;
+}
+
+TrackedFoot FaceTracker::tracked(const brep::Foot& foot) const {
+  TrackedFoot tracked{foot, -1, of_patch(foot.patch, foot.side)};
+  if (charts_) tracked.foot.xi = (*charts_)[foot.patch].to_patch(foot.xi);
+  return tracked;
 }
 
 void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
   feet_.clear();
-  for (const search::Foot& foot : found_) feet_.push_back({foot, -1});
+  for (const brep::Foot& foot : found_) feet_.push_back(tracked(foot));
   if (is_last_foot(query, slots))
     feet_[0].slot = 0;
   else if (slots.used() > 0)

@@ -4,12 +4,13 @@
 // A foot costs little here, so none is followed: all are found anew in each step that may have one.  Near
 // the wall a candidate looks only at the pieces that it can reach before it has moved by a small part of its
 // radius, the smaller the slower it is; farther away it looks for the nearest piece alone, and then rests
-// until it can be there.  A branch is a foot of one sheet (brep/README.md), wherever it moves on it, over
-// edges and vertices too.
+// until it can be there.  Most that touch have one contact, inside one piece: then nobody looks at others.  A
+// branch is a foot of one sheet (brep/README.md), wherever it moves on it, over edges and vertices too.
 #pragma once
 
 #include <vector>
 
+#include "brep/chart.h"
 #include "brep/foot_search.h"
 #include "coupling/contact/feet_tracker.h"
 #include "coupling/contact/search_counts.h"
@@ -18,9 +19,10 @@ namespace contact {
 
 class FaceTracker final : public FeetTracker {
  public:
-  /// Keeps references to all.
-  FaceTracker(const brep::FootSearch& search, const CandidateList& candidates, SearchCounts& counts)
-      : FeetTracker(candidates), search_(search), counts_(counts) {}
+  /// Keeps references to all.  `charts`: to the parameters that feet are given in; null: the faces' own.
+  FaceTracker(const brep::FootSearch& search, const std::vector<brep::Chart>* charts,
+              const CandidateList& candidates, SearchCounts& counts)
+      : FeetTracker(candidates), search_(search), charts_(charts), counts_(counts) {}
 
   void list_is_new() override;
   void follow(const Query* queries, int count) override;
@@ -33,6 +35,7 @@ class FaceTracker final : public FeetTracker {
     nurbs::Vector3 last = nurbs::Vector3::Zero();    // its foot in the last step, if it had one alone
     int sheet = -1;                                  // of that; -1: none, or its list is new
     int looks = 0;                                   // at these pieces
+    int alone = -1;  // of these the only one, which the candidate is well inside of
   };
   enum class Of { list, chosen };
   template <class Function>
@@ -40,22 +43,30 @@ class FaceTracker final : public FeetTracker {
   double nearest(const Query& query, double reach, Of of) const;
   void choose_fewer_pieces(const Query& query);
   void choose_pieces(const Query& query, Of of, double margin);
-  void find(const Query& query);
+  bool find_steady(const Query& query, State& state, const ParticleSlots& slots);
+  FeetRange feet_of_fast(const Query& query, const ParticleSlots& slots);
+  void find(const Query& query, double reach);
   void keep_one_at_seams();
   double squared_way(const Query& query, const nurbs::Vector3& last, const nurbs::Vector3& now) const;
   double squared_way(const Query& query, const ContactSlot& slot, const brep::Foot& foot) const;
   void match_slots(const Query& query, const ParticleSlots& slots);
   bool is_last_foot(const Query& query, const ParticleSlots& slots) const;
   void match_nearest(const Query& query, const ParticleSlots& slots);
+  TrackedFoot tracked(const brep::Foot& foot) const;
   FeetRange none(const Query& query, const ParticleSlots& slots, double clearance);
 
+  // A side of the face as one of the patch, and back.
+  int of_patch(int face, int side) const { return charts_ ? (*charts_)[face].side * side : side; }
+
   const brep::FootSearch& search_;
+  const std::vector<brep::Chart>* charts_;
   SearchCounts& counts_;
   std::vector<State> states_;      // per candidate
   std::vector<int> pieces_;        // those chosen, of each image at the beginning of its range of elements
   std::vector<int> piece_counts_;  // of these, per image of each candidate
   std::vector<brep::Foot> found_;  // of one candidate, in this step; so are the next two
   std::vector<TrackedFoot> feet_;
+  TrackedFoot steady_{{{}, {}, 0.0, search::FootStatus::interior, 0}, 0};
   struct Pair {
     double way2;
     int slot, foot;

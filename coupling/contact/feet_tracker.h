@@ -16,7 +16,8 @@ namespace contact {
 
 struct TrackedFoot {
   search::Foot foot;
-  int slot;  ///< of the particle's memory; -1: none yet
+  int slot;      ///< of the particle's memory; -1: none yet
+  int side = 0;  ///< of the surface that the centre is on, as ContactSlot::side(); 0: nobody has looked
 };
 struct FeetRange {
   TrackedFoot* first;
@@ -38,10 +39,11 @@ class FeetTracker {
 
   /// A candidate of this step: where it is, and how far its contacts and its list reach [length].
   struct Query {
-    int candidate;          ///< its number in the list
-    nurbs::Vector3 centre;  ///< in the wall's frame
-    double touch_reach;     ///< feet nearer than this may touch
-    double list_reach;      ///< feet nearer than this may do so before the next rebuild
+    int candidate;                ///< its number in the list
+    nurbs::Vector3 centre;        ///< in the wall's frame
+    double touch_reach;           ///< feet nearer than this may touch
+    double list_reach;            ///< feet nearer than this may do so before the next rebuild
+    double squared_travel = 0.0;  ///< how far it and the wall move in a step, at most, squared [length^2]
   };
   /// Whether nothing within `touch_reach` can touch a candidate: too little has moved or grown since its feet
   /// were found last.

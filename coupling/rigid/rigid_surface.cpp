@@ -11,8 +11,11 @@
 
 namespace coupling {
 
-RigidSurface::RigidSurface(const std::vector<nurbs::Surface>& patches, std::vector<int> outward_sign)
-    : RigidSurface(nurbs::join(patches), std::move(outward_sign)) {}
+RigidSurface::RigidSurface(const std::vector<nurbs::Surface>& patches, std::vector<int> outward_sign,
+                           std::shared_ptr<const brep::ClosedForms> closed_forms)
+    : RigidSurface(nurbs::join(patches), std::move(outward_sign)) {
+  surface_.closed_forms = std::move(closed_forms);
+}
 
 RigidSurface::RigidSurface(nurbs::PatchedSurface surface, std::vector<int> outward_sign)
     : surface_{std::move(surface.topology), SurfaceMap::identity(surface.control_points.cols()),

@@ -141,6 +141,40 @@ Projection Face::project(const Vector3& d) const {
           at.rho <= nothing || from <= kOnAxis * tube};
 }
 
+PolarFoot Face::polar_foot(const Vector3& d) const {
+  const Cylindrical at(frame, d);
+  PolarFoot foot;
+  foot.many = at.rho <= kOnAxis * (kind == Kind::cone ? std::abs(at.z) : R);
+  if (foot.many) return foot;
+  const double inverse = 1.0 / at.rho;
+  foot.cos[0] = inverse * at.x, foot.sin[0] = inverse * at.y;
+  const Vector3 e = foot.cos[0] * frame.x + foot.sin[0] * frame.y;
+  if (kind == Kind::cylinder) {
+    foot.length = at.z;
+    foot.point = frame.origin + R * e + at.z * frame.z;
+    foot.normal = e;
+    foot.height = at.rho - R;
+    return foot;
+  }
+  if (kind == Kind::cone) {
+    const double cos = std::cos(r), sin = std::sin(r);
+    foot.length = at.z * cos + at.rho * sin;
+    foot.point = frame.origin + foot.length * (cos * frame.z + sin * e);
+    foot.normal = cos * e - sin * frame.z;
+    foot.height = at.rho * cos - at.z * sin;
+    return foot;
+  }
+  const double tube = kind == Kind::torus ? r : R, ring = kind == Kind::torus ? R : 0.0;
+  const double off = at.rho - ring, from = std::sqrt(off * off + at.z * at.z);
+  foot.many = from <= kOnAxis * tube;
+  if (foot.many) return foot;
+  foot.cos[1] = off / from, foot.sin[1] = at.z / from;
+  foot.normal = foot.cos[1] * e + foot.sin[1] * frame.z;
+  foot.point = frame.origin + ring * e + tube * foot.normal;
+  foot.height = from - tube;
+  return foot;
+}
+
 double Face::distance_of_whole(const Vector3& d) const {
   if (kind == Kind::plane) return std::abs((d - frame.origin).dot(frame.z));
   const Cylindrical at(frame, d);

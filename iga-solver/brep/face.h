@@ -38,6 +38,15 @@ struct Projection {
   bool many;       ///< points round an axis or a centre are as near
 };
 
+/// The same with cosines and sines in place of angles, which take longer than all the rest; not of planes.
+struct PolarFoot {
+  Vector3 point, normal;
+  double height;          ///< as in Projection
+  double cos[2], sin[2];  ///< of xi where that is an angle
+  double length;          ///< xi1 of cylinder and cone [length]
+  bool many;              ///< as in Projection; then nothing else is set
+};
+
 struct Face {
   Frame frame;
   double R = 0.0;  ///< radius of cylinder, sphere and of the torus' circle [length]
@@ -52,6 +61,7 @@ struct Face {
   Parameter<2> curvatures(const Parameter<2>& xi) const;
   /// On the axis, in the centre, on the circle of a torus: in the middle of the range.
   Projection project(const Vector3& d) const;
+  PolarFoot polar_foot(const Vector3& d) const;
   /// |project(d).height| alone, or less.
   double distance_of_whole(const Vector3& d) const;
   /// Whether the range of an angle is a whole turn, to 1e-9.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "brep/edge_foot.h"
 #include "brep/minima.h"
 #include "brep/piece_distance.h"
 #include "nurbs/processor.h"
@@ -65,6 +66,35 @@ void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int cou
     }
   }
   minima.finish(neighbours_);
+}
+
+bool FootSearch::is_well_inside(int number, const Vector3& d, double reach, double margin) const {
+  const Piece& piece = surface_.pieces[number];
+  if (piece.triangle()) {
+    const double inside = triangles_[number].inside(d), height = triangles_[number].over(d).height;
+    return inside >= margin && inside * inside + height * height > reach * reach;
+  }
+  const Borders& borders = surface_.borders[piece.edge[0]];
+  for (int i = 0; i < 4; ++i) {
+    if (borders.use[i] >= 0 &&
+        EdgeFoot(surface_.edges[surface_.uses[borders.use[i]].edge], d).distance2() <= reach * reach)
+      return false;
+    if (borders.vertex[i] >= 0 &&
+        (surface_.vertices[borders.vertex[i]].point - d).squaredNorm() <= reach * reach)
+      return false;
+  }
+  return true;
+}
+
+int FootSearch::foot_inside_curved(int piece, const Vector3& d, double reach,
+                                   const std::vector<Chart>* charts, search::Foot& foot) const {
+  foot.patch = surface_.pieces[piece].face;
+  if (!charts) return 0;
+  const PolarFoot at = surface_.faces[foot.patch].polar_foot(d);
+  if (at.many || !(std::abs(at.height) < reach) || !(*charts)[foot.patch].place(at, foot.xi)) return 0;
+  foot.point = at.point;
+  foot.distance = std::abs(at.height);
+  return at.height < 0.0 ? -1 : 1;
 }
 
 }  // namespace brep

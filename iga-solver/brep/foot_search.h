@@ -3,8 +3,10 @@
 // every sheet (README.md).
 #pragma once
 
+#include <cmath>
 #include <vector>
 
+#include "brep/chart.h"
 #include "brep/foot.h"
 #include "brep/piece_tree.h"
 #include "brep/plane_triangles.h"
@@ -35,10 +37,32 @@ class FootSearch {
   /// Appends the feet of d nearer than `reach`, given all pieces that are (more do no harm).
   void feet(const Vector3& d, double reach, const int* pieces, int count, std::vector<Foot>& out) const;
 
+  /// Whether d is over this piece so far from its borders that they are not within `reach`, and it stays over
+  /// it while it moves by less than `margin`.  If no other piece is within reach either, d has one foot at
+  /// most, as long as it moves by less than that.
+  bool is_well_inside(int piece, const Vector3& d, double reach, double margin) const;
+  /// That foot, if it is nearer than `reach`: sets its parameters (of the patch if there is a chart), point,
+  /// distance and patch.  The result is the side of the face that looks to d; 0: there is none for certain,
+  /// ask feet().
+  int foot_inside(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
+                  search::Foot& foot) const {
+    const PlaneTriangle& triangle = triangles_[piece];
+    if (!triangle.exists()) return foot_inside_curved(piece, d, reach, charts, foot);
+    const OverTriangle at = triangle.over(d);
+    foot.patch = triangle.face();
+    foot.xi = charts ? (*charts)[foot.patch].to_patch(at.xi) : at.xi;
+    foot.point = d - at.height * at.normal;
+    foot.distance = std::abs(at.height);
+    return foot.distance < reach ? (at.height < 0.0 ? -1 : 1) : 0;
+  }
+
   /// Distance below which two points of a wall are the same [length].
   double same_point() const { return same_point_; }
 
  private:
+  int foot_inside_curved(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
+                         search::Foot& foot) const;
+
   static constexpr size_t kInCache = 500;  // pieces
 
   const Surface& surface_;

@@ -29,6 +29,14 @@ class alignas(64) PlaneTriangle {
   bool exists() const { return face_ >= 0; }
   int face() const { return face_; }
 
+  /// `place` where that is over the triangle for certain.
+  OverTriangle over(const Vector3& d) const {
+    const Vector3 from = d - origin_, normal = x_.cross(y_);
+    return {OverTriangle::Where::over, normal, normal.dot(from), {x_.dot(from), y_.dot(from)}};
+  }
+  /// Least distance of a point's foot on the plane from a side, negative beyond one [length].
+  double inside(const Vector3& d) const;
+
   /// Too far is what is not nearer than `reach` for certain; over it is what is not farther than `slack`
   /// beyond a side [length].
   OverTriangle place(const Vector3& d, double reach, double slack) const;
@@ -42,9 +50,8 @@ class alignas(64) PlaneTriangle {
 
 inline OverTriangle PlaneTriangle::place(const Vector3& d, double reach, double slack) const {
   using Where = OverTriangle::Where;
-  const Vector3 from = d - origin_, normal = x_.cross(y_);
-  const double height = normal.dot(from), u = x_.dot(from), v = y_.dot(from);
-  OverTriangle at{Where::over, normal, height, {u, v}};
+  OverTriangle at = over(d);
+  const double height = at.height, u = at.xi[0], v = at.xi[1];
   const double far = reach + static_cast<double>(leeway_), left = far * far - height * height;
   if (std::abs(height) >= reach) at.where = Where::too_far;
   for (int i = 0; i < 3 && at.where != Where::too_far; ++i) {

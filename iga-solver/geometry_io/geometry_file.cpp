@@ -52,6 +52,8 @@ GeometryFile read_several(const YamlMap& geometry, Units units, const OpenGeomet
       else if (!all.surfaces.emplace(name, pieces).second)
         map.fail("file", fmt::format("surface '{}' is named by two files, expected one", name));
     }
+    for (const int patch : part.from_words)
+      all.from_words.insert(patch + static_cast<int>(all.patches.size()));
     all.patches.insert(all.patches.end(), part.patches.begin(), part.patches.end());
   }
   if (all.patches.empty()) geometry.fail("shapes", "shapes is empty, expected one shape at least");
@@ -67,6 +69,7 @@ GeometryFile read_changed(const YamlMap& map, Units units, const OpenGeometry& o
   GeometryFile geometry = map.has("file")     ? open_other_file(map, units, open)
                           : map.has("shapes") ? read_several(map, units, open)
                                               : GeometryFile{units, read_shapes(map), {}};
+  if (!map.has("file") && !map.has("shapes") && !map.has("patches")) geometry.from_words = {0};
   change_shapes(map, geometry.patches);
   return geometry;
 }
@@ -143,6 +146,7 @@ std::vector<OrientedSurface> named_surface(const GeometryFile& geometry, const s
           "LIGGGHTS' own, 'fix mesh/surface' with 'fix wall/gran ... mesh'",
           file, name));
     patches.push_back(extract(piece, geometry.patches));
+    patches.back().from_words = geometry.from_words.count(piece.patch) > 0;
   }
   return patches;
 }

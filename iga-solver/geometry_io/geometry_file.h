@@ -40,6 +40,7 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,7 @@ struct GeometryFile {
   Units units;
   std::vector<Shape> patches;
   std::map<std::string, std::vector<SurfacePiece>> surfaces;
+  std::set<int> from_words{};  ///< patches that a word such as `cylinder` gives, not control points
 };
 
 /// Reads the geometry file that another one names.  `units` are those of the file that names it: units for

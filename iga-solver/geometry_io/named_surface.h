@@ -55,6 +55,7 @@ std::vector<std::string> surface_words(const std::vector<SurfacePiece>& pieces,
 struct OrientedSurface {
   nurbs::Surface surface;
   int outward_sign;
+  bool from_words = false;  ///< as in GeometryFile
 };
 /// Of NURBS; throws std::bad_variant_access of triangles.
 OrientedSurface extract(const SurfacePiece& piece, const std::vector<Shape>& patches);

@@ -178,22 +178,26 @@ class FreeParticles(unittest.TestCase):
             self.assertGreater(touched, 5)
 
 
+TRIANGLE = "solid\nfacet normal 0 0 1\nouter loop\nvertex -1 -1 0\nvertex 2 -1 0\nvertex -1 2 0\nendloop\nendfacet\nendsolid\n"
+
+
 class Alarm(unittest.TestCase):
     """Whoever is fast: a centre that the wall would cross within a step is reported."""
 
     ALARM = r"the centre of particle 1 would cross the wall within one step, at a speed of ([\d.e+]+) "
 
-    def warned(self, gap: float, ball: float, wall: float) -> str:
+    def warned(self, gap: float, ball: float, wall: float, geometry: str = "wall.yaml surface wall") -> str:
         text = deck(
-            create((0.0003, 0.0004, R + gap)), f"geometry wall.yaml surface wall motion linear 0 0 {wall!r}", steps=3,
+            create((0.0003, 0.0004, R + gap)), f"geometry {geometry} motion linear 0 0 {wall!r}", steps=3,
             before=f"set atom 1 vz {ball!r}", after=INTEGRATION,
         ).replace("lost error", "lost ignore")
-        found = re.search(self.ALARM, decks.good(text, files={"wall.yaml": PLANE}).text)
+        found = re.search(self.ALARM, decks.good(text, files={"wall.yaml": PLANE, "wall.stl": TRIANGLE}).text)
         return found.group(1) if found else ""
 
     def test_a_fast_particle(self):
         self.assertEqual(self.warned(gap=20 * SKIN, ball=-60 * SKIN / DT, wall=1e-9), "2400")
         self.assertEqual(self.warned(gap=20 * SKIN, ball=-1 * SKIN / DT, wall=1e-9), "")
+        self.assertEqual(self.warned(20 * SKIN, -60 * SKIN / DT, 1e-9, "wall.stl surface all"), "2400")
 
     def test_a_fast_wall(self):
         self.assertEqual(self.warned(gap=20 * SKIN, ball=0.0, wall=60 * SKIN / DT), "2400")
