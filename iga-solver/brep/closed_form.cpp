@@ -10,9 +10,9 @@
 namespace brep {
 namespace {
 
-constexpr double kSame = 1e-13;   // of the size: round-off of some operations
+constexpr double kAgreement = 1e-13;   // of the size: round-off of some operations
 constexpr int kMostSamples = 33;  // of the points of a patch that are compared, along each direction
-constexpr double kQuarter = 0.25 * nurbs::kTwoPi, kAngleRoundOff = 1e-9;
+constexpr double kQuarterTurn = 0.25 * nurbs::kTwoPi, kAngleRoundOff = 1e-9;
 
 // Parts of a turn from the start that are seen one after the other by less than half a turn.
 constexpr int kLooks = 16;
@@ -46,7 +46,7 @@ std::optional<Turn> turn_of(const std::vector<Vector3>& points) {
   return turn;
 }
 
-int arcs_of(double angle) { return static_cast<int>(std::ceil(angle / kQuarter - kAngleRoundOff)); }
+int arcs_of(double angle) { return static_cast<int>(std::ceil(angle / kQuarterTurn - kAngleRoundOff)); }
 
 double whole_if_nearly(double angle) {
   return std::abs(angle - nurbs::kTwoPi) <= kAngleRoundOff ? nurbs::kTwoPi : angle;
@@ -126,7 +126,7 @@ class Recognition {
     if (std::abs(along) <= 1e-9 * length) return std::nullopt;  // a flat ring
     Face face;
     double azimuth[2] = {0.0, angle}, second[2] = {start[1], end[1]};
-    if (std::abs(rise) <= kSame * size_) {
+    if (std::abs(rise) <= kAgreement * size_) {
       face.kind = Kind::cylinder;
       face.R = 0.5 * (start[0] + end[0]);
       if (face.R <= 0.0) return std::nullopt;
@@ -160,7 +160,7 @@ class Recognition {
     Face face;
     frame.origin += turn.centre[2] * frame.z;
     face.frame = frame;
-    face.kind = std::abs(ring) <= kSame * size_ ? Kind::sphere : Kind::torus;
+    face.kind = std::abs(ring) <= kAgreement * size_ ? Kind::sphere : Kind::torus;
     (face.kind == Kind::sphere ? face.R : face.r) = turn.radius;
     if (face.kind == Kind::torus) face.R = ring;
     if (face.kind == Kind::torus && !(ring > turn.radius)) return std::nullopt;
@@ -180,7 +180,7 @@ class Recognition {
         const nurbs::Parameter<2> xi = {first_[0] + (last_[0] - first_[0]) * i / (samples[0] - 1),
                                         first_[1] + (last_[1] - first_[1]) * j / (samples[1] - 1)};
         const Vector3 on_patch = nurbs::interpolate(patch_.space, patch_.control_points, xi);
-        if (!((on_patch - form.face.point(form.chart.to_face(xi))).norm() <= kSame * scale())) return false;
+        if (!((on_patch - form.face.point(form.chart.to_face(xi))).norm() <= kAgreement * scale())) return false;
       }
     return true;
   }

@@ -17,7 +17,7 @@
 namespace brep {
 namespace {
 
-constexpr double kSame = 1e-9;  // of the size
+constexpr double kSameBorder = 1e-9;  // of the size
 
 const char* name(Kind kind) {
   constexpr const char* names[] = {"plane", "cylinder", "cone", "sphere", "torus"};
@@ -60,7 +60,7 @@ class FromFaces {
 
   Surface surface(double edge_angle) {
     surface_.edge_angle = edge_angle;
-    PointHash points(kSame * surface_.size);
+    PointHash points(kSameBorder * surface_.size);
     for (size_t f = 0; f < surface_.faces.size(); ++f) {
       surface_.faces[f].first_piece = static_cast<int>(surface_.pieces.size());
       if (surface_.faces[f].kind == Kind::plane)
@@ -90,7 +90,7 @@ class FromFaces {
       surface_.high = surface_.high.cwiseMax(box.high);
     }
     surface_.size = (surface_.high - surface_.low).norm();
-    surface_.slack = 2.0 * kSame * surface_.size;
+    surface_.slack = 2.0 * kSameBorder * surface_.size;
   }
 
   // Two triangles.
@@ -122,7 +122,7 @@ class FromFaces {
   // Sides with the same ends, the same middle and of one kind; closed ones with the same centre, radius and
   // axis.
   MatchedSides match() {
-    PointHash middles(kSame * surface_.size), radii(kSame * surface_.size), axes(1e-7);
+    PointHash middles(kSameBorder * surface_.size), radii(kSameBorder * surface_.size), axes(1e-7);
     std::map<std::tuple<int, int, int, int, int>, std::vector<int>> found;
     const int pieces = static_cast<int>(surface_.pieces.size());
     for (int p = 0; p < pieces; ++p)
