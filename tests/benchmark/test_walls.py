@@ -72,7 +72,7 @@ class Decks(unittest.TestCase):
         aims = {pair.case: pair.aim for pair in walls.PAIRS}
         moving = [aims[f"{n} triangles, moving"] for n in (12, 92, 1616, 30752, 123008)]
         self.assertEqual(moving, [0.8, 0.8, 0.8, 0.15, 0.15])
-        self.assertEqual({aims[case] for case in ("plane, NURBS", "plane, 2 triangles", "cylinder, NURBS")}, {1.5})
+        self.assertEqual({aims[case] for case in ("plane, by words", "plane, 2 triangles", "cylinder, by words")}, {1.5})
 
 
 if __name__ == "__main__":
