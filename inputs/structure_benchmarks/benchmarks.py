@@ -20,6 +20,7 @@ import plates  # noqa: E402
 from solve import Benchmark, SolverError, iga_solve  # noqa: E402
 from study.run.summary import Row  # noqa: E402
 
+PROGRAM = "iga-solve"
 BENCHMARKS = [
     benchmark
     for module in (plane, plates, beams, large_strain, bars, motion)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Folders of inputs/ whose runs are model files alone: benchmarks.py has BENCHMARKS, and run(benchmark, iga_solve) -> rows."""
+"""Folders of inputs/ whose benchmarks start their program themselves: benchmarks.py has PROGRAM, its name, BENCHMARKS, and
+run(benchmark, program) -> rows."""
 
 from __future__ import annotations
 
@@ -7,13 +8,14 @@ import importlib.util
 import sys
 from fnmatch import fnmatchcase
 from pathlib import Path
+from types import ModuleType
 from typing import Sequence
 
 from study.run.summary import Row, table, write_json
 from study.run.usage import one_of
 
 
-def load(folder: Path):
+def load(folder: Path) -> ModuleType:
     spec = importlib.util.spec_from_file_location(folder.name, folder / "benchmarks.py")
     module = importlib.util.module_from_spec(spec)
     sys.modules[folder.name] = module
@@ -21,9 +23,8 @@ def load(folder: Path):
     return module
 
 
-def run_all(folder: Path, wanted: Sequence[str], solver: Path, out: Path) -> bool:
+def run_all(module: ModuleType, wanted: Sequence[str], solver: Path, out: Path) -> bool:
     """Runs those that are wanted, all without any; prints them, and writes summary.json.  Whether all pass."""
-    module = load(folder)
     names = [benchmark.name for benchmark in module.BENCHMARKS]
     for pattern in wanted:
         if not any(fnmatchcase(name, pattern) for name in names):
@@ -38,6 +39,6 @@ def run_all(folder: Path, wanted: Sequence[str], solver: Path, out: Path) -> boo
             print(table([row]).splitlines()[1], flush=True)
             if row.note:
                 print(f"  {row.note}", flush=True)
-    write_json(out / "summary.json", folder.name, rows)
+        write_json(out / "summary.json", module.__name__, rows)
     print("\n" + table(rows))
     return not any(row.passes is False for row in rows)

@@ -19,7 +19,7 @@ from study.run.usage import UsageError, one_of
 INPUTS = Path(__file__).resolve().parents[2]
 ROOT = INPUTS.parent
 SOLVER = ROOT / "build/release/liggghts-pkg/liggghts-nurbs"
-IGA_SOLVE = ROOT / "build/release/iga-solver/app/iga-solve"
+PROGRAMS = {"liggghts-nurbs": SOLVER, "iga-solve": ROOT / "build/release/iga-solver/app/iga-solve"}
 
 EXIT_PASS, EXIT_FAIL, EXIT_USAGE, EXIT_INTERRUPTED = 0, 1, 2, 130
 
@@ -154,13 +154,14 @@ def dispatch(args: argparse.Namespace) -> int:
 def run_benchmarks(args: argparse.Namespace, folder: Path) -> int:
     from study.run.benchmarks import load, run_all
 
+    module = load(folder)
     if args.list:
-        print("\n".join(dict.fromkeys(benchmark.name for benchmark in load(folder).BENCHMARKS)))
+        print("\n".join(dict.fromkeys(benchmark.name for benchmark in module.BENCHMARKS)))
         return EXIT_PASS
     if not args.solver:
-        set_up("iga-solve")
+        set_up(module.PROGRAM)
     out = args.out or ROOT / "out" / args.deck
-    return EXIT_PASS if run_all(folder, args.case, args.solver or IGA_SOLVE, out) else EXIT_FAIL
+    return EXIT_PASS if run_all(module, args.case, args.solver or PROGRAMS[module.PROGRAM], out) else EXIT_FAIL
 
 
 if __name__ == "__main__":
