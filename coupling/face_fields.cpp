@@ -12,6 +12,17 @@
 namespace coupling {
 namespace {
 
+// Whether the point is off all sides of the triangle, over it.
+bool is_inside(const brep::Surface& surface, const brep::Piece& piece, const Vector3& point,
+               const Vector3& normal) {
+  for (int i = 0; i < 3; ++i) {
+    const Vector3& from = surface.vertices[piece.vertex[i]].point;
+    const Vector3 way = surface.vertices[piece.vertex[(i + 1) % 3]].point - from;
+    if (!(normal.cross(way).dot(point - from) > 0.0)) return false;
+  }
+  return true;
+}
+
 // Of the point from the nearest side of the triangle, in the plane with this normal; negative outside.
 double depth_in(const brep::Surface& surface, const brep::Piece& piece, const Vector3& point,
                 const Vector3& normal) {
@@ -42,8 +53,16 @@ int FaceFields::piece_at(const nurbs::SurfacePoint& foot) {
   const brep::Face& face = surface_->faces[foot.patch];
   const Vector3 point = face.point(foot.xi);
   constexpr double kUneven = 1e-5;  // of the size: triangles are in their face's plane to 1e-6 of it
+  constexpr int kFew = 8;           // triangles of a face, which all are looked at
   near_.clear();
-  tree_.near(tree_.query(point, kUneven * surface_->size), near_);
+  if (face.piece_count > kFew)
+    tree_.near(tree_.query(point, kUneven * surface_->size), near_);
+  else
+    for (int k = 0; k < face.piece_count; ++k) near_.push_back(face.first_piece + k);
+  for (const int piece : near_)
+    if (surface_->pieces[piece].face == foot.patch &&
+        is_inside(*surface_, surface_->pieces[piece], point, face.frame.z))
+      return piece;
   int found = -1;
   double deepest = -std::numeric_limits<double>::infinity();
   for (const int piece : near_) {

@@ -10,8 +10,8 @@
 namespace brep {
 namespace {
 
-constexpr double kAgreement = 1e-13;   // of the size: round-off of some operations
-constexpr int kMostSamples = 33;  // of the points of a patch that are compared, along each direction
+constexpr double kAgreement = 1e-13;  // of the size: round-off of some operations
+constexpr int kMostSamples = 33;      // of the points of a patch that are compared, along each direction
 constexpr double kQuarterTurn = 0.25 * nurbs::kTwoPi, kAngleRoundOff = 1e-9;
 
 // Parts of a turn from the start that are seen one after the other by less than half a turn.
@@ -180,7 +180,8 @@ class Recognition {
         const nurbs::Parameter<2> xi = {first_[0] + (last_[0] - first_[0]) * i / (samples[0] - 1),
                                         first_[1] + (last_[1] - first_[1]) * j / (samples[1] - 1)};
         const Vector3 on_patch = nurbs::interpolate(patch_.space, patch_.control_points, xi);
-        if (!((on_patch - form.face.point(form.chart.to_face(xi))).norm() <= kAgreement * scale())) return false;
+        if (!((on_patch - form.face.point(form.chart.to_face(xi))).norm() <= kAgreement * scale()))
+          return false;
       }
     return true;
   }

@@ -10,7 +10,7 @@
 namespace brep {
 namespace {
 
-constexpr int kLeaf = 4;            // pieces at most
+constexpr int kLeaf = 8;            // pieces at most
 constexpr float kRoundOff = 5e-7f;  // of sums of three products, and of points in units, with room
 constexpr float kRoundOffOfSquares = 4.0f * kRoundOff;
 
@@ -90,10 +90,14 @@ void PieceTree::build(const Boxes& boxes, int first, int count) {
   build(boxes, first + half, count - half);
 }
 
+// As BoxUnits::limit, without roots.
 PieceTree::Query PieceTree::query(const Vector3& d, double reach) const {
-  const search::BoxUnits::Point point = units_.point(d);
-  const float limit = std::sqrt(units_.limit(point, reach)) * (1.0f + kRoundOffOfSquares) + kRoundOff;
-  return {{point.d[0], point.d[1], point.d[2]}, limit};
+  constexpr double kHalfUlp = search::BoxUnits::kHalfUlp;
+  const Vector3 x = units_.in_units(d);
+  const double far = x.cwiseAbs().sum();  // from the centre, at most
+  const double moved = (units_.in_units(reach) + 3.0 * kHalfUlp * far) * (1.0 + 8.0 * kHalfUlp);
+  const float limit = static_cast<float>(moved) * (1.0f + kRoundOffOfSquares) + kRoundOff;
+  return {{static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])}, limit};
 }
 
 void PieceTree::near(const Query& query, std::vector<int>& pieces) const {
@@ -116,8 +120,9 @@ void PieceTree::near(const Query& query, std::vector<int>& pieces) const {
       stack[depth++] = n + 1;
       continue;
     }
-    for (int i = node.first; i < node.first + node.count; ++i)
-      if (may_be_near(query, discs_[order_[i]])) pieces.push_back(order_[i]);
+    const std::size_t before = pieces.size();
+    pieces.resize(before + node.count);
+    pieces.resize(before + filter(query, &order_[node.first], node.count, &pieces[before]));
   }
 }
 

@@ -26,6 +26,8 @@ class BoxUnits {
   double size() const { return size_; }
   Vector3 in_units(const Vector3& x) const { return scale_ * (x - centre_); }
 
+  double in_units(double length) const { return scale_ * length; }
+
   struct Point {
     float d[3];
     double far;  // from the centre
