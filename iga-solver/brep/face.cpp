@@ -18,11 +18,6 @@ struct Cylindrical {
     x = from.dot(frame.x), y = from.dot(frame.y), z = from.dot(frame.z);
     rho = std::sqrt(x * x + y * y);
   }
-  // Of length 1; `fallback` near the axis.
-  Vector3 direction(const Frame& frame, double nothing, double fallback) const {
-    if (rho <= nothing) return std::cos(fallback) * frame.x + std::sin(fallback) * frame.y;
-    return (x / rho) * frame.x + (y / rho) * frame.y;
-  }
 };
 
 // The turn of an angle that is in the range, or nearest to it; and how far it is outside.
@@ -103,51 +98,28 @@ Projection Face::project(const Vector3& d) const {
     const double height = from.dot(frame.z);
     return {{from.dot(frame.x), from.dot(frame.y)}, d - height * frame.z, frame.z, height, 0.0, false};
   }
-  const Cylindrical at(frame, d);
-  const double nothing = kOnAxis * (kind == Kind::cone ? std::abs(at.z) : R);
-  const Vector3 e = at.direction(frame, nothing, middle(0));
-  double angle = at.rho <= nothing ? middle(0) : std::atan2(at.y, at.x);
-  const double turned = into_range(angle, low[0], high[0]);
-  if (kind == Kind::cylinder)
-    return {{angle, at.z},
-            frame.origin + R * e + at.z * frame.z,
-            e,
-            at.rho - R,
-            std::max(R * turned, out_of(at.z, low[1], high[1])),
-            at.rho <= nothing};
-  if (kind == Kind::cone) {
-    const double cos = std::cos(r), sin = std::sin(r);
-    const double length = at.z * cos + at.rho * sin;
-    return {{angle, length},
-            frame.origin + length * (cos * frame.z + sin * e),
-            cos * e - sin * frame.z,
-            at.rho * cos - at.z * sin,
-            std::max(length * sin * turned, out_of(length, low[1], high[1])),
-            at.rho <= nothing};
+  const PolarFoot at = polar_foot(d);
+  Projection foot{
+      {std::atan2(at.sin[0], at.cos[0]), at.length}, at.point, at.normal, at.height, 0.0, at.many};
+  const double turned = into_range(foot.xi[0], low[0], high[0]);
+  if (kind == Kind::cylinder || kind == Kind::cone) {
+    const double radius = kind == Kind::cylinder ? R : at.length * std::sin(r);
+    foot.outside = std::max(radius * turned, out_of(at.length, low[1], high[1]));
+    return foot;
   }
-  const double tube = kind == Kind::torus ? r : R, ring = kind == Kind::torus ? R : 0.0;
-  const double off = at.rho - ring, from = std::sqrt(off * off + at.z * at.z);
-  double second = from <= kOnAxis * tube ? middle(1) : std::atan2(at.z, off);
-  const double second_turned = into_range(second, low[1], high[1]);
-  const Vector3 normal = from <= kOnAxis * tube ? Vector3(std::cos(second) * e + std::sin(second) * frame.z)
-                                                : Vector3((off / from) * e + (at.z / from) * frame.z);
-  const Vector3 point = frame.origin + ring * e + tube * normal;
-  const double radius = ring + tube * (from <= kOnAxis * tube ? std::cos(second) : off / from);
-  return {{angle, second},
-          point,
-          normal,
-          from - tube,
-          std::max(radius * turned, tube * second_turned),
-          at.rho <= nothing || from <= kOnAxis * tube};
+  foot.xi[1] = std::atan2(at.sin[1], at.cos[1]);
+  const double second_turned = into_range(foot.xi[1], low[1], high[1]);
+  foot.outside = std::max((ring() + tube() * at.cos[1]) * turned, tube() * second_turned);
+  return foot;
 }
 
 PolarFoot Face::polar_foot(const Vector3& d) const {
   const Cylindrical at(frame, d);
-  PolarFoot foot;
+  PolarFoot foot{};
   foot.many = at.rho <= kOnAxis * (kind == Kind::cone ? std::abs(at.z) : R);
-  if (foot.many) return foot;
   const double inverse = 1.0 / at.rho;
-  foot.cos[0] = inverse * at.x, foot.sin[0] = inverse * at.y;
+  foot.cos[0] = foot.many ? std::cos(middle(0)) : inverse * at.x;
+  foot.sin[0] = foot.many ? std::sin(middle(0)) : inverse * at.y;
   const Vector3 e = foot.cos[0] * frame.x + foot.sin[0] * frame.y;
   if (kind == Kind::cylinder) {
     foot.length = at.z;
@@ -164,14 +136,14 @@ PolarFoot Face::polar_foot(const Vector3& d) const {
     foot.height = at.rho * cos - at.z * sin;
     return foot;
   }
-  const double tube = kind == Kind::torus ? r : R, ring = kind == Kind::torus ? R : 0.0;
-  const double off = at.rho - ring, from = std::sqrt(off * off + at.z * at.z);
-  foot.many = from <= kOnAxis * tube;
-  if (foot.many) return foot;
-  foot.cos[1] = off / from, foot.sin[1] = at.z / from;
+  const double off = at.rho - ring(), from = std::sqrt(off * off + at.z * at.z);
+  const bool in_centre = from <= kOnAxis * tube();
+  foot.many = foot.many || in_centre;
+  foot.cos[1] = in_centre ? std::cos(middle(1)) : off / from;
+  foot.sin[1] = in_centre ? std::sin(middle(1)) : at.z / from;
   foot.normal = foot.cos[1] * e + foot.sin[1] * frame.z;
-  foot.point = frame.origin + ring * e + tube * foot.normal;
-  foot.height = from - tube;
+  foot.point = frame.origin + ring() * e + tube() * foot.normal;
+  foot.height = from - tube();
   return foot;
 }
 

@@ -38,13 +38,13 @@ struct Projection {
   bool many;       ///< points round an axis or a centre are as near
 };
 
-/// The same with cosines and sines in place of angles, which take longer than all the rest; not of planes.
+/// The same before angles are worked out, which takes longer than all the rest; not of planes.
 struct PolarFoot {
   Vector3 point, normal;
   double height;          ///< as in Projection
   double cos[2], sin[2];  ///< of xi where that is an angle
   double length;          ///< xi1 of cylinder and cone [length]
-  bool many;              ///< as in Projection; then nothing else is set
+  bool many;              ///< as in Projection
 };
 
 struct Face {
@@ -69,6 +69,9 @@ struct Face {
   double middle(int direction) const { return 0.5 * (low[direction] + high[direction]); }
 
  private:
+  // Of spheres and tori.
+  double tube() const { return kind == Kind::torus ? r : R; }
+  double ring() const { return kind == Kind::torus ? R : 0.0; }
   Vector3 radial(double angle) const { return std::cos(angle) * frame.x + std::sin(angle) * frame.y; }
 };
 
