@@ -49,7 +49,7 @@ FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
   if (query.squared_travel > query.touch_reach * query.touch_reach) return feet_of_fast(query, slots);
   const double moved2 = (query.centre - state.centre).squaredNorm(), margin = state.reach - query.touch_reach;
   const bool is_near = margin >= 0.0 && moved2 <= margin * margin;
-  if (is_near && find_steady(query, state, slots)) return {&steady_, 1};
+  if (is_near && find_steady(query, moved2, slots)) return {&steady_, 1};
   if (!is_near) {
     const double distance = nearest(query, query.list_reach, Of::list);
     if (distance > kNear * query.touch_reach) return none(query, slots, distance);
@@ -127,6 +127,7 @@ void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
     *count++ = search_.activate(d, state.reach, pieces, number, pieces_.data() + (image++)->first);
   });
   state.alone = -1;
+  state.squared_margin = margin * margin;
   const int* const first = pieces_.data() + candidates_.image_elements(candidate)->first;
   if (candidate.image_count == 1 && piece_counts_[candidate.first_image] == 1 &&
       candidates_.images()[candidates_.image_elements(candidate)->image].isZero(0.0) &&
@@ -135,8 +136,10 @@ void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
 }
 
 // Of a candidate that had this contact alone in the step before.
-inline bool FaceTracker::find_steady(const Query& query, State& state, const ParticleSlots& slots) {
+inline bool FaceTracker::find_steady(const Query& query, double squared_motion, const ParticleSlots& slots) {
+  State& state = states_[query.candidate];
   if (state.alone < 0 || state.sheet < 0 || slots.used() != 1) return false;
+  if (squared_motion > state.squared_margin) return false;  // it has shrunk since
   search::Foot& foot = steady_.foot;
   const int side = search_.foot_inside(state.alone, query.centre, beyond(query), charts_, foot);
   if (side == 0 || search_.surface().sheet(foot.patch, side) != state.sheet) return false;

@@ -35,7 +35,8 @@ class FaceTracker final : public FeetTracker {
     nurbs::Vector3 last = nurbs::Vector3::Zero();    // its foot in the last step, if it had one alone
     int sheet = -1;                                  // of that; -1: none, or its list is new
     int looks = 0;                                   // at these pieces
-    int alone = -1;  // of these the only one, which the candidate is well inside of
+    int alone = -1;               // of these the only one, which the candidate is well inside of ...
+    double squared_margin = 0.0;  // ... as long as it has not moved by more, squared
   };
   enum class Of { list, chosen };
   template <class Function>
@@ -43,7 +44,7 @@ class FaceTracker final : public FeetTracker {
   double nearest(const Query& query, double reach, Of of) const;
   void choose_fewer_pieces(const Query& query);
   void choose_pieces(const Query& query, Of of, double margin);
-  bool find_steady(const Query& query, State& state, const ParticleSlots& slots);
+  bool find_steady(const Query& query, double squared_motion, const ParticleSlots& slots);
   FeetRange feet_of_fast(const Query& query, const ParticleSlots& slots);
   void find(const Query& query, double reach);
   void keep_one_at_seams();
