@@ -241,7 +241,7 @@ class BadInput(unittest.TestCase):
         self.assertIsNone(crash, result.text[-3000:])
 
     def check_table(self, rows):
-        """Runs every row on 1 and 2 ranks; most of the time is mpirun's start, so several at once."""
+        """Runs every row on 1 and 2 ranks, several at once: most of the time mpirun starts or ends, and cores rest."""
         with ThreadPoolExecutor(4) as pool:
             runs = [
                 (name, ranks, expected, pool.submit(attempt, deck, files, ranks))
