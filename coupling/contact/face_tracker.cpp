@@ -209,7 +209,8 @@ double FaceTracker::squared_way(const Query& query, const ContactSlot& slot, con
 }
 
 TrackedFoot FaceTracker::tracked(const brep::Foot& foot) const {
-  TrackedFoot tracked{foot, -1, of_patch(foot.patch, foot.side)};
+  const search::Foot& on_surface = foot;
+  TrackedFoot tracked{on_surface, -1, of_patch(foot.patch, foot.side)};
   if (charts_) tracked.foot.xi = (*charts_)[foot.patch].to_patch(foot.xi);
   return tracked;
 }
