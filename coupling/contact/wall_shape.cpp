@@ -26,20 +26,20 @@ std::unique_ptr<FeetTracker> PatchShape::track(const CandidateList& candidates, 
   return std::make_unique<ContactTracker>(LocalSearch(method, projector_, counts), candidates, edge_angle_);
 }
 
-Vector3 ShapeOfPatches::normal_at(const Foot& foot) const {
+Vector3 PatchShape::normal_at(const Foot& foot) const {
   return foot.status == search::FootStatus::interior
              ? nurbs::shape_at(surface_, control_points_, foot.at()).normal
              : nurbs::normal_at(surface_, control_points_, foot.at());
 }
 
-SurfaceShape ShapeOfPatches::shape_near(const Foot& foot) const {
+SurfaceShape PatchShape::shape_near(const Foot& foot) const {
   return nurbs::shape_near(surface_.patch(foot.patch),
                            surface_.control_points_of(foot.patch, control_points_), foot.xi);
 }
 
 std::unique_ptr<FeetTracker> ClosedShape::track(const CandidateList& candidates, SearchMethod /*method*/,
                                                 SearchCounts& counts) const {
-  return std::make_unique<FaceTracker>(search_, &forms_.charts, candidates, counts);
+  return std::make_unique<FaceTracker>(search_, &charts_, candidates, counts);
 }
 
 Vector3 ClosedShape::normal_at(const Foot& foot) const {
@@ -48,9 +48,11 @@ Vector3 ClosedShape::normal_at(const Foot& foot) const {
 }
 
 SurfaceShape ClosedShape::shape_near(const Foot& foot) const {
-  if (!is_inside_a_face(foot)) return ShapeOfPatches::shape_near(foot);
-  const brep::Chart& chart = forms_.charts[foot.patch];
-  const brep::Face& face = forms_.surface.faces[foot.patch];
+  if (!is_inside_a_face(foot))
+    return nurbs::shape_near(surface_.patch(foot.patch),
+                             surface_.control_points_of(foot.patch, control_points_), foot.xi);
+  const brep::Chart& chart = charts_[foot.patch];
+  const brep::Face& face = search_.surface().faces[foot.patch];
   const brep::Parameter<2> xi = chart.to_face(foot.xi), of_face = face.curvatures(xi);
   const double k[2] = {chart.side * of_face[0], chart.side * of_face[1]};
   return {foot.point, chart.side * face.normal(xi), {std::min(k[0], k[1]), std::max(k[0], k[1])}};

@@ -38,33 +38,14 @@ class WallShape {
   virtual int outward_sign(int patch) const = 0;
 };
 
-/// Of NURBS patches, wherever their feet are searched.
-class ShapeOfPatches : public WallShape {
- public:
-  nurbs::Vector3 normal_at(const search::Foot& foot) const override;
-  nurbs::SurfaceShape shape_near(const search::Foot& foot) const override;
-  int outward_sign(int patch) const final { return outward_sign_[patch]; }
-
- protected:
-  /// Keeps references; control points are 3 x n.
-  ShapeOfPatches(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points,
-                 const std::vector<int>& outward_sign)
-      : surface_(surface), control_points_(control_points), outward_sign_(outward_sign) {}
-
-  const nurbs::MultiPatch& surface_;
-  const nurbs::NodalVectors& control_points_;
-
- private:
-  const std::vector<int>& outward_sign_;
-};
-
-/// Whose feet are searched on the patches.
-class PatchShape final : public ShapeOfPatches {
+class PatchShape final : public WallShape {
  public:
   /// Keeps references; control points are 3 x n.  `edge_angle`: edges that turn by no more are smooth [rad].
   PatchShape(const nurbs::MultiPatch& surface, const nurbs::NodalVectors& control_points,
              const std::vector<int>& outward_sign, double edge_angle)
-      : ShapeOfPatches(surface, control_points, outward_sign),
+      : surface_(surface),
+        control_points_(control_points),
+        outward_sign_(outward_sign),
         edge_angle_(edge_angle),
         projector_(surface, control_points) {}
   void changed() override;
@@ -75,60 +56,74 @@ class PatchShape final : public ShapeOfPatches {
   }
   std::unique_ptr<FeetTracker> track(const CandidateList& candidates, SearchMethod method,
                                      SearchCounts& counts) const override;
+  nurbs::Vector3 normal_at(const search::Foot& foot) const override;
+  nurbs::SurfaceShape shape_near(const search::Foot& foot) const override;
+  int outward_sign(int patch) const override { return outward_sign_[patch]; }
 
  private:
+  const nurbs::MultiPatch& surface_;
+  const nurbs::NodalVectors& control_points_;
+  const std::vector<int>& outward_sign_;
   double edge_angle_;
   search::MultiPatchProjector projector_;
   search::MultiPatchTree tree_;
 };
 
-/// Of rigid patches whose feet are searched on the same faces in closed form.
-class ClosedShape final : public ShapeOfPatches {
+/// Rigid, whose feet are searched on faces, edges and vertices.
+class ShapeOnFaces : public WallShape {
+ public:
+  void changed() final {}
+  void begin_list(bool /*moved*/) final {}
+  search::Box bounds() const final { return {search_.surface().low, search_.surface().high}; }
+  void near(const nurbs::Vector3& point, double reach, std::vector<int>& elements) const final {
+    search_.near(point, reach, elements);
+  }
+
+ protected:
+  /// Keeps a reference.
+  explicit ShapeOnFaces(const brep::Surface& surface) : search_(surface) {}
+
+  brep::FootSearch search_;
+};
+
+/// Of nothing else.
+class FaceShape final : public ShapeOnFaces {
+ public:
+  explicit FaceShape(const brep::Surface& surface) : ShapeOnFaces(surface) {}
+  std::unique_ptr<FeetTracker> track(const CandidateList& candidates, SearchMethod method,
+                                     SearchCounts& counts) const override;
+  nurbs::Vector3 normal_at(const search::Foot& foot) const override;
+  nurbs::SurfaceShape shape_near(const search::Foot& foot) const override;
+  int outward_sign(int /*face*/) const override { return 0; }
+};
+
+/// Of patches, which are these faces in closed form.
+class ClosedShape final : public ShapeOnFaces {
  public:
   /// Keeps references.
   ClosedShape(const brep::ClosedForms& forms, const nurbs::MultiPatch& surface,
               const nurbs::NodalVectors& control_points, const std::vector<int>& outward_sign)
-      : ShapeOfPatches(surface, control_points, outward_sign), forms_(forms), search_(forms.surface) {}
-  void changed() override {}
-  void begin_list(bool /*moved*/) override {}
-  search::Box bounds() const override { return {forms_.surface.low, forms_.surface.high}; }
-  void near(const nurbs::Vector3& point, double reach, std::vector<int>& elements) const override {
-    search_.near(point, reach, elements);
-  }
+      : ShapeOnFaces(forms.surface),
+        charts_(forms.charts),
+        surface_(surface),
+        control_points_(control_points),
+        outward_sign_(outward_sign) {}
   std::unique_ptr<FeetTracker> track(const CandidateList& candidates, SearchMethod method,
                                      SearchCounts& counts) const override;
   /// In closed form, but on edges and where the centre is on the surface, maybe on an edge as well.
   nurbs::Vector3 normal_at(const search::Foot& foot) const override;
   nurbs::SurfaceShape shape_near(const search::Foot& foot) const override;
+  int outward_sign(int patch) const override { return outward_sign_[patch]; }
 
  private:
   bool is_inside_a_face(const search::Foot& foot) const {
     return foot.status == search::FootStatus::interior && foot.distance > search_.same_point();
   }
 
-  const brep::ClosedForms& forms_;
-  brep::FootSearch search_;
-};
-
-/// Of rigid faces, edges and vertices alone.
-class FaceShape final : public WallShape {
- public:
-  /// Keeps a reference.
-  explicit FaceShape(const brep::Surface& surface) : search_(surface) {}
-  void changed() override {}
-  void begin_list(bool /*moved*/) override {}
-  search::Box bounds() const override { return {search_.surface().low, search_.surface().high}; }
-  void near(const nurbs::Vector3& point, double reach, std::vector<int>& elements) const override {
-    search_.near(point, reach, elements);
-  }
-  std::unique_ptr<FeetTracker> track(const CandidateList& candidates, SearchMethod method,
-                                     SearchCounts& counts) const override;
-  nurbs::Vector3 normal_at(const search::Foot& foot) const override;
-  nurbs::SurfaceShape shape_near(const search::Foot& foot) const override;
-  int outward_sign(int /*face*/) const override { return 0; }
-
- private:
-  brep::FootSearch search_;
+  const std::vector<brep::Chart>& charts_;
+  const nurbs::MultiPatch& surface_;
+  const nurbs::NodalVectors& control_points_;
+  const std::vector<int>& outward_sign_;
 };
 
 }  // namespace contact
