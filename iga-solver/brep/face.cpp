@@ -57,6 +57,8 @@ Vector3 Face::point(const Parameter<2>& xi) const {
       return frame.origin + R * (std::cos(xi[1]) * radial(xi[0]) + std::sin(xi[1]) * frame.z);
     case Kind::torus:
       return frame.origin + (R + r * std::cos(xi[1])) * radial(xi[0]) + r * std::sin(xi[1]) * frame.z;
+    case Kind::nurbs:
+      break;
   }
   return frame.origin;
 }
@@ -72,6 +74,8 @@ Vector3 Face::normal(const Parameter<2>& xi) const {
     case Kind::sphere:
     case Kind::torus:
       return std::cos(xi[1]) * radial(xi[0]) + std::sin(xi[1]) * frame.z;
+    case Kind::nurbs:
+      break;
   }
   return frame.z;
 }
@@ -88,6 +92,8 @@ Parameter<2> Face::curvatures(const Parameter<2>& xi) const {
       return {-1.0 / R, -1.0 / R};
     case Kind::torus:
       return {-std::cos(xi[1]) / (R + r * std::cos(xi[1])), -1.0 / r};
+    case Kind::nurbs:
+      break;
   }
   return {0.0, 0.0};
 }

@@ -17,8 +17,8 @@
 
 namespace brep {
 
-/// Trimmed and NURBS faces have their place here.
-enum class Kind : std::int8_t { plane, cylinder, cone, sphere, torus };
+/// Faces of kind nurbs are patches (cad_model.h): what this file has of points and feet is not of them.
+enum class Kind : std::int8_t { plane, cylinder, cone, sphere, torus, nurbs };
 
 /// Right-handed, axes of length 1.
 struct Frame {
@@ -53,6 +53,7 @@ struct Face {
   double r = 0.0;  ///< radius of the torus' tube [length]; half the angle of a cone, in (0, pi/2) [rad]
   Parameter<2> low{0.0, 0.0}, high{0.0, 0.0};  ///< range of xi
   int first_piece = 0, piece_count = 0;        ///< of Surface::pieces
+  int patch = -1;                              ///< of kind nurbs: its number
   Kind kind = Kind::plane;
 
   Vector3 point(const Parameter<2>& xi) const;

@@ -20,7 +20,7 @@ namespace {
 constexpr double kSameBorder = 1e-9;  // of the size
 
 const char* name(Kind kind) {
-  constexpr const char* names[] = {"plane", "cylinder", "cone", "sphere", "torus"};
+  constexpr const char* names[] = {"plane", "cylinder", "cone", "sphere", "torus", "nurbs"};
   return names[static_cast<int>(kind)];
 }
 
