@@ -18,7 +18,7 @@ FootSearch::FootSearch(const Surface& surface)
       tree_(surface),
       triangles_(plane_triangles(surface)),
       neighbours_(surface),
-      same_point_(10.0 * surface.slack) {}
+      same_point_(kSamePoint * surface.slack) {}
 
 void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) const {
   const size_t begin = pieces.size();
@@ -27,6 +27,9 @@ void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) 
   pieces.erase(std::remove_if(pieces.begin() + static_cast<std::ptrdiff_t>(begin), pieces.end(), far),
                pieces.end());
   std::sort(pieces.begin() + static_cast<std::ptrdiff_t>(begin), pieces.end());
+  if (!surface_.domains.empty())  // a piece can have several boxes
+    pieces.erase(std::unique(pieces.begin() + static_cast<std::ptrdiff_t>(begin), pieces.end()),
+                 pieces.end());
 }
 
 int FootSearch::activate(const Vector3& d, double reach, const int* pieces, int count, int* active) const {
@@ -70,11 +73,12 @@ void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int cou
 
 bool FootSearch::is_well_inside(int number, const Vector3& d, double reach, double margin) const {
   const Piece& piece = surface_.pieces[number];
+  if (!piece.triangle() && !piece.rectangle()) return false;
   if (piece.triangle()) {
     const double inside = triangles_[number].inside(d), height = triangles_[number].over(d).height;
     return inside >= margin && inside * inside + height * height > reach * reach;
   }
-  const Borders& borders = surface_.borders[piece.edge[0]];
+  const Borders& borders = surface_.borders[piece.borders()];
   for (int i = 0; i < 4; ++i) {
     if (borders.use[i] >= 0 &&
         EdgeFoot(surface_.edges[surface_.uses[borders.use[i]].edge], d).distance2() <= reach * reach)

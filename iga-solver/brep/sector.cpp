@@ -4,10 +4,13 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "brep/edge_uses.h"
+
 namespace brep {
 
 Vector3 ray_direction(const Surface& surface, int ray) {
   const Edge& edge = surface.edges[surface.uses[ray / 2].edge];
+  if (edge.spline()) return (ray % 2 == 0 ? 1.0 : -1.0) * at_end(surface, edge, ray % 2).tangent;
   return ray % 2 == 0 ? edge.tangent(0.0) : Vector3(-edge.tangent(edge.length));
 }
 
@@ -15,7 +18,12 @@ Sector::Sector(const Surface& surface, const Vertex& vertex, const Corner& corne
     : whole_(corner.ray[0] < 0), reflex_(corner.reflex) {
   const Face& face = surface.faces[corner.face];
   axis_ = face.frame.z;
-  if (face.kind != Kind::plane) axis_ = face.project(vertex.point).normal;
+  if (face.kind == Kind::nurbs)
+    axis_ =
+        normal_at(surface, corner.ray[0] / 2,
+                  at_end(surface, surface.edges[surface.uses[corner.ray[0] / 2].edge], corner.ray[0] % 2));
+  else if (face.kind != Kind::plane)
+    axis_ = face.project(vertex.point).normal;
   if (face.kind == Kind::cone && (vertex.point - face.frame.origin).norm() <= 1e-9 * face.high[1]) {
     axis_ = -face.frame.z;
     cos_ = std::cos(face.r), sin_ = std::sin(face.r);

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <map>
 #include <memory>
 
 #include "mixed_trial.h"
@@ -14,11 +15,17 @@ int main(int argc, char** argv) {
   unsigned seed = 1;
   int only = -1, points = 300;
   bool mixed = false;
+  brep::trials::Given given = brep::trials::Given::plainly;
+  const std::map<std::string, brep::trials::Given> kinds{{"plainly", brep::trials::Given::plainly},
+                                                         {"cad", brep::trials::Given::as_cad},
+                                                         {"patches", brep::trials::Given::as_patches}};
   CLI::App app("Feet on random walls, judged by brute force");
   app.add_option("--count", count, "least number of points")->check(CLI::PositiveNumber);
   app.add_option("--seed", seed, "of the random numbers");
   app.add_option("--points", points, "of each wall");
   app.add_flag("--mixed", mixed, "planes, cylinders, cones, spheres and tori in place of triangles");
+  app.add_option("--as", given, "trimmed faces as of a CAD file, or all of them NURBS patches")
+      ->transform(CLI::CheckedTransformer(kinds));
   app.add_option("--only", only, "number of the one wall to repeat");
   CLI11_PARSE(app, argc, argv);
   try {
@@ -26,9 +33,9 @@ int main(int argc, char** argv) {
     for (int index = only < 0 ? 0 : only; trials < count; ++index) {
       std::unique_ptr<Trial> trial;
       if (mixed)
-        trial = std::make_unique<MixedTrial>(seed, index);
+        trial = std::make_unique<MixedTrial>(seed, index, given);
       else
-        trial = std::make_unique<TriangleTrial>(seed, index);
+        trial = std::make_unique<TriangleTrial>(seed, index, given);
       const std::string what =
           fmt::format("miss: {}--seed {} --only {} ({})", mixed ? "--mixed " : "", seed, index,
                       mixed ? mixed_family_name(index % kMixedFamilies) : family_name(index % kFamilies));

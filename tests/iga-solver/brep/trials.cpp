@@ -6,6 +6,9 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <map>
+#include <numeric>
+
+#include "cad_of_wall.h"
 
 namespace brep::trials {
 namespace {
@@ -22,19 +25,28 @@ std::mt19937 seeded(unsigned seed, int index) {
 Trial::Trial(std::mt19937 random, Surface surface)
     : random_(random), surface_(std::move(surface)), search_(surface_) {}
 
-TriangleTrial::TriangleTrial(unsigned seed, int index) : TriangleTrial(seeded(seed, index), index) {}
+Surface given_as(Given given, Surface wall) {
+  if (given == Given::plainly) return wall;
+  std::vector<int> all(wall.faces.size());
+  std::iota(all.begin(), all.end(), 0);
+  return from_cad(cad_of(wall, given == Given::as_patches), all);
+}
 
-TriangleTrial::TriangleTrial(std::mt19937 random, int index)
-    : TriangleTrial(random_wall(random, index % kFamilies), random) {}
+TriangleTrial::TriangleTrial(unsigned seed, int index, Given given)
+    : TriangleTrial(seeded(seed, index), index, given) {}
 
-TriangleTrial::TriangleTrial(const Wall& wall, const std::mt19937& random)
-    : Trial(random, from_triangles(wall.coordinates(), wall.corners())),
+TriangleTrial::TriangleTrial(std::mt19937 random, int index, Given given)
+    : TriangleTrial(random_wall(random, index % kFamilies), random, given) {}
+
+TriangleTrial::TriangleTrial(const Wall& wall, const std::mt19937& random, Given given)
+    : Trial(random, given_as(given, from_triangles(wall.coordinates(), wall.corners()))),
       wall_(wall),
+      plain_(from_triangles(wall.coordinates(), wall.corners())),
       judge_(wall_, surface_.edge_angle) {
-  for (const Piece& piece : surface_.pieces)
+  for (const Piece& piece : plain_.pieces)
     for (const int v : piece.vertex) {
-      const Frame& plane = surface_.faces[piece.face].frame;
-      uneven_ = std::max(uneven_, std::abs(plane.z.dot(surface_.vertices[v].point - plane.origin)));
+      const Frame& plane = plain_.faces[piece.face].frame;
+      uneven_ = std::max(uneven_, std::abs(plane.z.dot(plain_.vertices[v].point - plane.origin)));
     }
 }
 
@@ -45,13 +57,13 @@ std::string TriangleTrial::try_sheets() {
                   &c = wall_.points[wall_.triangles[t][2]], n = (b - a).cross(c - a),
                   middle = (a + b + c) / 3.0;
     int face = -1;
-    for (const Piece& piece : surface_.pieces) {
+    for (const Piece& piece : plain_.pieces) {
       Vector3 sum = Vector3::Zero();
-      for (const int v : piece.vertex) sum += surface_.vertices[v].point / 3.0;
+      for (const int v : piece.vertex) sum += plain_.vertices[v].point / 3.0;
       if ((sum - middle).norm() < 1e-12) face = piece.face;
     }
     if (face < 0) return fmt::format("triangle {} is no piece", t);
-    const int turned = surface_.faces[face].frame.z.dot(n) > 0.0 ? 1 : -1;
+    const int turned = plain_.faces[face].frame.z.dot(n) > 0.0 ? 1 : -1;
     for (int side = 0; side < 2; ++side) {
       const int theirs = judge_.sheet(static_cast<int>(t), side),
                 ours = surface_.sheet(face, side == 0 ? turned : -turned);
@@ -117,7 +129,9 @@ std::string Trial::compare(const Vector3& d, double reach, const std::vector<Foo
       if (feet[j].sheet == foot.sheet && (feet[j].point - foot.point).norm() < 1e-8)
         return "a foot counts twice";
     const Face& face = surface_.faces[foot.patch];
-    if ((face.point(foot.xi) - foot.point).norm() > 3e-6 * surface_.size ||
+    const Vector3 at =
+        face.kind == Kind::nurbs ? surface_.patches->point(face.patch, foot.xi) : face.point(foot.xi);
+    if ((at - foot.point).norm() > 3e-6 * surface_.size ||
         std::abs((d - foot.point).norm() - foot.distance) > 1e-12)
       return "a foot does not agree with its parameters";
     if (surface_.sheet(foot.patch, foot.side) != foot.sheet) return "a foot is on another sheet";

@@ -10,6 +10,10 @@
 
 namespace brep::trials {
 
+/// How a wall is given to the search.
+enum class Given { plainly, as_cad, as_patches };
+Surface given_as(Given given, Surface wall);
+
 class Trial {
  public:
   virtual ~Trial() = default;
@@ -44,17 +48,18 @@ class Trial {
 /// A random wall of triangles.
 class TriangleTrial final : public Trial {
  public:
-  TriangleTrial(unsigned seed, int index);
+  TriangleTrial(unsigned seed, int index, Given given = Given::plainly);
   std::string try_sheets() override;
 
  private:
-  TriangleTrial(std::mt19937 random, int index);  // the order: the wall is drawn first, then points
-  TriangleTrial(const Wall& wall, const std::mt19937& random);
+  TriangleTrial(std::mt19937 random, int index, Given given);  // the wall is drawn first, then points
+  TriangleTrial(const Wall& wall, const std::mt19937& random, Given given);
   Vector3 draw(int place) override { return random_point(random_, wall_, place); }
   int sheet_of(const Minimum& minimum) const override { return sheet_of_judge_[minimum.sheet]; }
   const AnyJudge& judge() const override { return judge_; }
 
   Wall wall_;
+  Surface plain_;
   Judge judge_;
   std::vector<int> sheet_of_judge_;  // the wall's
 };
