@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "brep/face_shape.h"
 #include "nurbs/assert.h"
 
 namespace contact {
@@ -203,7 +204,7 @@ double FaceTracker::squared_way(const Query& query, const ContactSlot& slot, con
   const brep::Surface& surface = search_.surface();
   if (surface.sheet(last.patch, of_patch(last.patch, slot.side())) != foot.sheet) return kNoWay;
   const brep::Parameter<2> xi = charts_ ? (*charts_)[last.patch].to_face(last.xi) : last.xi;
-  const double way2 = squared_way(query, surface.faces[last.patch].point(xi), foot.point);
+  const double way2 = squared_way(query, brep::point_on(surface, last.patch, xi), foot.point);
   // On one face a particle may have been displaced, however far.
   return last.patch == foot.patch || way2 <= query.touch_reach * query.touch_reach ? way2 : kNoWay;
 }

@@ -176,36 +176,47 @@ class FromCad {
       surface_.chunks[c].way_on = surface_.chunks[c + 1].curve.derivatives(0.0).first;
   }
 
-  // Parameters of points of the edge on the patch, from the nearest points of the border there.
+  // Parameters of points of the edge on the patch: the nearest of its border, one after the other.
   void guide(const Edge& edge, const TrimOf& trim) {
-    constexpr int kSamples = 8;  // per piece of the border
+    constexpr int kSamples = 128;
     const int patch = surface_.faces[trim.face].patch;
-    std::vector<std::pair<Parameter<2>, Vector3>> border;
-    for (const BezierCurve<2>& curve : beziers(trim.trim->curve))
-      for (int k = 0; k <= kSamples * curve.degree(); ++k) {
-        const Eigen::Vector2d at = curve.at(static_cast<double>(k) / (kSamples * curve.degree()));
-        const Parameter<2> xi{at[0], at[1]};
-        border.emplace_back(xi, surface_.patches->point(patch, xi));
-      }
+    const std::vector<BezierCurve<2>> curves = beziers(trim.trim->curve);
+    const auto border = [&](double t) {  // 0 to 1 in the sense of the edge
+      const double place = (trim.forward ? t : 1.0 - t) * static_cast<double>(curves.size());
+      const auto k = std::min(static_cast<size_t>(place), curves.size() - 1);
+      const Eigen::Vector2d at = curves[k].at(place - static_cast<double>(k));
+      return Parameter<2>{at[0], at[1]};
+    };
+    std::vector<Vector3> samples;
+    for (int k = 0; k <= kSamples; ++k)
+      samples.push_back(surface_.patches->point(patch, border(static_cast<double>(k) / kSamples)));
     auto& guides = surface_.guides.back();
-    for (int g = 0; g < Surface::kGuides; ++g) {
+    guides.front() = border(0.0), guides.back() = border(1.0);
+    int last = 0;
+    for (int g = 1; g + 1 < Surface::kGuides; ++g) {
       const Vector3 point = at_part(surface_, edge, static_cast<double>(g) / (Surface::kGuides - 1)).point;
-      const auto nearest = std::min_element(border.begin(), border.end(), [&](const auto& a, const auto& b) {
-        return (a.second - point).squaredNorm() < (b.second - point).squaredNorm();
-      });
-      guides[g] = surface_.patches->projector(patch).warm(point, nearest->first).xi;
+      const auto distance = [&](double t) {
+        return (surface_.patches->point(patch, border(t)) - point).norm();
+      };
+      const auto nearest =
+          std::min_element(samples.begin() + last, samples.end(), [&](const auto& a, const auto& b) {
+            return (a - point).squaredNorm() < (b - point).squaredNorm();
+          });
+      last = static_cast<int>(nearest - samples.begin());
+      guides[g] = border(
+          lowest(distance, std::max(0.0, (last - 1.0) / kSamples), std::min(1.0, (last + 1.0) / kSamples)));
     }
-    mend_closed(trim, guides);
   }
 
-  // The ends of a closed border are at one point: each has the parameters of its own end.
-  void mend_closed(const TrimOf& trim, std::array<Parameter<2>, Surface::kGuides>& guides) const {
-    const std::vector<BezierCurve<2>> curves = beziers(trim.trim->curve);
-    const Eigen::Vector2d ends[2] = {curves.front().at(0.0), curves.back().at(1.0)};
-    for (int end = 0; end < 2; ++end) {
-      const Eigen::Vector2d& at = ends[trim.forward ? end : 1 - end];
-      guides[end == 0 ? 0 : Surface::kGuides - 1] = {at[0], at[1]};
+  // Where a function with one minimum has it.
+  template <class Function>
+  static double lowest(Function f, double low, double high) {
+    constexpr int kThirds = 60;
+    for (int k = 0; k < kThirds; ++k) {
+      const double a = low + (high - low) / 3.0, b = high - (high - low) / 3.0;
+      (f(a) < f(b) ? high : low) = f(a) < f(b) ? b : a;
     }
+    return 0.5 * (low + high);
   }
 
   Across axes(const Edge& edge, const EdgePoint& at) const {

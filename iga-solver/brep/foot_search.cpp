@@ -27,7 +27,7 @@ void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) 
   pieces.erase(std::remove_if(pieces.begin() + static_cast<std::ptrdiff_t>(begin), pieces.end(), far),
                pieces.end());
   std::sort(pieces.begin() + static_cast<std::ptrdiff_t>(begin), pieces.end());
-  if (!surface_.domains.empty())  // a piece can have several boxes
+  if (surface_.trimmed())  // a piece can have several boxes
     pieces.erase(std::unique(pieces.begin() + static_cast<std::ptrdiff_t>(begin), pieces.end()),
                  pieces.end());
 }

@@ -130,6 +130,7 @@ struct Surface {
   std::vector<std::array<Parameter<2>, kGuides>> guides;
 
   int sheet(int face, int side) const { return sheets[2 * face + (side < 0)]; }
+  bool trimmed() const { return !domains.empty(); }
   double slack_of_edge(int edge) const { return edge_slack.empty() ? slack : edge_slack[edge]; }
   double slack_of_vertex(int vertex) const { return vertex_slack.empty() ? slack : vertex_slack[vertex]; }
   const EdgeUse& next_use(const Edge& edge, int use) const {

@@ -180,6 +180,25 @@ TrimDomain::Where TrimDomain::where(const Parameter<2>& low, const Parameter<2>&
   return inside({0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1])}) ? Where::inside : Where::outside;
 }
 
+std::vector<TrimDomain::Segment> TrimDomain::segments(
+    const std::function<bool(const Parameter<2>&, const Parameter<2>&)>& is_straight) const {
+  constexpr int kMostHalvings = 12;
+  std::vector<Segment> result;
+  const std::function<void(const Part&, double, const Point&, double, const Point&, int)> add =
+      [&](const Part& part, double s, const Point& from, double t, const Point& to, int depth) {
+        const Parameter<2> a{from[0], from[1]}, b{to[0], to[1]};
+        const bool coarse = depth == 0 && part.curve >= 0;  // a curve may come back to where it began
+        if (depth == kMostHalvings || (!coarse && is_straight(a, b)))
+          return result.emplace_back(a, b), void();
+        const double half = 0.5 * (s + t);
+        const Point middle = part.curve < 0 ? Point(0.5 * (from + to)) : curves_[part.curve].at(half);
+        add(part, s, from, half, middle, depth + 1);
+        add(part, half, middle, t, to, depth + 1);
+      };
+  for (const Part& part : parts_) add(part, 0.0, part.from, 1.0, part.to, 0);
+  return result;
+}
+
 bool TrimDomain::meets(const Part& part, const Parameter<2>& low, const Parameter<2>& high) const {
   if (apart(low, high, {part.low, part.high})) return false;
   if (part.curve < 0) {  // all corners of the box beyond the line?

@@ -2,6 +2,7 @@
 // The part of a face's parameters that its loops leave: what is inside of an odd number of them.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "brep/bezier_curve.h"
@@ -19,6 +20,11 @@ class TrimDomain {
   /// Of a box of parameters.  What is said to be cut may be inside or outside if it is close to the border.
   enum class Where : std::int8_t { inside, outside, cut };
   Where where(const Parameter<2>& low, const Parameter<2>& high) const;
+  /// The border in straight pieces, each with the sense of its loop: curves and lines are halved until
+  /// `is_straight` says of their ends that it is enough.
+  using Segment = std::pair<Parameter<2>, Parameter<2>>;
+  std::vector<Segment> segments(
+      const std::function<bool(const Parameter<2>&, const Parameter<2>&)>& is_straight) const;
   /// The box around all loops.
   const Parameter<2>& low() const { return low_; }
   const Parameter<2>& high() const { return high_; }

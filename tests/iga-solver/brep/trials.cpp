@@ -94,10 +94,20 @@ std::string Trial::try_point(int number, long& count) {
   const int active = search_.activate(d + 0.05 * random_direction(random_), reach + 0.051, near_.data(),
                                       static_cast<int>(near_.size()), active_.data());
   search_.feet(d, reach, active_.data(), active, from_active_);
+  if (lies_on_an_axis()) return {};
   if (from_active_.size() != feet_.size()) return "other feet from an active subset of " + text(d);
   for (size_t k = 0; k < feet_.size(); ++k)
     if (feet_[k].point != from_active_[k].point) return "other feet from an active subset of " + text(d);
   return {};
+}
+
+// On the axis of a round patch minima are not isolated: the search gives some of them.
+bool Trial::lies_on_an_axis() const {
+  for (const Foot& a : feet_)
+    for (const Foot& b : feet_)
+      if (surface_.patches && &a != &b && a.patch == b.patch && std::abs(a.distance - b.distance) < 1e-12)
+        return true;
+  return false;
 }
 
 // On borders of what is a minimum: whether it is one for points beside d.

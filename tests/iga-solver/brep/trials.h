@@ -37,6 +37,7 @@ class Trial {
   double beside_ = 1e-6;  // how far a point is moved off a border
 
  private:
+  bool lies_on_an_axis() const;
   bool minimum_beside(const Vector3& d, double reach, const Foot& foot) const;
   std::string compare(const Vector3& d, double reach, const std::vector<Foot>& feet) const;
 
