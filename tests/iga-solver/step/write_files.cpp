@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "write_files.h"
+
+#include <APIHeaderSection_MakeHeader.hxx>
+#include <BRepMesh_IncrementalMesh.hxx>
+#include <IGESControl_Controller.hxx>
+#include <IGESControl_Writer.hxx>
+#include <IGESData_IGESModel.hxx>
+#include <Interface_Static.hxx>
+#include <STEPCAFControl_Controller.hxx>
+#include <STEPCAFControl_Writer.hxx>
+#include <STEPControl_Controller.hxx>
+#include <STEPControl_Writer.hxx>
+#include <StepData_StepModel.hxx>
+#include <StlAPI_Writer.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <stdexcept>
+
+#include "read_plainly.h"
+
+namespace step_parts {
+namespace {
+
+Handle(TCollection_HAsciiString) text(const char* words) { return new TCollection_HAsciiString(words); }
+
+[[noreturn]] void fail(const std::string& file, const std::string& what) {
+  throw std::runtime_error(file + ": " + what);
+}
+
+/// Without the time of day.
+void set_header(const Handle(StepData_StepModel) & model, const char* file) {
+  APIHeaderSection_MakeHeader header(model);
+  header.SetName(text(file));
+  header.SetTimeStamp(text("2026-01-01T00:00:00"));
+}
+
+void write_step(const Part& part, const std::string& path) {
+  STEPControl_Writer writer;
+  Interface_Static::SetCVal("write.step.unit", part.unit);
+  Interface_Static::SetCVal("write.step.product.name", part.file);
+  if (writer.Transfer(part.shape(), STEPControl_AsIs) != IFSelect_RetDone) fail(path, "cannot be translated");
+  set_header(writer.Model(), part.file);
+  if (writer.Write(path.c_str()) != IFSelect_RetDone) fail(path, "cannot be written");
+}
+
+void write_iges(const Part& part, const std::string& path) {
+  IGESControl_Controller::Init();
+  IGESControl_Writer writer("MM", 0);
+  if (!writer.AddShape(part.shape())) fail(path, "cannot be translated");
+  IGESData_GlobalSection global = writer.Model()->GlobalSection();
+  global.SetDate(text("20260101.000000"));
+  global.SetLastChangeDate(text("20260101.000000"));
+  global.SetFileName(text(part.file));
+  writer.Model()->SetGlobalSection(global);
+  if (!writer.Write(path.c_str())) fail(path, "cannot be written");
+}
+
+}  // namespace
+
+void write(const Part& part, const std::string& folder) {
+  const std::string file = part.file, path = folder + "/" + file;
+  file.substr(file.find('.')) == ".igs" ? write_iges(part, path) : write_step(part, path);
+}
+
+void write(const Assembly& assembly, const std::string& folder) {
+  const std::string path = folder + "/" + assembly.file;
+  STEPCAFControl_Controller::Init();  // or the next word is not known
+  Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
+  Interface_Static::SetCVal("write.step.unit", "MM");
+  STEPCAFControl_Writer writer;
+  if (!writer.Transfer(assembly.document())) fail(path, "cannot be translated");
+  set_header(writer.ChangeWriter().Model(), assembly.file);
+  if (writer.Write(path.c_str()) != IFSelect_RetDone) fail(path, "cannot be written");
+}
+
+void write_stl(const std::string& step_file, double deviation, const std::string& stl_file) {
+  const TopoDS_Shape shape = read_plainly(step_file);
+  constexpr double kAngle = 1.0;  // rad: left to the deviation but for the coarsest
+  BRepMesh_IncrementalMesh mesh(shape, deviation, false, kAngle);
+  StlAPI_Writer writer;
+  writer.ASCIIMode() = false;
+  if (!writer.Write(shape, stl_file.c_str())) fail(stl_file, "cannot be written");
+}
+
+}  // namespace step_parts
