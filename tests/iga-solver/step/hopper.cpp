@@ -14,11 +14,10 @@
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
 #include <BRepTools.hxx>
-#include <GC_MakeArcOfCircle.hxx>
-#include <Geom_TrimmedCurve.hxx>
 #include <TopExp_Explorer.hxx>
 #include <TopoDS.hxx>
 #include <cmath>
+#include <gp_Circ.hxx>
 #include <gp_Cylinder.hxx>
 #include <gp_Trsf.hxx>
 
@@ -33,10 +32,12 @@ constexpr double kDegree = M_PI / 180.0;
 constexpr double kSheet = 5.0, kOutletRadius = 65.0, kSpout = 40.0, kRadius = 240.0, kKnuckle = 60.0,
                  kTop = 600.0;
 constexpr double kHalfAngle = 30.0 * kDegree;  // of the cone, from the vertical
-constexpr double kNozzleRadius = 40.0, kNozzleLength = 390.0, kNozzleRise = 25.0 * kDegree,
-                 kNozzleAzimuth = 120.0 * kDegree;
-constexpr double kNozzleHeight = 190.0;  // where its axis meets that of the bin
-constexpr double kRoot = 20.0;           // radius of the blend outside
+// Of the nozzle, which enters the cone where that has radius kNozzleAt; it is turned out of the radial plane
+// and leans from the horizontal.
+constexpr double kNozzleRadius = 40.0, kNozzleAt = 150.0, kNozzleAzimuth = 120.0 * kDegree;
+constexpr double kNozzleTurn = 12.0 * kDegree, kNozzleRise = -12.0 * kDegree;
+constexpr double kNozzleInside = 100.0, kNozzleOutside = 180.0;  // lengths from there
+constexpr double kRoot = 20.0;                                   // radius of the blend outside
 constexpr double kFlangeRadius = 120.0, kFlange = 12.0, kBoltCircle = 95.0, kBoltHole = 7.0;
 constexpr int kBolts = 8;
 constexpr double kChuteSlope = 35.0 * kDegree, kChuteDrop = 200.0, kChuteLength = 610.0, kChuteWidth = 270.0;
@@ -51,15 +52,15 @@ TopoDS_Shape vessel(double out, double beyond) {
   const double corner = kSpout - out * std::tan(kHalfAngle / 2.0);
   const double turn = radius - knuckle + knuckle * std::cos(kHalfAngle);
   const double joint = corner + (turn - outlet) / std::tan(kHalfAngle);
-  const double knuckle_top = joint + knuckle * std::sin(kHalfAngle), half = kHalfAngle / 2.0;
-  const gp_Pnt middle =
-      at(radius - knuckle + knuckle * std::cos(half), knuckle_top - knuckle * std::sin(half));
+  const double knuckle_top = joint + knuckle * std::sin(kHalfAngle);
+  // Only with its x axis radial is a circle seen to turn into a torus.
+  const gp_Circ bend(gp_Ax2(at(radius - knuckle, knuckle_top), -gp::DY(), gp::DX()), knuckle);
   BRepBuilderAPI_MakeWire wire;
   const gp_Pnt points[] = {at(0, -beyond), at(outlet, -beyond), at(outlet, corner), at(turn, joint)};
   for (int i = 0; i < 3; ++i) wire.Add(BRepBuilderAPI_MakeEdge(points[i], points[i + 1]).Edge());
   const gp_Pnt shoulder = at(radius, knuckle_top), rim = at(radius, kTop + beyond),
                top = at(0, kTop + beyond);
-  wire.Add(BRepBuilderAPI_MakeEdge(GC_MakeArcOfCircle(points[3], middle, shoulder).Value()).Edge());
+  wire.Add(BRepBuilderAPI_MakeEdge(bend, points[3], shoulder).Edge());
   wire.Add(BRepBuilderAPI_MakeEdge(shoulder, rim).Edge());
   wire.Add(BRepBuilderAPI_MakeEdge(rim, top).Edge());
   wire.Add(BRepBuilderAPI_MakeEdge(top, points[0]).Edge());
@@ -69,13 +70,18 @@ TopoDS_Shape vessel(double out, double beyond) {
 
 /// With the nozzle, whose blind end is a sheet too; blends outside and inside are one sheet apart.
 TopoDS_Shape skin(double out, double beyond) {
-  const gp_Dir along(std::cos(kNozzleRise) * std::cos(kNozzleAzimuth),
-                     std::cos(kNozzleRise) * std::sin(kNozzleAzimuth), std::sin(kNozzleRise));
-  const gp_Ax2 axis(gp_Pnt(0, 0, kNozzleHeight), along);
+  const double azimuth = kNozzleAzimuth + kNozzleTurn;
+  const gp_Dir along(std::cos(kNozzleRise) * std::cos(azimuth), std::cos(kNozzleRise) * std::sin(azimuth),
+                     std::sin(kNozzleRise));
+  const gp_Pnt entry(kNozzleAt * std::cos(kNozzleAzimuth), kNozzleAt * std::sin(kNozzleAzimuth),
+                     kSpout + (kNozzleAt - kOutletRadius) / std::tan(kHalfAngle));
+  const gp_Ax2 axis(entry.Translated(gp_Vec(along) * -kNozzleInside), along);
   const TopoDS_Shape nozzle =
-      BRepPrimAPI_MakeCylinder(axis, kNozzleRadius + out, kNozzleLength + out).Shape();
+      BRepPrimAPI_MakeCylinder(axis, kNozzleRadius + out, kNozzleInside + kNozzleOutside + out).Shape();
   const TopoDS_Shape sharp = BRepAlgoAPI_Fuse(vessel(out, beyond), nozzle).Shape();
   BRepFilletAPI_MakeFillet fillet(sharp);
+  fillet.SetParams(1e-2, 1e-4, 1e-5, 1e-3, 1e-5,
+                   1e-3);  // all but the fourth, 1 um, as they are: it halves the poles
   for (const TopoDS_Edge& edge : edges_between(sharp, GeomAbs_Cone, GeomAbs_Cylinder)) {
     const TopoDS_Vertex v = TopoDS::Vertex(TopExp_Explorer(edge, TopAbs_VERTEX).Current());
     if (BRep_Tool::Pnt(v).Z() > kSpout + 1.0) fillet.Add(kRoot + kSheet - out, edge);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <BRepBuilderAPI_MakeEdge.hxx>
 #include <BRepBuilderAPI_MakeFace.hxx>
-#include <BRepBuilderAPI_MakeShell.hxx>
 #include <BRepBuilderAPI_MakeSolid.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepLib.hxx>
 #include <BRepPrimAPI_MakePrism.hxx>
 #include <BRepPrimAPI_MakeRevol.hxx>
+#include <BRep_Builder.hxx>
 #include <Geom2dAPI_Interpolate.hxx>
 #include <Geom2d_BSplineCurve.hxx>
 #include <GeomAPI_Interpolate.hxx>
@@ -93,7 +93,12 @@ TopoDS_Shape spline_ring() {
       poles(i, j) = gp_Pnt(big * std::cos(a), big * std::sin(a), r * std::sin(b) + 6.0 * std::cos(2.0 * a));
     }
   }
-  return inside_of(BRepBuilderAPI_MakeShell(cubic(poles, true, true)).Shell());
+  TopoDS_Shell shell;
+  BRep_Builder builder;
+  builder.MakeShell(shell);
+  builder.Add(shell, BRepBuilderAPI_MakeFace(cubic(poles, true, true), kTolerance).Face());
+  shell.Closed(true);
+  return inside_of(shell);
 }
 
 Handle(Geom_BSplineSurface) wavy() {
