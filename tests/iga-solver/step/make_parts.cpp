@@ -2,8 +2,6 @@
 // CAD files for tests: make_step_parts FOLDER [FILE...] writes all parts of parts.h, or the named ones;
 // make_step_parts --stl FILE.step DEVIATION FILE.stl triangles; make_step_parts --look FILE... what is in a
 // file.
-#include <Message.hxx>
-#include <Message_PrinterOStream.hxx>
 #include <Standard_Failure.hxx>
 #include <algorithm>
 #include <cstdlib>
@@ -46,7 +44,6 @@ int run(const std::vector<std::string>& words) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream));
   try {
     return run({argv + 1, argv + argc});
   } catch (const Standard_Failure& failure) {

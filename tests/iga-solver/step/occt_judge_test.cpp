@@ -80,7 +80,9 @@ TEST(OcctJudge, ParametersInFaces) {
     const bool in = std::abs(from_cylinder(judge.value(face, u, v))) < kTolerance;
     EXPECT_EQ(judge.in_face_by_polygon(face, u, v), in ? Place::kIn : Place::kOut);
     const bool another_period = w.u[1] - w.u[0] < 7.0 && (u < w.u[0] || u > w.u[1]);
-    if (!another_period) EXPECT_EQ(judge.in_face(face, u, v, 1e-9), in ? Place::kIn : Place::kOut);
+    if (!another_period) {
+      EXPECT_EQ(judge.in_face(face, u, v, 1e-9), in ? Place::kIn : Place::kOut);
+    }
     inside += in;
   }
   EXPECT_GT(inside, 100);

@@ -20,6 +20,8 @@ namespace {
 
 using namespace step_parts;
 
+constexpr double kQuadrature = 2e-5;  // of OpenCASCADE's areas, relative: 7e-6 seen on a cut sphere
+
 std::string folder() {
   const std::string folder = testing::TempDir() + "step_parts";
   std::filesystem::create_directories(folder);
@@ -38,18 +40,19 @@ double area(const TopoDS_Shape& shape) {
   return properties.Mass();
 }
 
-TopoDS_Shape written_and_read(const Part& part) {
-  write(part, folder());
-  return read_plainly(folder() + "/" + part.file);
+TopoDS_Shape written_and_read(const TopoDS_Shape& shape, const Part& part) {
+  const std::string path = folder() + "/" + part.file;
+  write(shape, path, part.unit);
+  return read_plainly(path);
 }
 
 /// Also in inches, metres and IGES.
 void survive(const std::vector<Part>& parts) {
   for (const Part& part : parts) {
     SCOPED_TRACE(part.file);
-    const TopoDS_Shape before = part.shape(), after = written_and_read(part);
+    const TopoDS_Shape before = part.shape(), after = written_and_read(before, part);
     EXPECT_TRUE(BRepCheck_Analyzer(after).IsValid());
-    EXPECT_NEAR(area(after) / area(before), 1.0, 1e-6);
+    EXPECT_NEAR(area(after) / area(before), 1.0, kQuadrature);
   }
 }
 
@@ -72,7 +75,7 @@ TEST(Parts, VolumesOfTheory) {
       {"torus.step", 2.0 * M_PI * M_PI * 50.0 * 225.0}};
   for (const Part& part : closed_form_parts()) {
     SCOPED_TRACE(part.file);
-    const TopoDS_Shape shape = written_and_read(part);
+    const TopoDS_Shape shape = written_and_read(part.shape(), part);
     EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
     EXPECT_NEAR(volume(shape) / theory.at(part.file), 1.0, 1e-6);
   }

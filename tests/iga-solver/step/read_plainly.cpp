@@ -3,6 +3,8 @@
 
 #include <IGESControl_Reader.hxx>
 #include <Interface_Static.hxx>
+#include <Message.hxx>
+#include <Message_PrinterOStream.hxx>
 #include <STEPControl_Reader.hxx>
 #include <TopoDS_Iterator.hxx>
 #include <stdexcept>
@@ -26,7 +28,10 @@ bool is_iges(const std::string& file) {
 
 }  // namespace
 
+void silence() { Message::DefaultMessenger()->RemovePrinters(STANDARD_TYPE(Message_PrinterOStream)); }
+
 TopoDS_Shape read_plainly(const std::string& file) {
+  silence();
   if (is_iges(file)) {
     IGESControl_Reader reader;
     return read_with(reader, file);

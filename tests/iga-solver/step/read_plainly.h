@@ -10,4 +10,7 @@ namespace step_parts {
 /// STEP or, by the ending, IGES; mm.  Throws std::runtime_error if there is no shape.
 TopoDS_Shape read_plainly(const std::string& file);
 
+/// No progress of OpenCASCADE's on standard output.
+void silence();
+
 }  // namespace step_parts

@@ -27,6 +27,8 @@ Handle(TCollection_HAsciiString) text(const char* words) { return new TCollectio
   throw std::runtime_error(file + ": " + what);
 }
 
+std::string name_of(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
 /// Without the time of day.
 void set_header(const Handle(StepData_StepModel) & model, const char* file) {
   APIHeaderSection_MakeHeader header(model);
@@ -34,36 +36,44 @@ void set_header(const Handle(StepData_StepModel) & model, const char* file) {
   header.SetTimeStamp(text("2026-01-01T00:00:00"));
 }
 
-void write_step(const Part& part, const std::string& path) {
+void write_step(const TopoDS_Shape& shape, const std::string& path, const char* unit) {
+  const std::string file = name_of(path);
+  STEPControl_Controller::Init();
+  Interface_Static::SetCVal("write.step.unit",
+                            unit);  // lengths are scaled by what it is when the writer is made
+  Interface_Static::SetCVal("write.step.product.name", file.c_str());
   STEPControl_Writer writer;
-  Interface_Static::SetCVal("write.step.unit", part.unit);
-  Interface_Static::SetCVal("write.step.product.name", part.file);
-  if (writer.Transfer(part.shape(), STEPControl_AsIs) != IFSelect_RetDone) fail(path, "cannot be translated");
-  set_header(writer.Model(), part.file);
+  if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone) fail(path, "cannot be translated");
+  set_header(writer.Model(), file.c_str());
   if (writer.Write(path.c_str()) != IFSelect_RetDone) fail(path, "cannot be written");
 }
 
-void write_iges(const Part& part, const std::string& path) {
+void write_iges(const TopoDS_Shape& shape, const std::string& path) {
   IGESControl_Controller::Init();
   IGESControl_Writer writer("MM", 0);
-  if (!writer.AddShape(part.shape())) fail(path, "cannot be translated");
+  if (!writer.AddShape(shape)) fail(path, "cannot be translated");
   IGESData_GlobalSection global = writer.Model()->GlobalSection();
   global.SetDate(text("20260101.000000"));
   global.SetLastChangeDate(text("20260101.000000"));
-  global.SetFileName(text(part.file));
+  global.SetFileName(text(name_of(path).c_str()));
   writer.Model()->SetGlobalSection(global);
   if (!writer.Write(path.c_str())) fail(path, "cannot be written");
 }
 
 }  // namespace
 
+void write(const TopoDS_Shape& shape, const std::string& path, const char* unit) {
+  silence();
+  path.substr(path.rfind('.')) == ".igs" ? write_iges(shape, path) : write_step(shape, path, unit);
+}
+
 void write(const Part& part, const std::string& folder) {
-  const std::string file = part.file, path = folder + "/" + file;
-  file.substr(file.find('.')) == ".igs" ? write_iges(part, path) : write_step(part, path);
+  write(part.shape(), folder + "/" + part.file, part.unit);
 }
 
 void write(const Assembly& assembly, const std::string& folder) {
   const std::string path = folder + "/" + assembly.file;
+  silence();
   STEPCAFControl_Controller::Init();  // or the next word is not known
   Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
   Interface_Static::SetCVal("write.step.unit", "MM");

@@ -9,6 +9,7 @@
 namespace step_parts {
 
 /// STEP or IGES by the ending; the same bytes each time.
+void write(const TopoDS_Shape& shape, const std::string& path, const char* unit);
 void write(const Part& part, const std::string& folder);
 void write(const Assembly& assembly, const std::string& folder);
 
