@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// CAD files for tests: make_step_parts FOLDER [FILE...] writes all parts of parts.h, or the named ones;
+// CAD files for tests: make_step_parts FOLDER [FILE...] writes all parts of parts.h, or the named ones and,
+// if none is named, nested.step again with its solids in files of their own (external.step);
 // make_step_parts --stl FILE.step DEVIATION FILE.stl triangles; make_step_parts --look FILE... what is in a
 // file.
 #include <Standard_Failure.hxx>
@@ -33,6 +34,7 @@ int run(const std::vector<std::string>& words) {
       write_all(list, words[0], only);
     }
     write_all(assemblies(), words[0], only);
+    if (only.empty()) write_by_reference(assemblies()[0], words[0] + "/external.step");
   } else {
     std::cerr
         << "usage: make_step_parts FOLDER [FILE...] | --stl FILE.step DEVIATION FILE.stl | --look FILE...\n";

@@ -60,6 +60,18 @@ void write_iges(const TopoDS_Shape& shape, const std::string& path) {
   if (!writer.Write(path.c_str())) fail(path, "cannot be written");
 }
 
+/// With `prefix` each solid in its own file, whose name begins so, beside `path`.
+void write_document(const Assembly& assembly, const std::string& path, const char* prefix) {
+  silence();
+  STEPCAFControl_Controller::Init();  // or the next word is not known
+  Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
+  Interface_Static::SetCVal("write.step.unit", "MM");
+  STEPCAFControl_Writer writer;
+  if (!writer.Transfer(assembly.document(), STEPControl_AsIs, prefix)) fail(path, "cannot be translated");
+  set_header(writer.ChangeWriter().Model(), name_of(path).c_str());
+  if (writer.Write(path.c_str()) != IFSelect_RetDone) fail(path, "cannot be written");
+}
+
 }  // namespace
 
 void write(const TopoDS_Shape& shape, const std::string& path, const char* unit) {
@@ -72,15 +84,12 @@ void write(const Part& part, const std::string& folder) {
 }
 
 void write(const Assembly& assembly, const std::string& folder) {
-  const std::string path = folder + "/" + assembly.file;
-  silence();
-  STEPCAFControl_Controller::Init();  // or the next word is not known
-  Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
-  Interface_Static::SetCVal("write.step.unit", "MM");
-  STEPCAFControl_Writer writer;
-  if (!writer.Transfer(assembly.document())) fail(path, "cannot be translated");
-  set_header(writer.ChangeWriter().Model(), assembly.file);
-  if (writer.Write(path.c_str()) != IFSelect_RetDone) fail(path, "cannot be written");
+  write_document(assembly, folder + "/" + assembly.file, nullptr);
+}
+
+void write_by_reference(const Assembly& assembly, const std::string& path) {
+  const std::string file = name_of(path), stem = file.substr(0, file.rfind('.'));
+  write_document(assembly, path, (stem + "_").c_str());
 }
 
 void write_stl(const std::string& step_file, double deviation, const std::string& stl_file) {
