@@ -7,12 +7,15 @@
 #include <BRepGProp.hxx>
 #include <GProp_GProps.hxx>
 
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <sstream>
 
+#include "occt_judge.h"
 #include "read_plainly.h"
 #include "write_files.h"
 
@@ -113,6 +116,25 @@ TEST(Parts, HopperOfTheDeck) {
   }
   const TopoDS_Shape shape = read_plainly(file);
   EXPECT_TRUE(BRepCheck_Analyzer(shape).IsValid());
+}
+
+/// Corners on the faces, and no triangle's middle further off than the chord may be.
+TEST(Parts, TrianglesLieNearTheHopper) {
+  const double deviation = 1.0, single_precision = 1e-4;  // mm
+  const std::string file = folder() + "/hopper.stl";
+  write_stl(HOPPER_STEP, deviation, file);
+  const std::string bytes = text_of(file);
+  const std::size_t count = (bytes.size() - 84) / 50;
+  ASSERT_GT(count, 1000u);
+  const OcctJudge judge(HOPPER_STEP);
+  for (std::size_t i = 0; i < count; i += 40) {
+    std::array<float, 9> x;
+    std::memcpy(x.data(), bytes.data() + 84 + 50 * i + 12, sizeof x);
+    EXPECT_LT(judge.nearest({x[0], x[1], x[2]}).distance, single_precision + judge.tolerance());
+    EXPECT_LT(judge.nearest({(x[0] + x[3] + x[6]) / 3, (x[1] + x[4] + x[7]) / 3, (x[2] + x[5] + x[8]) / 3})
+                  .distance,
+              deviation);
+  }
 }
 
 }  // namespace

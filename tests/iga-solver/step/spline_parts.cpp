@@ -134,6 +134,20 @@ TopoDS_Shape spline_plate_hole() {
   return shape;
 }
 
+/// Knots 0, 1, 2, ... each once, of which the spline uses those from 3 on.
+TopoDS_Shape unclamped() {
+  const TColgp_Array2OfPnt poles = wavy()->Poles();
+  TColStd_Array1OfReal u_knots(1, poles.NbRows() + 4), v_knots(1, poles.NbColumns() + 4);
+  TColStd_Array1OfInteger u_once(1, u_knots.Length()), v_once(1, v_knots.Length());
+  for (int i = 1; i <= u_knots.Length(); ++i) u_knots(i) = i - 1;
+  for (int i = 1; i <= v_knots.Length(); ++i) v_knots(i) = i - 1;
+  u_once.Init(1);
+  v_once.Init(1);
+  const Handle(Geom_BSplineSurface) surface =
+      new Geom_BSplineSurface(poles, u_knots, v_knots, u_once, v_once, 3, 3);
+  return BRepBuilderAPI_MakeFace(surface, kTolerance).Face();
+}
+
 TopoDS_Shape offset() {
   return BRepBuilderAPI_MakeFace(new Geom_OffsetSurface(wavy(), 3.0), 0.4, 3.7, 0.3, 2.8, kTolerance).Face();
 }
@@ -194,6 +208,7 @@ std::vector<Part> spline_parts() {
       {"spline_ring.step", "a spline periodic in both directions", spline_ring},
       {"spline_plate_hole.step", "a spline trimmed by splines, outside and round a hole", spline_plate_hole},
       {"spline_tip.step", "a spline with one side of length zero", spline_tip},
+      {"unclamped.step", "a spline whose end knots stand once", unclamped},
       {"bezier_2_14.step", "degree 14 by nature", bezier_2_14},
       {"offset.step", "an offset surface, which is to be refused", offset},
       {"revolution.step", "a surface of revolution of a spline, full circle", revolution},
