@@ -26,7 +26,8 @@ using namespace step_parts;
 constexpr double kQuadrature = 2e-5;  // of OpenCASCADE's areas, relative: 7e-6 seen on a cut sphere
 
 std::string folder() {
-  const std::string folder = testing::TempDir() + "step_parts";
+  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string folder = testing::TempDir() + "step_parts_" + test;  // tests run at the same time
   std::filesystem::create_directories(folder);
   return folder;
 }
