@@ -80,7 +80,7 @@ class ModelMaker {
     const TopoDS_Shape result = sewing.SewedShape();
     if (result.IsNull()) return body.shape;
     TopExp::MapShapes(result, TopAbs_EDGE, after);
-    if (before.Extent() == after.Extent()) return body.shape;
+    if (after.Extent() >= before.Extent()) return body.shape;
     for (TopExp_Explorer it(body.shape, TopAbs_FACE); it.More(); it.Next())
       if (const StepLabel* label = document_.labels.Seek(it.Current().Located(TopLoc_Location()))) {
         const StepLabel kept = *label;
