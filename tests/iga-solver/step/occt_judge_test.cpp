@@ -19,7 +19,8 @@ using namespace step_parts;
 constexpr double kTolerance = 1e-9;  // mm, on parts of 100 mm
 
 OcctJudge judge_of(const std::string& file) {
-  const std::string folder = testing::TempDir() + "occt_judge_" + file;
+  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string folder = testing::TempDir() + "occt_judge_" + test;  // tests run at the same time
   std::filesystem::create_directories(folder);
   for (const Part& part : closed_form_parts()) {
     if (part.file == file) write(part, folder);

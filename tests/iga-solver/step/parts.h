@@ -11,10 +11,11 @@
 namespace step_parts {
 
 struct Part {
-  const char* file;         ///< its ending says STEP or IGES
-  const char* hard;         ///< what is hard about it
-  TopoDS_Shape (*shape)();  ///< mm
-  const char* unit = "MM";  ///< of the file: MM, M or INCH
+  const char* file;                ///< its ending says STEP or IGES
+  const char* hard;                ///< what is hard about it
+  TopoDS_Shape (*shape)();         ///< mm
+  const char* unit = "MM";         ///< of the file: MM, M or INCH
+  const char* schema = "AP214IS";  ///< or AP203, AP242DIS
 };
 
 /// With names, colours and placements.

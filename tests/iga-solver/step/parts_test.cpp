@@ -26,7 +26,8 @@ using namespace step_parts;
 constexpr double kQuadrature = 2e-5;  // of OpenCASCADE's areas, relative: 7e-6 seen on a cut sphere
 
 std::string folder() {
-  const std::string folder = testing::TempDir() + "step_parts";
+  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string folder = testing::TempDir() + "step_parts_" + test;  // tests run at the same time
   std::filesystem::create_directories(folder);
   return folder;
 }
@@ -45,7 +46,7 @@ double area(const TopoDS_Shape& shape) {
 
 TopoDS_Shape written_and_read(const TopoDS_Shape& shape, const Part& part) {
   const std::string path = folder() + "/" + part.file;
-  write(shape, path, part.unit);
+  write(part, shape, path);
   return read_plainly(path);
 }
 
@@ -106,6 +107,20 @@ TEST(Parts, NestedAssemblyHasItsNames) {
   EXPECT_EQ(count(text, "MANIFOLD_SOLID_BREP("), 3);  // each once, whatever its places
   const double post = M_PI * 64.0 * 100.0, foot = 40.0 * 30.0 * 6.0, plate = 160.0 * 80.0 * 10.0;
   EXPECT_NEAR(volume(read_plainly(file)), 2.0 * (post + foot) + plate, 0.1);
+}
+
+TEST(Parts, FilesSayTheirProtocol) {
+  const std::map<std::string, std::string> schemas = {
+      {"inches.step", "AUTOMOTIVE_DESIGN"},
+      {"ap203.step", "CONFIG_CONTROL_DESIGN"},
+      {"ap242.step", "AP242_MANAGED_MODEL_BASED_3D_ENGINEERING"}};
+  for (const Part& part : trimmed_parts()) {
+    const auto schema = schemas.find(part.file);
+    if (schema == schemas.end()) continue;
+    write(part, folder());
+    const std::string text = text_of(folder() + "/" + part.file);
+    EXPECT_NE(text.find("'" + schema->second), std::string::npos) << part.file;
+  }
 }
 
 /// The file of the deck.  A ring with holes by theory; the rest by names.

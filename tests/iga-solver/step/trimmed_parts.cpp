@@ -103,7 +103,9 @@ std::vector<Part> trimmed_parts() {
           {"pipe_on_cone.step", "a cone trimmed by an oblique cylinder, sharp", pipes_and_cone},
           {"holes.step", "plane faces with ten holes: circles, an ellipse, a star", holes},
           {"inches.step", "inches as unit", bracket, "INCH"},
-          {"metres.step", "metres as unit", bracket, "M"}};
+          {"metres.step", "metres as unit", bracket, "M"},
+          {"ap203.step", "the oldest application protocol", bracket, "MM", "AP203"},
+          {"ap242.step", "the newest application protocol", bracket, "MM", "AP242DIS"}};
 }
 
 }  // namespace step_parts

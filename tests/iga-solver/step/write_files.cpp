@@ -36,15 +36,15 @@ void set_header(const Handle(StepData_StepModel) & model, const char* file) {
   header.SetTimeStamp(text("2026-01-01T00:00:00"));
 }
 
-void write_step(const TopoDS_Shape& shape, const std::string& path, const char* unit) {
-  const std::string file = name_of(path);
+void write_step(const Part& part, const TopoDS_Shape& shape, const std::string& path) {
   STEPControl_Controller::Init();
-  Interface_Static::SetCVal("write.step.unit",
-                            unit);  // lengths are scaled by what it is when the writer is made
-  Interface_Static::SetCVal("write.step.product.name", file.c_str());
+  // Lengths are scaled by the unit that is set when the writer is made.
+  Interface_Static::SetCVal("write.step.unit", part.unit);
+  Interface_Static::SetCVal("write.step.product.name", part.file);
+  Interface_Static::SetCVal("write.step.schema", part.schema);
   STEPControl_Writer writer;
   if (writer.Transfer(shape, STEPControl_AsIs) != IFSelect_RetDone) fail(path, "cannot be translated");
-  set_header(writer.Model(), file.c_str());
+  set_header(writer.Model(), part.file);
   if (writer.Write(path.c_str()) != IFSelect_RetDone) fail(path, "cannot be written");
 }
 
@@ -66,6 +66,7 @@ void write_document(const Assembly& assembly, const std::string& path, const cha
   STEPCAFControl_Controller::Init();  // or the next word is not known
   Interface_Static::SetIVal("write.stepcaf.subshapes.name", 1);
   Interface_Static::SetCVal("write.step.unit", "MM");
+  Interface_Static::SetCVal("write.step.schema", "AP214IS");
   STEPCAFControl_Writer writer;
   if (!writer.Transfer(assembly.document(), STEPControl_AsIs, prefix)) fail(path, "cannot be translated");
   set_header(writer.ChangeWriter().Model(), name_of(path).c_str());
@@ -74,13 +75,13 @@ void write_document(const Assembly& assembly, const std::string& path, const cha
 
 }  // namespace
 
-void write(const TopoDS_Shape& shape, const std::string& path, const char* unit) {
+void write(const Part& part, const TopoDS_Shape& shape, const std::string& path) {
   silence();
-  path.substr(path.rfind('.')) == ".igs" ? write_iges(shape, path) : write_step(shape, path, unit);
+  path.substr(path.rfind('.')) == ".igs" ? write_iges(shape, path) : write_step(part, shape, path);
 }
 
 void write(const Part& part, const std::string& folder) {
-  write(part.shape(), folder + "/" + part.file, part.unit);
+  write(part, part.shape(), folder + "/" + part.file);
 }
 
 void write(const Assembly& assembly, const std::string& folder) {

@@ -8,9 +8,10 @@
 
 namespace step_parts {
 
-/// STEP or IGES by the ending; the same bytes each time.
-void write(const TopoDS_Shape& shape, const std::string& path, const char* unit);
+/// STEP or IGES by the ending.
 void write(const Part& part, const std::string& folder);
+/// With the shape that part.shape() gave.
+void write(const Part& part, const TopoDS_Shape& shape, const std::string& path);
 void write(const Assembly& assembly, const std::string& folder);
 
 /// An assembly that names files beside it for its solids: stem_NAME.stp.
