@@ -31,6 +31,11 @@ GeometryFile only(const GeometryFile& geometry, const std::string& surface, cons
   return kept;
 }
 
+std::string patches_text(const GeometryFile& geometry) {
+  const size_t count = geometry.patches.size();
+  return geometry.cad ? "" : fmt::format(", {} patch{}", count, count == 1 ? "" : "es");
+}
+
 void write(const GeometryFile& geometry, const std::string& path, const std::vector<std::string>& inputs) {
   const auto format = geometry_io::format_of_path(path);
   if (!format)
@@ -62,9 +67,8 @@ void run(const Options& options) {
   GeometryFile geometry =
       geometry_io::read_geometry(options.in, read_and_note, geometry_io::units_from_name(options.units));
   if (!options.surface.empty()) geometry = only(geometry, options.surface, options.in);
-  fmt::print("{}: units {}, {} patch{}\n{}", options.in, geometry_io::units_name(geometry.units),
-             geometry.patches.size(), geometry.patches.size() == 1 ? "" : "es",
-             geometry_io::summary(geometry));
+  fmt::print("{}: units {}{}\n{}", options.in, geometry_io::units_name(geometry.units),
+             patches_text(geometry), geometry_io::summary(geometry));
   if (!options.out.empty()) write(geometry, options.out, inputs);
 }
 
@@ -73,11 +77,15 @@ void run(const Options& options) {
 int main(int argc, char** argv) {
   Options options;
   CLI::App command("Prints what a geometry file holds, and writes it in another format.");
-  command.add_option("input", options.in, "geometry file: .h5, .hdf5 (HDF5), .xml (G+Smo), .stl, else YAML")
+  command
+      .add_option(
+          "input", options.in,
+          "geometry file: .step, .stp, .iges, .igs (CAD), .h5, .hdf5 (HDF5), .xml (G+Smo), .stl, else YAML")
       ->required();
   command.add_option("output", options.out, "file to write: .yaml, .yml, .h5, .hdf5 or .xml");
   command.add_option("--surface", options.surface, "keep the patches of this named surface only");
   command.add_option("--units", options.units,
-                     "units of a file that has none (G+Smo, STL): si (default), cgs, mm-g-ms or mm-t-s");
+                     "units of a file that has none (G+Smo, STL), and those to which CAD is brought: si "
+                     "(default), cgs, mm-g-ms or mm-t-s");
   return app::run_command(command, argc, argv, options.in, [&] { run(options); });
 }

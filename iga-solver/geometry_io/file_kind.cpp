@@ -90,9 +90,9 @@ struct KnownKind {
 };
 
 constexpr const char* kCadFile =
-    "expected NURBS patches in YAML, HDF5 (.h5) or G+Smo's XML (.xml): none of our programs reads CAD files, "
-    "so take "
-    "the patches from the program that made it";
+    "expected another kind of file by its name: STEP is called .step or .stp, IGES .iges or .igs, and a file "
+    "in "
+    "YAML takes it by 'geometry: {file: NAME}'";
 constexpr const char* kStlFile =
     "expected NURBS patches, or a file that names this one: triangles are read from files called .stl, and a "
     "file in YAML takes them by 'geometry: {file: NAME}'";

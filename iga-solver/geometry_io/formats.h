@@ -14,6 +14,12 @@ std::string write_yaml(const GeometryFile& geometry);
 GeometryFile parse_hdf5(const std::string& bytes, const std::string& file, Units units);
 std::string write_hdf5(const GeometryFile& geometry);
 
+/// STEP and IGES: bytes, or what unpacked_cad makes of them; `units` are those of the model.
+GeometryFile parse_cad(const std::string& bytes, const std::string& file, Units units);
+/// The model as bytes that others can parse without OpenCASCADE, by a process of its own (reader_process.h).
+/// Throws InputError.
+std::string unpacked_cad(const std::string& bytes, const std::string& file);
+
 /// `units` are those of a file without.
 GeometryFile parse_gismo(const std::string& text, const std::string& file, Units units);
 std::string write_gismo(const GeometryFile& geometry);

@@ -9,6 +9,8 @@
 #include <initializer_list>
 #include <stdexcept>
 
+#include "geometry_io/cad_placement.h"
+#include "geometry_io/cad_selection.h"
 #include "geometry_io/shape_changes.h"
 #include "geometry_io/shape_reader.h"
 
@@ -17,12 +19,23 @@ namespace {
 
 constexpr std::initializer_list<const char*> kUnitsNames = {"si", "cgs", "mm-g-ms", "mm-t-s"};
 
+std::vector<std::string> words_of(const YamlMap& surfaces, const std::string& name) {
+  return surfaces.is_list(name) ? surfaces.words(name) : std::vector<std::string>{surfaces.word(name)};
+}
+
 std::vector<SurfacePiece> read_surface(const YamlMap& surfaces, const std::string& name,
                                        const std::vector<Shape>& patches) {
-  const std::vector<std::string> words =
-      surfaces.is_list(name) ? surfaces.words(name) : std::vector<std::string>{surfaces.word(name)};
   try {
-    return parse_surface(words, patches);
+    return parse_surface(words_of(surfaces, name), patches);
+  } catch (const std::invalid_argument& error) {
+    surfaces.fail(name, fmt::format("surfaces.{}: {}", name, error.what()));
+  }
+}
+
+std::vector<int> read_cad_surface(const YamlMap& surfaces, const std::string& name,
+                                  const brep::CadModel& cad) {
+  try {
+    return cad_faces(cad, words_of(surfaces, name));
   } catch (const std::invalid_argument& error) {
     surfaces.fail(name, fmt::format("surfaces.{}: {}", name, error.what()));
   }
@@ -45,6 +58,7 @@ GeometryFile read_several(const YamlMap& geometry, Units units, const OpenGeomet
   std::vector<SurfacePiece> said_all;  // of files that offer it, such as STL
   for (const YamlMap& map : geometry.list_of_maps("shapes")) {
     GeometryFile part = read_changed(map, units, open);
+    if (part.cad) map.fail("file", "a CAD file among shapes, expected it alone, as geometry: {file: NAME}");
     for (auto& [name, pieces] : part.surfaces) {
       for (SurfacePiece& piece : pieces) piece.patch += static_cast<int>(all.patches.size());
       if (name == kAllPatches && pieces.size() == part.patches.size())
@@ -64,13 +78,26 @@ GeometryFile read_several(const YamlMap& geometry, Units units, const OpenGeomet
   return all;
 }
 
+void change_cad(const YamlMap& map, const Placement& change, GeometryFile& geometry) {
+  if (map.has("refine")) map.fail("refine", "refine of a CAD file, expected scale, rotate or move");
+  if (change.matrix() == Placement::Identity().matrix()) return;
+  brep::CadModel model = *geometry.cad;
+  try {
+    place(model, change);
+  } catch (const std::invalid_argument& error) {
+    map.fail("scale", error.what());
+  }
+  geometry.cad = std::make_shared<const brep::CadModel>(std::move(model));
+}
+
 GeometryFile read_changed(const YamlMap& map, Units units, const OpenGeometry& open) {
   expect_one_shape(map);
   GeometryFile geometry = map.has("file")     ? open_other_file(map, units, open)
                           : map.has("shapes") ? read_several(map, units, open)
                                               : GeometryFile{units, read_shapes(map), {}};
   if (!map.has("file") && !map.has("shapes") && !map.has("patches")) geometry.from_words = {0};
-  change_shapes(map, geometry.patches);
+  const Placement change = change_shapes(map, geometry.patches);
+  if (geometry.cad) change_cad(map, change, geometry);
   return geometry;
 }
 
@@ -92,7 +119,9 @@ GeometryFile read_geometry(const YamlMap& document, const OpenGeometry& open) {
 
   const YamlMap surfaces = document.map("surfaces");
   for (const std::string& name : surfaces.keys())
-    if (!geometry.surfaces.emplace(name, read_surface(surfaces, name, geometry.patches)).second)
+    if (geometry.cad)
+      geometry.cad_surfaces[name] = read_cad_surface(surfaces, name, *geometry.cad);
+    else if (!geometry.surfaces.emplace(name, read_surface(surfaces, name, geometry.patches)).second)
       surfaces.fail(name, fmt::format("surface '{}' is given twice, expected once", name));
   return geometry;
 }
@@ -105,6 +134,10 @@ GeometryFile parse_geometry_file(const std::string& text, const std::string& fil
 
 const std::vector<SurfacePiece>& pieces_of(const GeometryFile& geometry, const std::string& name,
                                            const std::string& file) {
+  if (geometry.cad)
+    throw InputError(fmt::format(
+        "{}: surface '{}' is of a CAD file, whose faces are no patches, expected NURBS patches or triangles",
+        file, name));
   const auto found = geometry.surfaces.find(name);
   if (found != geometry.surfaces.end()) return found->second;
   std::vector<std::string> names;

@@ -40,12 +40,17 @@
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "geometry_io/named_surface.h"
 #include "geometry_io/yaml_map.h"
+
+namespace brep {
+struct CadModel;
+}
 
 namespace geometry_io {
 
@@ -54,12 +59,14 @@ const char* units_name(Units units);
 /// Throws std::invalid_argument that lists the names.
 Units units_from_name(const std::string& name);
 
-/// What the three keys say.  One patch at least; `surfaces`: one piece at least each.
+/// What the three keys say.  One patch at least, or a CAD model; `surfaces`: one piece at least each.
 struct GeometryFile {
   Units units;
   std::vector<Shape> patches;
   std::map<std::string, std::vector<SurfacePiece>> surfaces;
   std::set<int> from_words{};  ///< patches that a word such as `cylinder` gives, not control points
+  std::shared_ptr<const brep::CadModel> cad{};  ///< of a CAD file, which has neither patches nor pieces
+  std::map<std::string, std::vector<int>> cad_surfaces{};  ///< faces of `cad`, by the names under `surfaces`
 };
 
 /// Reads the geometry file that another one names.  `units` are those of the file that names it: units for

@@ -32,6 +32,10 @@ const FormatEntry kFormats[] = {
     {format::hdf5, {".h5", ".hdf5"}, parse_hdf5, write_hdf5},
     {format::xml, {".xml"}, parse_gismo, write_gismo},
     {format::stl, {".stl", ".STL"}, parse_stl, nullptr},
+    {format::cad,
+     {".step", ".stp", ".p21", ".STEP", ".STP", ".iges", ".igs", ".IGES", ".IGS"},
+     parse_cad,
+     nullptr},
 };
 const FormatEntry& entry(Format format) {
   for (const FormatEntry& known : kFormats)
@@ -77,7 +81,9 @@ std::string read_file(const std::string& path) {
 }
 
 std::string readable(const std::string& path, std::string bytes) {
-  if (input_format(path) == format::hdf5) return unpacked_hdf5(bytes, path);
+  const Format format = input_format(path);
+  if (format == format::hdf5) return unpacked_hdf5(bytes, path);
+  if (format == format::cad) return unpacked_cad(bytes, path);
   return bytes;
 }
 
@@ -99,6 +105,9 @@ std::string write_geometry(const GeometryFile& geometry, Format format) {
   if (!known.write)
     throw std::invalid_argument(
         fmt::format("{} files are read, not written, expected {}", format, written_extensions()));
+  if (geometry.cad && format != format::hdf5)
+    throw std::invalid_argument(
+        fmt::format("{} holds no faces of a CAD file, expected HDF5 (.h5 or .hdf5)", format));
   if (std::any_of(geometry.patches.begin(), geometry.patches.end(), is_triangles))
     throw std::invalid_argument(
         fmt::format("{} holds no triangles (STL), expected NURBS patches: a file in YAML takes triangles by "

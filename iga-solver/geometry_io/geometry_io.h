@@ -17,7 +17,7 @@ namespace geometry_io {
 using Format = std::string_view;
 namespace format {
 constexpr Format yaml = "YAML", hdf5 = "HDF5", xml = "G+Smo XML";
-constexpr Format stl = "STL";
+constexpr Format stl = "STL", cad = "STEP or IGES";
 }  // namespace format
 /// By the file's extension, such as .h5.
 std::optional<Format> format_of_path(const std::string& path);
@@ -29,8 +29,8 @@ std::string written_extensions();
 using ReadFile = std::function<std::string(const std::string& path)>;
 /// Reads in this process, `readable` included.
 std::string read_file(const std::string& path);
-/// For a ReadFile on behalf of many: an HDF5 file's contents as bytes that the others parse without HDF5,
-/// which might crash on a damaged file; other files as they are.
+/// For a ReadFile on behalf of many: what an HDF5, STEP or IGES file holds as bytes that the others parse
+/// without the libraries that read it, which might crash on a damaged file; other files as they are.
 std::string readable(const std::string& path, std::string bytes);
 
 /// Reads a geometry file, YAML unless its extension says otherwise, and another one that it names.  `units`

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 
+#include "geometry_io/cad_summary.h"
 #include "geometry_io/triangle_summary.h"
 #include "nurbs/borders.h"
 #include "nurbs/gauss_legendre.h"
@@ -182,6 +183,7 @@ std::string borders_text(const std::vector<Surface>& patches, const std::vector<
 }  // namespace
 
 std::string summary(const GeometryFile& geometry) {
+  if (geometry.cad) return cad_text(*geometry.cad);
   std::string text;
   std::vector<Surface> surfaces;
   std::vector<std::string> names;

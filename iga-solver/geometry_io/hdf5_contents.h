@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What an HDF5 file holds, as plain values.  HDF5's library can crash on a damaged file, so files of others
-// are read by a process of their own (hdf5_process.h), which hands this over as bytes; the schema is read
+// are read by a process of their own (reader_process.h), which hands this over as bytes; the schema is read
 // from here, and never from HDF5 itself.
 #pragma once
 
@@ -31,8 +31,8 @@ struct Hdf5Object {
 using Hdf5Contents = std::map<std::string, Hdf5Object>;
 
 /// HDF5's library, in this process.  Reads what may belong to the schema: the attributes of "/", and all
-/// under /patches, /surfaces and /state (io/state_file.h).  No value takes more memory than its bytes in the
-/// file can have been packed from. Throws std::runtime_error.
+/// under /patches, /surfaces, the groups of a CAD model (cad_hdf5.h) and /state (io/state_file.h).  No value
+/// takes more memory than its bytes in the file can have been packed from. Throws std::runtime_error.
 Hdf5Contents unpack_hdf5(const std::string& bytes);
 
 /// As bytes of this program, on this machine; and back, from whatever bytes.  Throws std::runtime_error.

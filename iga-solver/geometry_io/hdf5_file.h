@@ -55,6 +55,9 @@ class Hdf5Output {
   void add_numbers(const std::string& data_set, const std::vector<hsize_t>& shape, const double* values);
   void add_texts(const std::string& data_set, const std::vector<std::string>& values);
 
+  /// All of it, groups before what is in them.
+  void add(const Hdf5Contents& contents);
+
   /// The whole file.
   std::string bytes() const;
 

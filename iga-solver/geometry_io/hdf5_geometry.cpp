@@ -6,26 +6,16 @@
 #include <algorithm>
 #include <utility>
 
+#include "geometry_io/cad_hdf5.h"
 #include "geometry_io/formats.h"
 #include "geometry_io/hdf5_file.h"
+#include "geometry_io/hdf5_schema.h"
 
 namespace geometry_io {
 namespace {
 
-constexpr const char* kFormatName = "nurbs-geometry";
-constexpr int kVersion = 1;
-constexpr const char* kKnots[] = {"knots_xi", "knots_eta", "knots_zeta"};
-
 using nurbs::KnotVector;
 using nurbs::Patch;
-
-// Shape of control-point data, the first direction fastest: [n_eta][n_xi].
-template <int Dim>
-std::vector<std::uint64_t> net_shape(const std::array<KnotVector, Dim>& knots) {
-  std::vector<std::uint64_t> shape;
-  for (int d = Dim - 1; d >= 0; --d) shape.push_back(knots[d].control_point_count());
-  return shape;
-}
 
 // Runs `build`; what it finds wrong with its arguments is an error of the file at `path`.
 template <class Build>
@@ -87,38 +77,60 @@ Shape read_shape(const Hdf5Input& file, const std::string& path) {
   return read_patch<3>(file, path, degrees, std::make_index_sequence<3>());
 }
 
-void check_version(const Hdf5Input& file) {
+int read_version(const Hdf5Input& file) {
   const std::string format = file.text("/", "format");
   if (format != kFormatName)
     file.fail("/", fmt::format("attribute 'format' is '{}', expected '{}'", shown(format), kFormatName));
   const std::vector<int> version = file.integers("/", "version");
-  if (version != std::vector<int>{kVersion})
-    file.fail("/", fmt::format("attribute 'version' is {}, expected {}", fmt::join(version, " "), kVersion));
+  if (version != std::vector<int>{kVersion} && version != std::vector<int>{kCadVersion})
+    file.fail("/", fmt::format("attribute 'version' is {}, expected {} or {}", fmt::join(version, " "),
+                               kVersion, kCadVersion));
+  return version.front();
 }
 
-template <int Dim>
-void write_patch(const Patch<Dim>& patch, const std::string& path, Hdf5Output& file) {
-  std::vector<int> degrees;
-  for (int d = 0; d < Dim; ++d) {
-    const KnotVector& knots = patch.space.knots(d);
-    degrees.push_back(knots.degree());
-    file.add_numbers(path + "/" + kKnots[d], {knots.knots().size()}, knots.knots().data());
+// Those of a CAD model's faces, of which there may be none.
+std::vector<nurbs::Surface> read_surfaces(const Hdf5Input& file) {
+  std::vector<nurbs::Surface> patches;
+  const size_t count = file.members("/patches").size();
+  for (size_t p = 0; p < count; ++p) {
+    const std::string path = fmt::format("/patches/{}", p);
+    Shape patch = read_shape(file, path);
+    if (is_volume(patch)) file.fail(path, "is a volume, expected a surface");
+    patches.push_back(std::get<nurbs::Surface>(std::move(patch)));
   }
-  file.set_integers(path, "degrees", degrees);
-  const std::vector<std::uint64_t> net = net_shape<Dim>(patch.space.knots());
-  std::vector<hsize_t> shape(net.begin(), net.end());
-  if (patch.space.rational()) file.add_numbers(path + "/weights", shape, patch.space.weights().data());
-  shape.push_back(3);
-  file.add_numbers(path + "/control_points", shape, patch.control_points.data());
+  return patches;
+}
+
+Hdf5Builder contents_of(const GeometryFile& geometry) {
+  Hdf5Builder file;
+  if (geometry.cad) {
+    add_cad_file(*geometry.cad, units_name(geometry.units), file);
+    return file;
+  }
+  add_root(kVersion, units_name(geometry.units), file);
+  for (size_t p = 0; p < geometry.patches.size(); ++p)
+    visit_nurbs(geometry.patches[p], [&](const auto& patch) { add_patch(patch, p, file); });
+  if (!geometry.surfaces.empty()) file.add_group("/surfaces");
+  for (const auto& [name, pieces] : geometry.surfaces) {
+    if (name.find('/') != std::string::npos || name == ".")
+      throw std::invalid_argument(
+          fmt::format("surface '{}': a name in HDF5 has no '/' and is not '.'", shown(name)));
+    file.add_texts("/surfaces/" + name, surface_words(pieces, geometry.patches));
+  }
+  return file;
 }
 
 }  // namespace
 
 GeometryFile parse_hdf5(const std::string& bytes, const std::string& file_name, Units) {
   const Hdf5Input file(bytes, file_name);
-  check_version(file);
+  const int version = read_version(file);
   const std::string units = file.text("/", "units");
   GeometryFile geometry{blame(file, "/", [&] { return units_from_name(units); }), {}, {}};
+  if (version == kCadVersion) {
+    geometry.cad = std::make_shared<const brep::CadModel>(read_cad(file, read_surfaces(file)));
+    return geometry;
+  }
   const size_t count = file.members("/patches").size();
   if (count == 0) file.fail("/patches", "is empty, expected the groups 0, 1, ...");
   for (size_t p = 0; p < count; ++p)
@@ -134,22 +146,7 @@ GeometryFile parse_hdf5(const std::string& bytes, const std::string& file_name, 
 
 std::string write_hdf5(const GeometryFile& geometry) {
   Hdf5Output file;
-  file.set_text("/", "format", kFormatName);
-  file.set_integers("/", "version", {kVersion});
-  file.set_text("/", "units", units_name(geometry.units));
-  file.add_group("/patches");
-  for (size_t p = 0; p < geometry.patches.size(); ++p) {
-    const std::string path = fmt::format("/patches/{}", p);
-    file.add_group(path);
-    visit_nurbs(geometry.patches[p], [&](const auto& patch) { write_patch(patch, path, file); });
-  }
-  if (!geometry.surfaces.empty()) file.add_group("/surfaces");
-  for (const auto& [name, pieces] : geometry.surfaces) {
-    if (name.find('/') != std::string::npos || name == ".")
-      throw std::invalid_argument(
-          fmt::format("surface '{}': a name in HDF5 has no '/' and is not '.'", shown(name)));
-    file.add_texts("/surfaces/" + name, surface_words(pieces, geometry.patches));
-  }
+  file.add(contents_of(geometry).contents());
   return file.bytes();
 }
 

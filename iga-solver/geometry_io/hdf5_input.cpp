@@ -6,9 +6,9 @@
 
 #include "geometry_io/file_kind.h"
 #include "geometry_io/hdf5_file.h"
-#include "geometry_io/hdf5_process.h"
 #include "geometry_io/hdf5_seal.h"
 #include "geometry_io/input_error.h"
+#include "geometry_io/reader_process.h"
 #include "nurbs/memory.h"
 
 namespace geometry_io {
@@ -55,7 +55,7 @@ std::string unpacked_hdf5(const std::string& bytes, const std::string& file) {
   try {
     if (is_sealed(bytes)) return encoded(unpack_hdf5(bytes));
     if (begins_with_seal(bytes)) throw std::runtime_error(kChanged);
-    return unpack_in_own_process(bytes);
+    return read_in_own_process(kHdf5Reader, bytes);
   } catch (const std::bad_alloc&) {
     throw InputError(nurbs::out_of_memory(file));
   } catch (const std::runtime_error& error) {

@@ -89,6 +89,23 @@ void Hdf5Output::add_data_set(const std::string& path, hid_t file_type, hid_t me
   check(H5Dwrite(data_set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write a data set");
 }
 
+void Hdf5Output::add(const Hdf5Contents& contents) {
+  for (const auto& [path, object] : contents) {
+    const Hdf5Value& value = object.values;
+    if (object.is_group && path != "/")
+      add_group(path);
+    else if (!object.is_group && value.kind == Hdf5Value::Kind::texts)
+      add_texts(path, value.texts);
+    else if (!object.is_group)
+      add_numbers(path, {value.shape.begin(), value.shape.end()}, value.numbers.data());
+    for (const auto& [name, attribute] : object.attributes)
+      if (attribute.kind == Hdf5Value::Kind::texts)
+        set_text(path, name.c_str(), attribute.texts.front());
+      else
+        set_integers(path, name.c_str(), {attribute.numbers.begin(), attribute.numbers.end()});
+  }
+}
+
 std::string Hdf5Output::bytes() const {
   check(H5Fflush(file_, H5F_SCOPE_LOCAL), "finish a file");
   const ssize_t size = check(H5Fget_file_image(file_, nullptr, 0), "measure a file");

@@ -2,6 +2,7 @@
 // The only place where HDF5's library reads geometry (histories: io/series_file.h).
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <stdexcept>
 
 #include "geometry_io/hdf5_contents.h"
@@ -12,6 +13,8 @@ namespace {
 
 constexpr hsize_t kMaxValues = std::numeric_limits<int>::max();
 constexpr int kDepth = 3;  // /patches/0/knots_xi
+const std::set<std::string> kGroups{"patches", "surfaces", "state",    "faces",  "loops",
+                                    "trims",   "edges",    "vertices", "solids", "healed"};
 
 // The file lives in memory: HDF5's "core" driver on a copy of the bytes.
 hid_t open_image(const std::string& bytes) {
@@ -110,7 +113,7 @@ class Unpacker {
     Hdf5Object& root = contents_["/"];
     add_attributes("/", root);
     for (const std::string& name : members("/"))
-      if (name == "patches" || name == "surfaces" || name == "state") add("/" + name, 1);
+      if (kGroups.count(name) > 0) add("/" + name, 1);
     return std::move(contents_);
   }
 

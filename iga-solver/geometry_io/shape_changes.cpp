@@ -9,7 +9,6 @@
 
 namespace geometry_io {
 
-using nurbs::kMaxDegree;
 using nurbs::Patch;
 using nurbs::Vector3;
 
@@ -25,7 +24,7 @@ std::vector<int> per_direction(const YamlMap& map, const std::string& key, int d
 
 template <int Dim>
 void raise_degree(const YamlMap& map, Patch<Dim>& patch) {
-  const std::vector<int> degrees = per_direction(map, "degree", Dim, kMaxDegree);
+  const std::vector<int> degrees = per_direction(map, "degree", Dim, nurbs::max_degree(Dim));
   for (int d = 0; d < Dim; ++d) {
     const int given = patch.space.degree(d);
     if (degrees[d] < given)
@@ -120,7 +119,7 @@ const std::vector<std::string>& change_words() {
   return kWords;
 }
 
-void change_shapes(const YamlMap& geometry, std::vector<Shape>& patches) {
+Placement change_shapes(const YamlMap& geometry, std::vector<Shape>& patches) {
   if (geometry.has("refine")) {
     const YamlMap map = geometry.map("refine");
     map.allow_only({"degree", "divide", "knots"});
@@ -132,8 +131,9 @@ void change_shapes(const YamlMap& geometry, std::vector<Shape>& patches) {
   if (geometry.has("scale")) change = read_scale(geometry);
   if (geometry.has("rotate")) change = read_rotation(geometry.map("rotate")) * change;
   if (geometry.has("move")) change = shifting(geometry.vector3("move")) * change;
-  if (!geometry.has("scale") && !geometry.has("rotate") && !geometry.has("move")) return;
+  if (!geometry.has("scale") && !geometry.has("rotate") && !geometry.has("move")) return change;
   for (Shape& shape : patches) std::visit([&](auto& patch) { place(points_of(patch), change); }, shape);
+  return change;
 }
 
 }  // namespace geometry_io

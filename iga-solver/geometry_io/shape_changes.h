@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "geometry_io/named_surface.h"
+#include "geometry_io/placement.h"
 #include "geometry_io/yaml_map.h"
 
 namespace geometry_io {
@@ -22,6 +23,7 @@ namespace geometry_io {
 const std::vector<std::string>& change_words();
 
 /// Throws InputError, with file and line.
-void change_shapes(const YamlMap& geometry, std::vector<Shape>& patches);
+/// The placement that was made of scale, rotate and move, for what else there is to place.
+Placement change_shapes(const YamlMap& geometry, std::vector<Shape>& patches);
 
 }  // namespace geometry_io

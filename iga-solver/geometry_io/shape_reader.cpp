@@ -16,8 +16,8 @@ namespace geometry_io {
 
 using nurbs::Curve;
 using nurbs::Frame;
-using nurbs::kMaxDegree;
 using nurbs::KnotVector;
+using nurbs::max_degree;
 using nurbs::NodalVectors;
 using nurbs::Patch;
 using nurbs::Space;
@@ -31,8 +31,8 @@ const char* mesh_key(const YamlMap& map) { return map.has("breaks") ? "breaks" :
 
 // `degree`: one number for all directions or one for each.
 std::vector<int> read_degrees(const YamlMap& map, int dim) {
-  if (!map.is_list("degree")) return std::vector<int>(dim, map.integer("degree", 1, kMaxDegree));
-  const std::vector<int> degrees = map.integers("degree", 1, kMaxDegree);
+  if (!map.is_list("degree")) return std::vector<int>(dim, map.integer("degree", 1, max_degree(dim)));
+  const std::vector<int> degrees = map.integers("degree", 1, max_degree(dim));
   expect_count(map, "degree", degrees.size(), dim);
   return degrees;
 }
@@ -133,7 +133,7 @@ RoundMesh read_round_mesh(const YamlMap& map, int dim) {
   expect_count(map, "elements", mesh.elements.size(), dim);
   if (map.has("degree")) mesh.degrees = read_degrees(map, dim);
   // the arcs of a whole turn add a control point per joint and degree
-  expect_size(map, "elements", mesh.elements, std::vector<int>(dim, 4 * kMaxDegree));
+  expect_size(map, "elements", mesh.elements, std::vector<int>(dim, 4 * max_degree(dim)));
   return mesh;
 }
 
@@ -144,7 +144,8 @@ Curve read_arc(const YamlMap& map, const std::string& key, const std::vector<dou
   expect_count(map, key, angles.size(), 2);
   const int degree = mesh.degrees[direction];
   if (degree < 2)
-    map.fail("degree", fmt::format("degree of an arc is {}, expected 2 to {}", degree, kMaxDegree));
+    map.fail("degree", fmt::format("degree of an arc is {}, expected 2 to {}", degree,
+                                   max_degree(static_cast<int>(mesh.degrees.size()))));
   const Curve quarters = blame(map, key, key + ": ", [&] { return nurbs::arc(angles[0], angles[1]); });
   return blame(map, "elements", key + ": ",
                [&] { return refined(quarters, mesh.elements[direction], degree); });
@@ -225,7 +226,7 @@ NodalVectors read_control_points(const YamlMap& map, int expected) {
 
 template <int Dim, size_t... Direction>
 Patch<Dim> read_patch(const YamlMap& map, std::index_sequence<Direction...>) {
-  const std::vector<int> degrees = map.integers("degrees", 1, kMaxDegree);
+  const std::vector<int> degrees = map.integers("degrees", 1, max_degree(Dim));
   const std::vector<std::vector<double>> knots = map.table("knots");
   expect_count(map, "knots", knots.size(), Dim);
   const auto knot_vector = [&](size_t d) {
@@ -241,7 +242,7 @@ Patch<Dim> read_patch(const YamlMap& map, std::index_sequence<Direction...>) {
 
 Shape read_patch(const YamlMap& patch) {
   patch.allow_only({"degrees", "knots", "control_points", "weights"});
-  const size_t dim = patch.integers("degrees", 1, kMaxDegree).size();
+  const size_t dim = patch.integers("degrees", 1, nurbs::kMaxDegree).size();
   if (dim == 2) return read_patch<2>(patch, std::make_index_sequence<2>());
   if (dim == 3) return read_patch<3>(patch, std::make_index_sequence<3>());
   patch.fail("degrees", fmt::format("degrees is a list of {}, expected 2 (a surface) or 3 (a volume)", dim));

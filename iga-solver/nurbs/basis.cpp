@@ -94,7 +94,7 @@ void fill(const KnotVector& knots, int e, ElementFunctions& element) {
   const double begin = knots.breaks()[e], end = knots.breaks()[e + 1];
   for (auto& row : element.power) std::fill_n(row, kMaxDegree + 1, 0.0);
   for (int k = 0; k <= p; ++k) {
-    double t[kMaxDegree];
+    double t[kMaxDegree] = {};
     for (int j = 0; j < p; ++j) t[j] = j < p - k ? begin : end;
     evaluate_blossom(knots, knots.span_of_element(e), t, element.bezier[k]);
     double monomials[kMaxDegree + 1];

@@ -22,6 +22,9 @@ Space<Dim>::Space(std::array<KnotVector, Dim> knots, std::vector<double> weights
     throw std::invalid_argument(fmt::format("patch of {:.0f} control points, expected at most {}", count,
                                             std::numeric_limits<int>::max()));
   for (const KnotVector& direction : knots_) {
+    if (direction.degree() > max_degree(Dim))
+      throw std::invalid_argument(
+          fmt::format("degree of a volume is {}, expected 1 to {}", direction.degree(), max_degree(Dim)));
     count_ *= direction.control_point_count();
     element_count_ *= direction.element_count();
     functions_per_element_ *= direction.degree() + 1;

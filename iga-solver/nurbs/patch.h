@@ -65,7 +65,7 @@ constexpr int second_derivative_count(int dim) { return dim * (dim + 1) / 2; }
 /// The functions R that are not zero at one point, with derivatives.  Fixed size: no allocation.
 template <int Dim>
 struct RationalBasis {
-  static constexpr int kMaxFunctions = power(kMaxDegree + 1, Dim);
+  static constexpr int kMaxFunctions = power(max_degree(Dim) + 1, Dim);
   int count;                                                ///< functions used below
   int control_point[kMaxFunctions];                         ///< their control points
   double R[kMaxFunctions];                                  ///< values, sum 1

@@ -154,7 +154,7 @@ TEST(Gismo, SaysWhatWasGivenAndWhatWasExpected) {
       {kTwo, "0 0 0 1 1 1", "0 0 0 1 1", 6, "<KnotVector>: 5 knots given, degree 2 expects at least 6"},
       {kTwo, "0 0 0 1 1 1", "0 0 0 l 1 1", 6, "number 4 of <KnotVector> is 'l', expected a number"},
       {kTwo, "0 0 0 1 1 1", "", 6, "<KnotVector>: 0 knots given"},
-      {kTwo, "degree=\"2\"", "degree=\"9\"", 6, "degree is 9, expected 1 to 6"},
+      {kTwo, "degree=\"2\"", "degree=\"17\"", 6, "degree is 17, expected 1 to 16"},
       {kTwo, "degree=\"2\"", "degree=\"two\"", 6,
        "attribute 'degree' of <KnotVector> is 'two', expected a whole number"},
       {kTwo, "degree=\"2\"", "mode=\"uniform\" degree=\"2\"", 6, "<KnotVector> has mode='uniform'"},

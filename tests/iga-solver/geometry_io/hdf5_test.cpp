@@ -99,7 +99,7 @@ TEST(Hdf5, SaysWhatWasGivenAndWhatWasExpected) {
        [](File& f) {
          f.degrees = {0, 1};
        },
-       "/patches/0/knots_xi: degree is 0, expected 1 to 6"},
+       "/patches/0/knots_xi: degree is 0, expected 1 to 16"},
       {"volume without zeta",
        [](File& f) {
          f.degrees = {2, 1, 1};

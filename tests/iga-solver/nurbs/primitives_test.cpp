@@ -288,8 +288,8 @@ TEST(Primitives, SayWhatWasGivenAndWhatWasExpected) {
       {[=] { arc(nan, 90); }, "angles are [nan, 90]"},
       {[] { refined(arc(0, 360), 6, 2); }, "6 elements on a curve of 4 pieces, expected a multiple of 4"},
       {[] { refined(arc(0, 90), 0, 2); }, "0 elements on a curve of 1 pieces"},
-      {[] { refined(arc(0, 90), 1, 1); }, "degree is 1, expected 2 to 6"},
-      {[] { refined(arc(0, 90), 1, 7); }, "degree is 7, expected 2 to 6"},
+      {[] { refined(arc(0, 90), 1, 1); }, "degree is 1, expected 2 to 16"},
+      {[] { refined(arc(0, 90), 1, 17); }, "degree is 17, expected 2 to 16"},
       {[] {
          frame({0, 0, 0}, {0, 0, 0});
        },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "geometry_io/hdf5_process.h"
+#include "geometry_io/reader_process.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>
@@ -23,12 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kReader = "nurbs-read-hdf5";
-
 // A file in memory, without a name.
 class MemoryFile {
  public:
-  MemoryFile() : descriptor_(memfd_create("hdf5", MFD_CLOEXEC)) {
+  MemoryFile() : descriptor_(memfd_create("geometry", MFD_CLOEXEC)) {
     if (descriptor_ < 0) throw std::runtime_error(fmt::format("no file in memory: {}", std::strerror(errno)));
   }
   ~MemoryFile() { close(descriptor_); }
@@ -74,18 +72,19 @@ fs::path folder_of_library() {
 }
 
 // The reader's path, or its bare name, which posix_spawnp looks up in PATH.
-std::string find_reader() {
+std::string find_reader(const char* name) {
   for (const fs::path& start : {folder_of_program(), folder_of_library()})
     for (fs::path folder = start; folder.has_relative_path(); folder = folder.parent_path())
       for (const char* below : {"", "bin", "iga-solver/app"}) {
-        const fs::path reader = folder / below / kReader;
+        const fs::path reader = folder / below / name;
         if (access(reader.c_str(), X_OK) == 0) return reader;
       }
-  return kReader;
+  return name;
 }
 
 // Starts the reader with `in` and `out` as its standard files, all signals as they are by default.
-pid_t start(const std::string& reader, const MemoryFile& in, const MemoryFile& out) {
+pid_t start(const ReaderProgram& program, const std::vector<std::string>& words, const MemoryFile& in,
+            const MemoryFile& out) {
   posix_spawn_file_actions_t files;
   posix_spawn_file_actions_init(&files);
   posix_spawn_file_actions_adddup2(&files, in.descriptor(), STDIN_FILENO);
@@ -101,16 +100,16 @@ pid_t start(const std::string& reader, const MemoryFile& in, const MemoryFile& o
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
 
   pid_t process = 0;
-  char* const arguments[] = {const_cast<char*>(kReader), nullptr};
-  const int problem = posix_spawnp(&process, reader.c_str(), &files, &attributes, arguments, environ);
+  std::vector<char*> arguments{const_cast<char*>(program.name)};
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const int problem = posix_spawnp(&process, find_reader(program.name).c_str(), &files, &attributes,
+                                   arguments.data(), environ);
   posix_spawn_file_actions_destroy(&files);
   posix_spawnattr_destroy(&attributes);
   if (problem != 0)
     throw std::runtime_error(
-        fmt::format("HDF5 of another program, which needs the program '{0}' to be read: {1}; expected it "
-                    "beside this one or "
-                    "in PATH, or a file that nurbs-convert wrote",
-                    kReader, std::strerror(problem)));
+        fmt::format("{} (program {}: {})", program.without, program.name, std::strerror(problem)));
   return process;
 }
 
@@ -123,19 +122,32 @@ int wait_for(pid_t process) {
 
 }  // namespace
 
-std::string unpack_in_own_process(const std::string& bytes) {
+const ReaderProgram kHdf5Reader{"nurbs-read-hdf5", "HDF5",
+                                "HDF5 of another program, which needs the program 'nurbs-read-hdf5' to be "
+                                "read, expected beside this one or "
+                                "in PATH; or a file that nurbs-convert wrote"};
+const ReaderProgram kStepReader{
+    "nurbs-read-step", "OpenCASCADE",
+    "STEP and IGES are read by the program 'nurbs-read-step', expected beside this one or in PATH: it is "
+    "built "
+    "where OpenCASCADE is found, which inputs/setup installs; or take a file that nurbs-convert wrote (.h5)"};
+
+std::string read_in_own_process(const ReaderProgram& program, const std::string& bytes,
+                                const std::vector<std::string>& arguments) {
   const MemoryFile in, out;
   in.write(bytes);
-  const int status = wait_for(start(find_reader(), in, out));
+  const int status = wait_for(start(program, arguments, in, out));
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM))
-    throw std::runtime_error("damaged: HDF5 comes to no end with it");
+    throw std::runtime_error(fmt::format("damaged: {} comes to no end with it", program.library));
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
-    throw std::runtime_error(fmt::format("{} was killed: more time or memory than allowed", kReader));
+    throw std::runtime_error(fmt::format("{} was killed: more time or memory than allowed", program.name));
   if (WIFSIGNALED(status))
-    throw std::runtime_error(fmt::format("damaged: HDF5 crashes on it ({})", strsignal(WTERMSIG(status))));
+    throw std::runtime_error(
+        fmt::format("damaged: {} crashes on it ({})", program.library, strsignal(WTERMSIG(status))));
   std::string answer = out.read();
   if (is_encoded(answer)) return answer;
-  throw std::runtime_error(answer.empty() ? "damaged: HDF5 gives up on it" : answer);
+  throw std::runtime_error(answer.empty() ? fmt::format("damaged: {} gives up on it", program.library)
+                                          : answer);
 }
 
 }  // namespace geometry_io

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "geometry_io/step_entities.h"
+
+#include <fmt/format.h>
+
+#include <Interface_Check.hxx>
+#include <Interface_CheckIterator.hxx>
+#include <Interface_InterfaceModel.hxx>
+#include <StepData_StepModel.hxx>
+#include <StepShape_FaceSurface.hxx>
+#include <TCollection_HAsciiString.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TransferBRep.hxx>
+#include <Transfer_Binder.hxx>
+#include <Transfer_TransientProcess.hxx>
+#include <XSControl_TransferReader.hxx>
+#include <XSControl_WorkSession.hxx>
+#include <map>
+#include <stdexcept>
+
+namespace geometry_io {
+namespace {
+
+using Model = Handle(StepData_StepModel);
+
+Model model_of(const STEPControl_Reader& reader) { return reader.StepModel(); }
+
+bool begins(const std::string& text, const char* start) { return text.rfind(start, 0) == 0; }
+
+// Shapes and geometry: what is wrong with anything else does no harm to a wall.
+bool matters(const Handle(Standard_Transient) & entity) {
+  const std::string type = entity->DynamicType()->Name();
+  return begins(type, "StepShape_") || begins(type, "StepGeom_");
+}
+
+std::string named(const Model& model, const Handle(Standard_Transient) & entity) {
+  std::string type = model->TypeName(entity, false);
+  return fmt::format("#{} ({})", model->IdentLabel(entity), type.substr(type.rfind('_') + 1));
+}
+
+std::string first_fail(const Handle(Interface_Check) & check) {
+  return check->NbFails() > 0 ? check->CFail(1) : "";
+}
+
+}  // namespace
+
+void refuse_broken_entities(const STEPControl_Reader& reader) {
+  const Model model = model_of(reader);
+  if (model.IsNull() || model->NbEntities() == 0)
+    throw std::runtime_error("no entity in it, expected STEP with a DATA section");
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Handle(Interface_Check) check = model->Check(i, true);
+    const Handle(Standard_Transient) entity = model->Value(i);
+    if (check->HasFailed() && (matters(entity) || model->IsRedefinedContent(i)))
+      throw std::runtime_error(fmt::format("{}: {}", named(model, entity), first_fail(check)));
+  }
+}
+
+void note_entities(const STEPControl_Reader& reader, StepLabels& labels) {
+  const Model model = model_of(reader);
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  for (int i = 1; i <= process->NbMapped(); ++i) {
+    const auto face = Handle(StepShape_FaceSurface)::DownCast(process->Mapped(i));
+    if (face.IsNull()) continue;
+    const Handle(Transfer_Binder) binder = process->MapItem(i);
+    const TopoDS_Shape shape = binder.IsNull() ? TopoDS_Shape() : TransferBRep::ShapeResult(binder);
+    if (shape.IsNull())
+      throw std::runtime_error(fmt::format(
+          "{}: OpenCASCADE can make no face of it{}", named(model, face),
+          binder.IsNull() || !binder->Check()->HasFailed() ? "" : ": " + first_fail(binder->Check())));
+    const std::string name = face->Name().IsNull() ? "" : face->Name()->ToCString();
+    for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next())
+      labels.Bind(it.Current().Located(TopLoc_Location()), {name, -1, model->IdentLabel(face)});
+  }
+}
+
+std::vector<std::string> messages_of(const XSControl_Reader& reader) {
+  std::map<std::string, int> count;
+  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  Interface_CheckIterator checks = process->CheckList(false);
+  for (checks.Start(); checks.More(); checks.Next()) {
+    const Handle(Interface_Check) check = checks.Value();
+    for (int i = 1; i <= check->NbWarnings(); ++i) ++count[check->CWarning(i)];
+    for (int i = 1; i <= check->NbFails(); ++i) ++count[check->CFail(i)];
+  }
+  std::vector<std::string> lines;
+  for (const auto& [text, times] : count) lines.push_back(fmt::format("{} x {}", times, text));
+  return lines;
+}
+
+}  // namespace geometry_io

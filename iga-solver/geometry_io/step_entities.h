@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The entities of a file and what OpenCASCADE has made of them.
+#pragma once
+
+#include <STEPControl_Reader.hxx>
+#include <XSControl_Reader.hxx>
+#include <string>
+#include <vector>
+
+#include "geometry_io/step_document.h"
+
+namespace geometry_io {
+
+/// Throws std::runtime_error "#12 (EDGE_CURVE): ..." if an entity of a shape or its geometry is wrong.
+void refuse_broken_entities(const STEPControl_Reader& reader);
+/// Numbers and names of the faces' entities.  Throws std::runtime_error if one became no face.
+void note_entities(const STEPControl_Reader& reader, StepLabels& labels);
+/// What OpenCASCADE warns of, a line for each kind, with its number.
+std::vector<std::string> messages_of(const XSControl_Reader& reader);
+
+}  // namespace geometry_io

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "geometry_io/step_reader.h"
+
+#include <fmt/format.h>
+
+#include <BRepBndLib.hxx>
+#include <BRepBuilderAPI_Sewing.hxx>
+#include <BRepLib.hxx>
+#include <BRep_Tool.hxx>
+#include <Bnd_Box.hxx>
+#include <Geom_RectangularTrimmedSurface.hxx>
+#include <Standard_Failure.hxx>
+#include <TopExp.hxx>
+#include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "geometry_io/input_error.h"
+#include "geometry_io/step_curves.h"
+#include "geometry_io/step_document.h"
+#include "geometry_io/step_faces.h"
+#include "geometry_io/step_loops.h"
+
+namespace geometry_io {
+namespace {
+
+constexpr double kSewing = 1e-6;  // of the size
+
+Handle(Geom_Surface) untrimmed(Handle(Geom_Surface) surface) {
+  for (auto part = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface); !part.IsNull();
+       part = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface))
+    surface = part->BasisSurface();
+  return surface;
+}
+
+class ModelMaker {
+ public:
+  ModelMaker(StepDocument document, const StepOptions& options)
+      : document_(std::move(document)), options_(options) {}
+
+  brep::CadModel model() {
+    model_.unit = document_.unit;
+    model_.healed = document_.healed;
+    for (const StepBody& body : document_.bodies) add_body(body);
+    return std::move(model_);
+  }
+
+ private:
+  void add_body(const StepBody& body) {
+    const int number = static_cast<int>(model_.solids.size());
+    const size_t first = model_.faces.size();
+    const TopoDS_Shape shape = body.solid ? body.shape : sewn(body);
+    BRepLib::BuildCurves3d(shape);
+    for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next())
+      add_face(TopoDS::Face(it.Current()), number);
+    const bool closed = body.solid && is_closed(first);
+    if (body.solid && !closed)
+      model_.healed.push_back(
+          fmt::format("solid {} '{}' has free edges: it is a sheet, not a body", number + 1, body.name));
+    if (!closed)
+      for (size_t f = first; f < model_.faces.size(); ++f) model_.faces[f].outward = 0;
+    model_.solids.push_back({body.name, body.colour, closed});
+  }
+
+  // Faces that lie side by side without a common edge get one.
+  TopoDS_Shape sewn(const StepBody& body) {
+    Bnd_Box box;
+    BRepBndLib::Add(body.shape, box, false);
+    const double tolerance = kSewing * std::sqrt(std::max(box.SquareExtent(), 0.0));
+    BRepBuilderAPI_Sewing sewing(tolerance);
+    int count = 0;
+    for (TopExp_Explorer it(body.shape, TopAbs_FACE); it.More(); it.Next(), ++count) sewing.Add(it.Current());
+    if (count < 2) return body.shape;
+    TopTools_IndexedMapOfShape before, after;
+    TopExp::MapShapes(body.shape, TopAbs_EDGE, before);
+    sewing.Perform();
+    const TopoDS_Shape result = sewing.SewedShape();
+    if (result.IsNull()) return body.shape;
+    TopExp::MapShapes(result, TopAbs_EDGE, after);
+    if (after.Extent() >= before.Extent()) return body.shape;
+    for (TopExp_Explorer it(body.shape, TopAbs_FACE); it.More(); it.Next())
+      if (const StepLabel* label = document_.labels.Seek(it.Current().Located(TopLoc_Location()))) {
+        const StepLabel kept = *label;
+        document_.labels.Bind(sewing.Modified(it.Current()).Located(TopLoc_Location()), kept);
+      }
+    model_.healed.push_back(fmt::format("sheet '{}': {} edges sewn to {} within {:.3g} mm (1e-6 of its size)",
+                                        body.name, before.Extent(), after.Extent(), tolerance));
+    return result;
+  }
+
+  void add_face(const TopoDS_Face& face, int solid) {
+    brep::CadFace out;
+    out.number = static_cast<int>(model_.faces.size()) + 1;
+    out.solid = solid;
+    if (const StepLabel* label = document_.labels.Seek(face.Located(TopLoc_Location()))) {
+      out.entity = label->entity;
+      out.colour = label->colour;
+      out.name = one_line(label->name);
+    }
+    try {
+      shape_face(face, out);
+    } catch (const std::exception& error) {
+      throw std::runtime_error(fmt::format("{}: {}", place(out), error.what()));
+    } catch (const Standard_Failure& failure) {
+      throw std::runtime_error(
+          fmt::format("{}: OpenCASCADE fails: {}", place(out), failure.GetMessageString()));
+    }
+    model_.faces.push_back(std::move(out));
+  }
+
+  static std::string place(const brep::CadFace& face) {
+    return fmt::format("face {}{}{}", face.number, face.entity > 0 ? fmt::format(" (#{})", face.entity) : "",
+                       face.name.empty() ? "" : fmt::format(" '{}'", face.name));
+  }
+
+  void shape_face(const TopoDS_Face& face, brep::CadFace& out) {
+    const Handle(Geom_Surface) geometry = BRep_Tool::Surface(face);
+    if (geometry.IsNull()) throw std::runtime_error("no surface, expected one");
+    if (std::abs(face.Location().Transformation().ScaleFactor() - 1.0) > 1e-12)
+      throw std::runtime_error("placed with another scale or as a mirror image, expected its own geometry");
+    const GeomAdaptor_Surface surface(untrimmed(geometry));
+    const RawLoops raw = loops_of(face, surface);
+    const ParameterBox box = box_of(raw.loops);
+    bool fitted_surface = false;
+    ReadSurface read = surface_of(surface, box, options_.offset_tolerance, fitted_surface);
+    int fitted = raw.fitted;
+    out.loops = mapped(
+        raw, read, box, [&](const TopoDS_Edge& edge) { return edge_number(edge); }, fitted);
+    out.shape = read.shape;
+    if (read.patch) {
+      out.shape.patch = static_cast<int>(model_.patches.size());
+      model_.patches.push_back(std::move(*read.patch));
+    }
+    set_range(out.loops, out.shape);
+    out.tolerance = BRep_Tool::Tolerance(face);
+    const int side = read.same_side() ? 1 : -1;
+    out.outward = face.Orientation() == TopAbs_FORWARD    ? side
+                  : face.Orientation() == TopAbs_REVERSED ? -side
+                                                          : 0;
+    report(out, fitted_surface, fitted, raw.widest_gap);
+  }
+
+  void report(const brep::CadFace& face, bool fitted_surface, int fitted, double gap) {
+    if (fitted_surface)
+      model_.healed.push_back(fmt::format("{}: its surface was fitted within {:.3g} mm", place(face),
+                                          std::max(options_.offset_tolerance, 1e-9)));
+    if (fitted > 0)
+      model_.healed.push_back(fmt::format("{}: {} curves of its border fitted within 1e-10 of its parameters",
+                                          place(face), fitted));
+    if (gap > 0.0)
+      model_.healed.push_back(fmt::format("{}: gaps in its border up to {:.3g} mm closed", place(face), gap));
+  }
+
+  int edge_number(const TopoDS_Edge& edge) {
+    const int known = edges_.FindIndex(edge);
+    if (known > 0) return known - 1;
+    edges_.Add(edge);
+    bool fitted = false;
+    brep::CadEdge out = edge_of(edge, 1e-9, fitted);
+    out.tolerance = BRep_Tool::Tolerance(edge);
+    const TopoDS_Edge along = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
+    out.vertex[0] = vertex_number(TopExp::FirstVertex(along));
+    out.vertex[1] = vertex_number(TopExp::LastVertex(along));
+    model_.edges.push_back(std::move(out));
+    if (fitted)
+      model_.healed.push_back(
+          fmt::format("edge {}: its curve was fitted within 1e-9 mm", model_.edges.size()));
+    return static_cast<int>(model_.edges.size()) - 1;
+  }
+
+  int vertex_number(const TopoDS_Vertex& vertex) {
+    if (vertex.IsNull()) return -1;
+    const int known = vertices_.FindIndex(vertex);
+    if (known > 0) return known - 1;
+    vertices_.Add(vertex);
+    model_.vertices.push_back({vector(BRep_Tool::Pnt(vertex)), BRep_Tool::Tolerance(vertex)});
+    return static_cast<int>(model_.vertices.size()) - 1;
+  }
+
+  // Each edge twice in the loops of the faces from this one on.
+  bool is_closed(size_t first) const {
+    std::vector<int> uses(model_.edges.size(), 0);
+    for (size_t f = first; f < model_.faces.size(); ++f)
+      for (const brep::Loop& loop : model_.faces[f].loops)
+        for (const brep::Trim& trim : loop)
+          if (trim.edge >= 0) ++uses[trim.edge];
+    return std::none_of(uses.begin(), uses.end(), [](int n) { return n == 1; });
+  }
+
+  StepDocument document_;
+  const StepOptions options_;
+  brep::CadModel model_;
+  TopTools_IndexedMapOfShape edges_, vertices_;
+};
+
+}  // namespace
+
+brep::CadModel read_step(const std::string& bytes, const StepOptions& options) {
+  try {
+    return ModelMaker(step_document(bytes), options).model();
+  } catch (const Standard_Failure& failure) {
+    throw std::runtime_error(fmt::format("OpenCASCADE fails: {}", failure.GetMessageString()));
+  }
+}
+
+}  // namespace geometry_io
