@@ -122,9 +122,19 @@ class FromCad {
   void add_trims(const CadFace& face) {
     for (const Loop& loop : face.loops) {
       first_of_loop_.push_back(static_cast<int>(trims_.size()));
-      for (const Trim& trim : loop) trims_.push_back({faces_done_, trim.edge, trim.forward, &trim});
+      for (const Trim& trim : loop) {
+        trims_.push_back({faces_done_, trim.edge, trim.forward, &trim});
+        if (trim.edge < 0 && face.shape.kind == Kind::nurbs) add_pole(face.shape.patch, trim);
+      }
     }
     ++faces_done_;
+  }
+
+  void add_pole(int patch, const Trim& trim) {
+    const std::vector<BezierCurve<2>> curves = beziers(trim.curve);
+    const Eigen::Vector2d from = curves.front().at(0.0), to = curves.back().at(1.0);
+    const Parameter<2> start{from[0], from[1]};
+    surface_.poles.push_back({faces_done_, start, {to[0], to[1]}, surface_.patches->point(patch, start)});
   }
 
   void add_edges() {

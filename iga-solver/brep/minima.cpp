@@ -135,7 +135,8 @@ bool Minima::in_group(const Vertex& vertex, int group, const Vector3& w) const {
     if (corner.group[0] != group && corner.group[1] != group) continue;
     for (const int ray : corner.ray)
       if (ray >= 0 && !is_off_ray(ray, w)) return false;
-    if (!corner.reflex && surface_.faces[corner.face].kind != Kind::cone) continue;
+    const Kind kind = surface_.faces[corner.face].kind;
+    if (!corner.reflex && kind != Kind::cone && (kind != Kind::nurbs || surface_.poles.empty())) continue;
     if (Sector(surface_, vertex, corner).steepest(w, 0.0) > corner_slack_) return false;
   }
   return true;

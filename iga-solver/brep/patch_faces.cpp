@@ -24,6 +24,15 @@ nurbs::SurfaceShape PatchFaces::shape(int p, const Parameter<2>& xi) const {
   return nurbs::shape_near(patches_[p].space, patches_[p].control_points, xi);
 }
 
+Vector3 PatchFaces::tangent(int p, const Parameter<2>& xi, int i) const {
+  nurbs::RationalBasis<2> basis;
+  nurbs::evaluate(patches_[p].space, xi, 1, basis);
+  Vector3 tangent = Vector3::Zero();
+  for (int a = 0; a < basis.count; ++a)
+    tangent += basis.dR[i][a] * patches_[p].control_points.col(basis.control_point[a]);
+  return tangent;
+}
+
 bool PatchFaces::on_border(int p, const Parameter<2>& xi) const {
   for (int i = 0; i < 2; ++i) {
     const nurbs::KnotVector& knots = patches_[p].space.knots(i);

@@ -25,6 +25,8 @@ class PatchFaces {
   Vector3 point(int p, const Parameter<2>& xi) const;
   /// Point, normal along dS/dxi0 x dS/dxi1, curvatures; at a pole those of a point beside it.
   nurbs::SurfaceShape shape(int p, const Parameter<2>& xi) const;
+  /// d S / d xi_i [length / parameter]
+  Vector3 tangent(int p, const Parameter<2>& xi, int i) const;
   /// Whether xi is at an end of a range of the patch's parameters.
   bool on_border(int p, const Parameter<2>& xi) const;
 

@@ -105,6 +105,13 @@ struct Borders {
 
 constexpr double kEdgeAngle = 0.02;  ///< of edges that count as smooth, if nothing else is said [rad]
 
+/// A side of a patch's parameters that is one point in space, or a part of one.
+struct Pole {
+  int face;
+  Parameter<2> from, to;
+  Vector3 point;
+};
+
 struct Surface {
   std::vector<Face> faces;
   std::vector<Piece> pieces;  ///< of one face in a row
@@ -123,6 +130,7 @@ struct Surface {
   // Of trimmed faces; nothing if there are none.
   std::vector<TrimDomain> domains;               ///< of every face
   std::shared_ptr<const PatchFaces> patches;     ///< of faces of kind nurbs
+  std::vector<Pole> poles;                       ///< of patches
   std::vector<Chunk> chunks;                     ///< of one edge in a row
   std::vector<double> edge_slack, vertex_slack;  ///< in place of `slack`, not less [length]
   static constexpr int kGuides = 17;
