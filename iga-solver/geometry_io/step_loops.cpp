@@ -89,7 +89,7 @@ class LoopMaker {
 
   // OpenCASCADE's tolerance of an edge should say it, and does not always.
   double gap_from(const TopoDS_Edge& edge, const Geom2d_Curve& border, double from, double to) const {
-    constexpr int kPlaces = 6;
+    constexpr int kPlaces = 40;
     double first, last, gap = 0.0;
     const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
     if (curve.IsNull()) return 0.0;
@@ -155,6 +155,13 @@ class LoopMaker {
     return surface_.Value(a.x(), a.y()).Distance(surface_.Value(b.x(), b.y()));
   }
 
+  // How far a straight piece from a to b leads away from a: the parameters of a pole may be far apart.
+  double widest_on_bridge(const Vector2d& a, const Vector2d& b) const {
+    double gap = 0.0;
+    for (const double part : {0.25, 0.5, 0.75, 1.0}) gap = std::max(gap, gap_in_space(a, a + part * (b - a)));
+    return gap;
+  }
+
   double allowed_gap(const RawTrim& a, const RawTrim& b) const {
     double allowed = BRep_Tool::Tolerance(face_);
     for (const TopoDS_Edge& edge : {a.edge, b.edge}) {
@@ -190,7 +197,7 @@ class LoopMaker {
         continue;
       }
       closed.push_back(trim);
-      const double gap = gap_in_space(a, b);
+      const double gap = widest_on_bridge(a, b);
       if (i + 1 == loop.size() && !turns(b - a).isZero(0.0))
         throw std::runtime_error(
             "a border that goes round without a seam, expected one that is closed in the parameters");
