@@ -4,7 +4,7 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/liggghts-nurbs)
 set(header_dir ${CMAKE_INSTALL_INCLUDEDIR}/liggghts-nurbs)
 
-install(TARGETS nurbs nurbs_search nurbs_brep geometry_io nurbs_vtk structure iga_io iga_ranks iga_parallel coupling coupling_contact coupling_iga coupling_plugin structure_plugin project_warnings
+install(TARGETS nurbs nurbs_search nurbs_brep geometry_io geometry_io_splines nurbs_vtk structure iga_io iga_ranks iga_parallel coupling coupling_contact coupling_iga coupling_plugin structure_plugin project_warnings
   EXPORT liggghts-nurbs-targets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT liggghts-nurbs-targets NAMESPACE liggghts_nurbs:: DESTINATION ${package_dir})

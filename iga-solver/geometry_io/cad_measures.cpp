@@ -60,6 +60,9 @@ Parameter<2> parameter_at(const AnySpline& curve, double t) {
 
 constexpr int kRule = nurbs::kMaxGaussPoints;  // points of Gauss's rule
 
+// Into how many an element is cut for the rule.
+int pieces_for(int degree) { return (degree + 2) / 3; }
+
 // Area between xi0 = low and this, for each unit of xi1: the antiderivative of |S_0 x S_1|.
 double strip(const CadModel& model, const CadFace& face, const Parameter<2>& xi) {
   const brep::Face& s = face.shape;
@@ -82,12 +85,15 @@ double strip(const CadModel& model, const CadFace& face, const Parameter<2>& xi)
   const std::vector<double>& breaks = patch.space.knots(0).breaks();
   const auto rule = nurbs::gauss_legendre(kRule);
   double sum = 0.0;
+  const int pieces = pieces_for(patch.space.degree(0));
   for (size_t e = 0; e + 1 < breaks.size(); ++e) {
-    const double a = std::max(breaks[e], s.low[0]), b = std::min(breaks[e + 1], xi[0]);
-    if (!(a < b)) continue;
-    for (int i = 0; i < kRule; ++i) {
-      const Tangents t = of_patch(patch, {0.5 * (a + b) + 0.5 * (b - a) * rule.points[i], xi[1]}, 1);
-      sum += 0.5 * (b - a) * rule.weights[i] * t.along[0].cross(t.along[1]).norm();
+    const double begin = std::max(breaks[e], s.low[0]), end = std::min(breaks[e + 1], xi[0]);
+    for (int k = 0; k < pieces && begin < end; ++k) {
+      const double half = 0.5 * (end - begin) / pieces, middle = begin + (2 * k + 1) * half;
+      for (int i = 0; i < kRule; ++i) {
+        const Tangents t = of_patch(patch, {middle + half * rule.points[i], xi[1]}, 1);
+        sum += half * rule.weights[i] * t.along[0].cross(t.along[1]).norm();
+      }
     }
   }
   return sum;
@@ -112,12 +118,13 @@ double swept(const CadModel& model, const CadFace& face, const brep::Trim& trim)
   const AnySpline curve = homogeneous(trim.curve);
   const auto rule = nurbs::gauss_legendre(kRule);
   const bool patch = face.shape.kind == FaceKind::nurbs;
-  const int elements = patch ? model.patches[face.shape.patch].space.knots(1).element_count() : 1;
-  const int pieces =
-      patch
-          ? std::clamp(2 * elements / std::max<int>(1, static_cast<int>(curve.points.cols()) - curve.degree),
-                       1, 64)
-          : 4;
+  int elements = 2;
+  if (patch) {
+    const nurbs::KnotVector& knots = model.patches[face.shape.patch].space.knots(1);
+    elements = knots.element_count() * pieces_for(knots.degree());
+  }
+  const int spans = std::max<int>(1, static_cast<int>(curve.points.cols()) - curve.degree);
+  const int pieces = std::clamp(2 * elements / spans, patch ? 1 : 4, 64);
   const std::vector<double> parts = smooth_parts(curve, pieces);
   double sum = 0.0;
   for (size_t i = 0; i + 1 < parts.size(); ++i) {

@@ -11,7 +11,7 @@
 int main(int argc, char** argv) {
   geometry_io::StepOptions options;
   if (argc > 1) options.offset_tolerance = std::strtod(argv[1], nullptr);
-  return geometry_io::answer_with(60, 100000, [&](const std::string& bytes) {
+  return geometry_io::answer_with(15, 50000, [&](const std::string& bytes) {
     geometry_io::Hdf5Builder file;
     add_cad_file(geometry_io::read_step(bytes, options), "mm-g-ms", file);
     return encoded(file.contents());

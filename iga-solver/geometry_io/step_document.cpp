@@ -27,7 +27,9 @@
 #include <XCAFDoc_DocumentTool.hxx>
 #include <XCAFDoc_ShapeTool.hxx>
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <map>
 #include <regex>
 #include <sstream>
 #include <stdexcept>
@@ -174,10 +176,20 @@ class Collector {
   StepLabels solids_;
 };
 
+// In lower case, written out.
+std::string unit_name(std::string name) {
+  std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+  static const std::map<std::string, std::string> abbreviated{
+      {"mm", "millimetre"}, {"cm", "centimetre"}, {"m", "metre"}, {"in", "inch"}, {"ft", "foot"}};
+  const auto found = abbreviated.find(name);
+  return found == abbreviated.end() ? name : found->second;
+}
+
 std::string joined_units(const TColStd_SequenceOfAsciiString& names) {
   std::vector<std::string> all;
   for (const TCollection_AsciiString& name : names)
-    if (std::find(all.begin(), all.end(), name.ToCString()) == all.end()) all.emplace_back(name.ToCString());
+    if (std::find(all.begin(), all.end(), unit_name(name.ToCString())) == all.end())
+      all.push_back(unit_name(name.ToCString()));
   return fmt::format("{}", fmt::join(all, ", "));
 }
 
@@ -194,6 +206,9 @@ void refuse_external_files(const STEPCAFControl_Reader& reader) {
 }
 
 StepDocument read_step_file(const std::string& bytes) {
+  if (bytes.find("END-ISO-10303-21", bytes.size() - std::min<size_t>(bytes.size(), 4096)) ==
+      std::string::npos)
+    throw std::runtime_error("ends early: no END-ISO-10303-21 at its end, expected a whole file");
   STEPCAFControl_Controller::Init();  // before what follows, or it is lost
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   Interface_Static::SetIVal("read.stepcaf.subshapes.name", 1);
@@ -216,13 +231,25 @@ StepDocument read_step_file(const std::string& bytes) {
   TColStd_SequenceOfAsciiString lengths, angles, solid_angles;
   reader.ChangeReader().FileUnits(lengths, angles, solid_angles);
   out.unit = joined_units(lengths);
-  note_entities(reader.Reader(), out.labels);
-  Collector(out).collect(document);
+  if (out.unit.empty() || out.unit == "milli" || out.unit == "centi" || out.unit == "kilo")
+    throw std::runtime_error("no unit of length in it, expected one");
   out.healed = messages_of(reader.Reader());
+  const std::vector<std::string> split = note_entities(reader.Reader(), out.labels);
+  out.healed.insert(out.healed.end(), split.begin(), split.end());
+  Collector(out).collect(document);
   return out;
 }
 
+// The last line of 80 columns names section T.
+bool has_end_of_iges(const std::string& bytes) {
+  const size_t last = bytes.find_last_not_of(" \r\n");
+  const size_t line = last == std::string::npos ? last : bytes.find_last_of("\r\n", last) + 1;
+  return last != std::string::npos && last - line >= 72 && bytes[line + 72] == 'T';
+}
+
 StepDocument read_iges_file(const std::string& bytes) {
+  if (!has_end_of_iges(bytes))
+    throw std::runtime_error("no STEP, and no IGES that is whole: its last line is no section T");
   IGESCAFControl_Reader reader;
   Interface_Static::SetCVal("xstep.cascade.unit", "MM");
   const int file = memfd_create("iges", MFD_CLOEXEC);
@@ -238,9 +265,9 @@ StepDocument read_iges_file(const std::string& bytes) {
   out.iges = true;
   const auto model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
   if (!model.IsNull() && !model->GlobalSection().UnitName().IsNull())
-    out.unit = clean(model->GlobalSection().UnitName()->ToCString());
-  Collector(out).collect(document);
+    out.unit = unit_name(clean(model->GlobalSection().UnitName()->ToCString()));
   out.healed = messages_of(reader);
+  Collector(out).collect(document);
   return out;
 }
 

@@ -7,6 +7,8 @@
 #include <Interface_CheckIterator.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <StepData_StepModel.hxx>
+#include <StepGeom_CartesianPoint.hxx>
+#include <StepGeom_Direction.hxx>
 #include <StepShape_FaceSurface.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
@@ -17,6 +19,9 @@
 #include <XSControl_WorkSession.hxx>
 #include <map>
 #include <stdexcept>
+#include <unordered_set>
+
+#include "nurbs/usable_number.h"
 
 namespace geometry_io {
 namespace {
@@ -34,8 +39,23 @@ bool matters(const Handle(Standard_Transient) & entity) {
 }
 
 std::string named(const Model& model, const Handle(Standard_Transient) & entity) {
-  std::string type = model->TypeName(entity, false);
-  return fmt::format("#{} ({})", model->IdentLabel(entity), type.substr(type.rfind('_') + 1));
+  const std::string type = model->TypeName(entity, false);
+  return fmt::format("#{} ({})", model->IdentLabel(entity), type);
+}
+
+// OpenCASCADE takes both and then does not end, or makes up something.
+std::string problem_of(const Handle(Standard_Transient) & entity) {
+  if (const auto point = Handle(StepGeom_CartesianPoint)::DownCast(entity); !point.IsNull()) {
+    for (int i = 1; i <= point->NbCoordinates(); ++i)
+      if (const double x = point->CoordinatesValue(i); !nurbs::is_usable(x))
+        return fmt::format("coordinate {}, expected a finite number of at most 1e+100", x);
+  } else if (const auto direction = Handle(StepGeom_Direction)::DownCast(entity); !direction.IsNull()) {
+    double square = 0.0;
+    for (int i = 1; i <= direction->NbDirectionRatios(); ++i)
+      square += direction->DirectionRatiosValue(i) * direction->DirectionRatiosValue(i);
+    if (!(square > 0.0 && nurbs::is_usable(square))) return "a direction of no length, expected one";
+  }
+  return "";
 }
 
 std::string first_fail(const Handle(Interface_Check) & check) {
@@ -48,15 +68,22 @@ void refuse_broken_entities(const STEPControl_Reader& reader) {
   const Model model = model_of(reader);
   if (model.IsNull() || model->NbEntities() == 0)
     throw std::runtime_error("no entity in it, expected STEP with a DATA section");
+  std::unordered_set<int> numbers;
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const Handle(Interface_Check) check = model->Check(i, true);
     const Handle(Standard_Transient) entity = model->Value(i);
     if (check->HasFailed() && (matters(entity) || model->IsRedefinedContent(i)))
       throw std::runtime_error(fmt::format("{}: {}", named(model, entity), first_fail(check)));
+    const std::string problem = problem_of(entity);
+    if (!problem.empty()) throw std::runtime_error(fmt::format("{}: {}", named(model, entity), problem));
+    const int number = model->IdentLabel(entity);
+    if (number > 0 && !numbers.insert(number).second)
+      throw std::runtime_error(named(model, entity) + ": a number that two entities have, expected one");
   }
 }
 
-void note_entities(const STEPControl_Reader& reader, StepLabels& labels) {
+std::vector<std::string> note_entities(const STEPControl_Reader& reader, StepLabels& labels) {
+  std::vector<std::string> split;
   const Model model = model_of(reader);
   const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
   for (int i = 1; i <= process->NbMapped(); ++i) {
@@ -69,9 +96,12 @@ void note_entities(const STEPControl_Reader& reader, StepLabels& labels) {
           "{}: OpenCASCADE can make no face of it{}", named(model, face),
           binder.IsNull() || !binder->Check()->HasFailed() ? "" : ": " + first_fail(binder->Check())));
     const std::string name = face->Name().IsNull() ? "" : face->Name()->ToCString();
-    for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next())
+    int count = 0;
+    for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next(), ++count)
       labels.Bind(it.Current().Located(TopLoc_Location()), {name, -1, model->IdentLabel(face)});
+    if (count != 1) split.push_back(fmt::format("{} became {} faces", named(model, face), count));
   }
+  return split;
 }
 
 std::vector<std::string> messages_of(const XSControl_Reader& reader) {

@@ -13,8 +13,9 @@ namespace geometry_io {
 
 /// Throws std::runtime_error "#12 (EDGE_CURVE): ..." if an entity of a shape or its geometry is wrong.
 void refuse_broken_entities(const STEPControl_Reader& reader);
-/// Numbers and names of the faces' entities.  Throws std::runtime_error if one became no face.
-void note_entities(const STEPControl_Reader& reader, StepLabels& labels);
+/// Numbers and names of the faces' entities.  Says which of them became several faces.  Throws
+/// std::runtime_error if one became no face.
+std::vector<std::string> note_entities(const STEPControl_Reader& reader, StepLabels& labels);
 /// What OpenCASCADE warns of, a line for each kind, with its number.
 std::vector<std::string> messages_of(const XSControl_Reader& reader);
 

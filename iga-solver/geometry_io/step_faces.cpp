@@ -15,6 +15,7 @@
 
 #include "geometry_io/step_curves.h"
 #include "nurbs/max_degree.h"
+#include "nurbs/usable_number.h"
 
 namespace geometry_io {
 namespace {
@@ -227,6 +228,14 @@ ReadSurface approximated(const GeomAdaptor_Surface& s, const ParameterBox& box, 
 
 }  // namespace
 
+namespace {
+double positive(double radius, const char* what) {
+  if (!(radius > 0.0 && nurbs::is_usable(radius)))
+    throw std::runtime_error(fmt::format("a {} of radius {}, expected a number > 0", what, radius));
+  return radius;
+}
+}  // namespace
+
 ReadSurface surface_of(const GeomAdaptor_Surface& surface, const ParameterBox& box, double tolerance,
                        bool& fitted_anew) {
   constexpr double kFitted = 1e-9;  // of curves that are swept [mm]
@@ -235,20 +244,20 @@ ReadSurface surface_of(const GeomAdaptor_Surface& surface, const ParameterBox& b
       return plane(surface.Plane());
     case GeomAbs_Cylinder: {
       ReadSurface read = closed_form(Kind::cylinder, axes_of(surface.Cylinder().Position(), 1.0));
-      read.shape.R = surface.Cylinder().Radius();
+      read.shape.R = positive(surface.Cylinder().Radius(), "cylinder");
       return read;
     }
     case GeomAbs_Cone:
       return cone(surface.Cone(), box);
     case GeomAbs_Sphere: {
       ReadSurface read = closed_form(Kind::sphere, axes_of(surface.Sphere().Position(), 1.0));
-      read.shape.R = surface.Sphere().Radius();
+      read.shape.R = positive(surface.Sphere().Radius(), "sphere");
       return read;
     }
     case GeomAbs_Torus: {
       ReadSurface read = closed_form(Kind::torus, axes_of(surface.Torus().Position(), 1.0));
-      read.shape.R = surface.Torus().MajorRadius();
-      read.shape.r = surface.Torus().MinorRadius();
+      read.shape.R = positive(surface.Torus().MajorRadius(), "torus");
+      read.shape.r = positive(surface.Torus().MinorRadius(), "tube");
       if (!(read.shape.R > read.shape.r))
         throw std::runtime_error(
             fmt::format("a torus of radii {} and {} that meets itself, expected a tube that is thinner",

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <BRep_Tool.hxx>
+#include <GeomAPI_ProjectPointOnCurve.hxx>
 #include <TopExp.hxx>
 #include <TopoDS.hxx>
 #include <TopoDS_Iterator.hxx>
@@ -79,10 +80,33 @@ class LoopMaker {
       if (!trim.forward) trim.curve = reversed(trim.curve);
       trim.edge = edge;
       trim.pole = BRep_Tool::Degenerated(edge);
+      if (!trim.pole) trim.gap = gap_from(edge, *curve, from, to);
       raw_.fitted += fitted ? 1 : 0;
       loop.push_back(std::move(trim));
     }
     return loop;
+  }
+
+  // OpenCASCADE's tolerance of an edge should say it, and does not always.
+  double gap_from(const TopoDS_Edge& edge, const Geom2d_Curve& border, double from, double to) const {
+    constexpr int kPlaces = 40;
+    double first, last, gap = 0.0;
+    const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
+    if (curve.IsNull()) return 0.0;
+    const bool alike = BRep_Tool::SameParameter(edge) && first == from && last == to;
+    for (int i = 0; i <= kPlaces; ++i) {
+      const double t = from + (to - from) * i / kPlaces;
+      const gp_Pnt2d p = border.Value(t);
+      const gp_Pnt there = surface_.Value(p.X(), p.Y());
+      gap = std::max(gap, alike ? there.Distance(curve->Value(t)) : distance(there, curve, first, last));
+    }
+    return gap;
+  }
+
+  static double distance(const gp_Pnt& point, const Handle(Geom_Curve) & curve, double first, double last) {
+    const double ends = std::min(point.Distance(curve->Value(first)), point.Distance(curve->Value(last)));
+    const GeomAPI_ProjectPointOnCurve feet(point, curve, first, last);
+    return feet.NbPoints() > 0 ? std::min(ends, feet.LowerDistance()) : ends;
   }
 
   // How large the face is in its parameters.
@@ -131,6 +155,13 @@ class LoopMaker {
     return surface_.Value(a.x(), a.y()).Distance(surface_.Value(b.x(), b.y()));
   }
 
+  // How far a straight piece from a to b leads away from a: the parameters of a pole may be far apart.
+  double widest_on_bridge(const Vector2d& a, const Vector2d& b) const {
+    double gap = 0.0;
+    for (const double part : {0.25, 0.5, 0.75, 1.0}) gap = std::max(gap, gap_in_space(a, a + part * (b - a)));
+    return gap;
+  }
+
   double allowed_gap(const RawTrim& a, const RawTrim& b) const {
     double allowed = BRep_Tool::Tolerance(face_);
     for (const TopoDS_Edge& edge : {a.edge, b.edge}) {
@@ -166,7 +197,7 @@ class LoopMaker {
         continue;
       }
       closed.push_back(trim);
-      const double gap = gap_in_space(a, b);
+      const double gap = widest_on_bridge(a, b);
       if (i + 1 == loop.size() && !turns(b - a).isZero(0.0))
         throw std::runtime_error(
             "a border that goes round without a seam, expected one that is closed in the parameters");
@@ -273,7 +304,7 @@ ParameterBox box_of(const std::vector<RawLoop>& loops) {
 }
 
 std::vector<brep::Loop> mapped(const RawLoops& raw, const ReadSurface& surface, const ParameterBox& box,
-                               const std::function<int(const TopoDS_Edge&)>& edge_number, int& fitted_count) {
+                               const std::function<int(const RawTrim&)>& edge_number, int& fitted_count) {
   std::vector<brep::Loop> loops;
   for (const RawLoop& from : raw.loops) {
     brep::Loop loop;
@@ -281,7 +312,7 @@ std::vector<brep::Loop> mapped(const RawLoops& raw, const ReadSurface& surface, 
       AnySpline curve = mapped_curve(trim.curve, surface, box, fitted_count);
       const bool turn = !surface.same_side();
       if (turn) curve = reversed(curve);
-      loop.push_back({finished<2>(curve), trim.pole ? -1 : edge_number(trim.edge), trim.forward != turn});
+      loop.push_back({finished<2>(curve), trim.pole ? -1 : edge_number(trim), trim.forward != turn});
     }
     if (!surface.same_side()) std::reverse(loop.begin(), loop.end());
     loops.push_back(std::move(loop));

@@ -17,6 +17,7 @@ struct RawTrim {
   AnySpline curve;
   TopoDS_Edge edge;     ///< null: made to close a gap
   bool forward = true;  ///< the edge's curve in space runs along it
+  double gap = 0.0;     ///< from the edge in space, at the same parameters [mm]
   bool pole = false;    ///< the edge is nowhere in space
 };
 using RawLoop = std::vector<RawTrim>;
@@ -31,10 +32,10 @@ struct RawLoops {
 RawLoops loops_of(const TopoDS_Face& face, const GeomAdaptor_Surface& surface);
 ParameterBox box_of(const std::vector<RawLoop>& loops);
 
-/// In our parameters, the face at the left of them there.  `edge_number(edge)` from 0.  `fitted` counts
+/// In our parameters, the face at the left of them there.  `edge_number(trim)` from 0.  `fitted` counts
 /// curves that the map does not leave splines, which are fitted within 1e-10 of the box.
 std::vector<brep::Loop> mapped(const RawLoops& raw, const ReadSurface& surface, const ParameterBox& box,
-                               const std::function<int(const TopoDS_Edge&)>& edge_number, int& fitted);
+                               const std::function<int(const RawTrim&)>& edge_number, int& fitted);
 /// The box of loops, to some 1e-15 of its size.
 void set_range(const std::vector<brep::Loop>& loops, brep::Face& face);
 

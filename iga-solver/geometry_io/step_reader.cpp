@@ -8,6 +8,7 @@
 #include <BRepLib.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
+#include <Eigen/Geometry>
 #include <Geom_RectangularTrimmedSurface.hxx>
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
@@ -27,7 +28,8 @@
 namespace geometry_io {
 namespace {
 
-constexpr double kSewing = 1e-6;  // of the size
+constexpr double kSewing = 1e-6, kWidestGap = 5e-3;  // of the size
+constexpr double kSmallest = 1e-3;  // size of a model whose tolerances are told apart from it [mm]
 
 Handle(Geom_Surface) untrimmed(Handle(Geom_Surface) surface) {
   for (auto part = Handle(Geom_RectangularTrimmedSurface)::DownCast(surface); !part.IsNull();
@@ -45,6 +47,7 @@ class ModelMaker {
     model_.unit = document_.unit;
     model_.healed = document_.healed;
     for (const StepBody& body : document_.bodies) add_body(body);
+    refuse_wide_gaps();
     return std::move(model_);
   }
 
@@ -128,7 +131,7 @@ class ModelMaker {
     ReadSurface read = surface_of(surface, box, options_.offset_tolerance, fitted_surface);
     int fitted = raw.fitted;
     out.loops = mapped(
-        raw, read, box, [&](const TopoDS_Edge& edge) { return edge_number(edge); }, fitted);
+        raw, read, box, [&](const RawTrim& trim) { return edge_number(trim); }, fitted);
     out.shape = read.shape;
     if (read.patch) {
       out.shape.patch = static_cast<int>(model_.patches.size());
@@ -154,13 +157,18 @@ class ModelMaker {
       model_.healed.push_back(fmt::format("{}: gaps in its border up to {:.3g} mm closed", place(face), gap));
   }
 
-  int edge_number(const TopoDS_Edge& edge) {
+  int edge_number(const RawTrim& trim) {
+    const TopoDS_Edge& edge = trim.edge;
     const int known = edges_.FindIndex(edge);
-    if (known > 0) return known - 1;
+    if (known > 0) {
+      double& tolerance = model_.edges[known - 1].tolerance;
+      tolerance = std::max(tolerance, trim.gap);
+      return known - 1;
+    }
     edges_.Add(edge);
     bool fitted = false;
     brep::CadEdge out = edge_of(edge, 1e-9, fitted);
-    out.tolerance = BRep_Tool::Tolerance(edge);
+    out.tolerance = std::max(BRep_Tool::Tolerance(edge), trim.gap);
     const TopoDS_Edge along = TopoDS::Edge(edge.Oriented(TopAbs_FORWARD));
     out.vertex[0] = vertex_number(TopExp::FirstVertex(along));
     out.vertex[1] = vertex_number(TopExp::LastVertex(along));
@@ -178,6 +186,23 @@ class ModelMaker {
     vertices_.Add(vertex);
     model_.vertices.push_back({vector(BRep_Tool::Pnt(vertex)), BRep_Tool::Tolerance(vertex)});
     return static_cast<int>(model_.vertices.size()) - 1;
+  }
+
+  // Where borders miss their edges by so much, curves have been mixed up.
+  void refuse_wide_gaps() const {
+    Eigen::AlignedBox3d box;
+    for (const brep::CadVertex& vertex : model_.vertices) box.extend(vertex.point);
+    const double size = box.isEmpty() ? 0.0 : box.diagonal().norm();
+    for (const brep::CadFace& face : model_.faces)
+      for (const brep::Loop& loop : face.loops)
+        for (const brep::Trim& trim : loop) {
+          const double gap = trim.edge < 0 ? 0.0 : model_.edges[trim.edge].tolerance;
+          if (gap > kWidestGap * size && size > kSmallest)
+            throw std::runtime_error(
+                fmt::format("{}: an edge of its border that its faces miss by up to {:.3g} mm, expected {} "
+                            "of the size at most",
+                            place(face), gap, kWidestGap));
+        }
   }
 
   // Each edge twice in the loops of the faces from this one on.

@@ -77,8 +77,8 @@ TEST(FileKind, ARefusalNamesTheWayOut) {
   };
   EXPECT_THAT(read("x.step", kStep),
               ThrowsMessage<InputError>(
-                  AllOf(StartsWith("x.step: is a STEP file, expected NURBS patches in YAML, HDF5"),
-                        HasSubstr("none of our programs reads CAD files"))));
+                  AllOf(StartsWith("x.step: is a STEP file, expected another kind of file"),
+                        HasSubstr("geometry: {file: NAME}"))));
   EXPECT_THAT(read("x.yaml", kTextStl), ThrowsMessage<InputError>(HasSubstr("from files called .stl")));
   EXPECT_THAT(read("x.yaml", kHdf5), ThrowsMessage<InputError>(HasSubstr("geometry: {file: NAME}")));
 }

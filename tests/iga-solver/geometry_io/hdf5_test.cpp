@@ -86,7 +86,7 @@ TEST(Hdf5, SaysWhatWasGivenAndWhatWasExpected) {
       {"other format", [](File& f) { f.format = "mesh"; },
        "/: attribute 'format' is 'mesh', expected 'nurbs-geometry'"},
       {"no version", [](File& f) { f.version.clear(); }, "/: attribute 'version' is missing"},
-      {"later version", [](File& f) { f.version = {2}; }, "/: attribute 'version' is 2, expected 1"},
+      {"later version", [](File& f) { f.version = {3}; }, "/: attribute 'version' is 3, expected 1 or 2"},
       {"no units", [](File& f) { f.units = ""; }, "/: attribute 'units' is missing"},
       {"other units", [](File& f) { f.units = "inch"; },
        "/: units is 'inch', expected one of: si, cgs, mm-g-ms, mm-t-s"},

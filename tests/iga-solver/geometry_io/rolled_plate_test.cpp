@@ -40,7 +40,7 @@ Volume plate(int degree) {
 
 TEST(RolledPlate, HasItsThicknessEverywhereForEveryDegree) {
   shapes::Random random(3);
-  for (int degree = 2; degree <= kMaxDegree; ++degree) {
+  for (int degree = 2; degree <= kMaxVolumeDegree; ++degree) {
     const Volume volume = plate(degree);
     EXPECT_EQ(volume.space.element_count(), 11 * 3);
     for (int k = 0; k < 500; ++k) {

@@ -219,7 +219,7 @@ TEST(Patch, RefusesBadWeightsAndControlPoints) {
 // A box and a plane are affine in their parameters, on graded meshes of any degree and domain.
 TEST(Primitives, BoxIsAffine) {
   shapes::Random random(6);
-  for (int degree = 1; degree <= kMaxDegree; ++degree) {
+  for (int degree = 1; degree <= kMaxVolumeDegree; ++degree) {
     const Vector3 origin(-1, 2, 0.5), size(3, 0.2, 5);
     const Volume volume = box(origin, size,
                               {KnotVector::from_breaks(degree, {0, .1, .4, 1}),
