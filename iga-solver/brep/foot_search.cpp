@@ -18,7 +18,11 @@ FootSearch::FootSearch(const Surface& surface)
       tree_(surface),
       triangles_(plane_triangles(surface)),
       neighbours_(surface),
-      same_point_(10.0 * surface.slack) {}
+      same_point_(10.0 * surface.slack) {
+  normals_.resize(surface.faces.size());
+  for (const PlaneTriangle& triangle : triangles_)
+    if (triangle.exists()) normals_[triangle.face()] = triangle.normal();
+}
 
 void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) const {
   const size_t begin = pieces.size();

@@ -48,8 +48,8 @@ class FootSearch {
                   search::Foot& foot) const {
     const PlaneTriangle& triangle = triangles_[piece];
     if (!triangle.exists()) return foot_inside_curved(piece, d, reach, charts, foot);
-    const OverTriangle at = triangle.over(d);
     foot.patch = triangle.face();
+    const OverTriangle at = triangle.over(d, normals_[foot.patch]);
     foot.xi = charts ? (*charts)[foot.patch].to_patch(at.xi) : at.xi;
     foot.point = d - at.height * at.normal;
     foot.distance = std::abs(at.height);
@@ -68,6 +68,7 @@ class FootSearch {
   const Surface& surface_;
   PieceTree tree_;
   std::vector<PlaneTriangle> triangles_;
+  std::vector<Vector3> normals_;  // of plane faces, as their triangles have it
   SmoothNeighbours neighbours_;
   double same_point_;
 };

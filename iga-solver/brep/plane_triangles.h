@@ -29,11 +29,14 @@ class alignas(64) PlaneTriangle {
   bool exists() const { return face_ >= 0; }
   int face() const { return face_; }
 
-  /// `place` where that is over the triangle for certain.
-  OverTriangle over(const Vector3& d) const {
-    const Vector3 from = d - origin_, normal = x_.cross(y_);
+  /// Of the face; worked out.
+  Vector3 normal() const { return x_.cross(y_); }
+  /// `place` where that is over the triangle for certain; `normal` as normal() has it.
+  OverTriangle over(const Vector3& d, const Vector3& normal) const {
+    const Vector3 from = d - origin_;
     return {OverTriangle::Where::over, normal, normal.dot(from), {x_.dot(from), y_.dot(from)}};
   }
+  OverTriangle over(const Vector3& d) const { return over(d, normal()); }
   /// Least distance of a point's foot on the plane from a side, negative beyond one [length].
   double inside(const Vector3& d) const;
 
