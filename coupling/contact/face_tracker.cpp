@@ -158,9 +158,10 @@ void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
   state.alone = -1;
   state.margin = margin;
   const int* const first = pieces_.data() + candidates_.image_elements(candidate)->first;
-  if (candidate.image_count == 1 && piece_counts_[candidate.first_image] == 1 &&
+  const int number = piece_counts_[candidate.first_image];
+  if (candidate.image_count == 1 && number > 0 &&
       candidates_.images()[candidates_.image_elements(candidate)->image].isZero(0.0) &&
-      search_.is_well_inside(*first, query.centre, state.reach, margin))
+      search_.is_well_inside(first, number, query.centre, state.reach, margin))
     state.alone = *first;
 }
 

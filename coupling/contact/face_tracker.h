@@ -35,7 +35,7 @@ class FaceTracker final : public FeetTracker {
     nurbs::Vector3 last = nurbs::Vector3::Zero();    // its foot in the last step, if it had one alone
     int sheet = -1, side = 0;                        // of that and its face; -1: none, or its list is new
     int looks = 0;                                   // at these pieces
-    int alone = -1;       // of these the only one, which the candidate is well inside of ...
+    int alone = -1;       // one of these, if all are of one face, which the candidate is well inside of ...
     double margin = 0.0;  // ... as long as it has not moved by more
   };
   enum class Of { list, chosen };

@@ -72,12 +72,23 @@ void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int cou
   minima.finish(neighbours_);
 }
 
-bool FootSearch::is_well_inside(int number, const Vector3& d, double reach, double margin) const {
-  const Piece& piece = surface_.pieces[number];
-  if (piece.triangle()) {
-    const double inside = triangles_[number].inside(d), height = triangles_[number].over(d).height;
-    return inside >= margin && inside * inside + height * height > reach * reach;
+bool FootSearch::is_well_inside(const int* pieces, int count, const Vector3& d, double reach,
+                                double margin) const {
+  const Piece& first = surface_.pieces[*pieces];
+  if (!first.triangle()) return count == 1 && is_well_inside_curved(first, d, reach);
+  const double height = triangles_[*pieces].over(d).height;
+  bool is_over = false;
+  for (const int* number = pieces; number < pieces + count; ++number) {
+    const Piece& piece = surface_.pieces[*number];
+    if (piece.face != first.face) return false;
+    const double in = triangles_[*number].from_border(d, piece);
+    if (in < margin || in * in + height * height <= reach * reach) return false;
+    is_over |= triangles_[*number].inside(d) >= 0.0;
   }
+  return is_over;
+}
+
+bool FootSearch::is_well_inside_curved(const Piece& piece, const Vector3& d, double reach) const {
   const Borders& borders = surface_.borders[piece.edge[0]];
   for (int i = 0; i < 4; ++i) {
     if (borders.use[i] >= 0 &&

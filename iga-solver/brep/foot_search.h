@@ -37,13 +37,13 @@ class FootSearch {
   /// Appends the feet of d nearer than `reach`, given all pieces that are (more do no harm).
   void feet(const Vector3& d, double reach, const int* pieces, int count, std::vector<Foot>& out) const;
 
-  /// Whether d is over this piece so far from its borders that they are not within `reach`, and it stays over
-  /// it while it moves by less than `margin`.  If no other piece is within reach either, d has one foot at
-  /// most, as long as it moves by less than that.
-  bool is_well_inside(int piece, const Vector3& d, double reach, double margin) const;
-  /// That foot, if it is nearer than `reach`: sets its parameters (of the patch if there is a chart), point,
-  /// distance and patch.  The result is the side of the face that looks to d; 0: there is none for certain,
-  /// ask feet().
+  /// Whether d is over these pieces, of one face, so far from its borders that they are not within `reach`,
+  /// and it stays over them while it moves by less than `margin`.  If no other piece is within reach either,
+  /// d has one foot at most, as long as it moves by less than that.
+  bool is_well_inside(const int* pieces, int count, const Vector3& d, double reach, double margin) const;
+  /// That foot, given any of these pieces, if it is nearer than `reach`: sets its parameters (of the patch if
+  /// there is a chart), point, distance and patch.  The result is the side of the face that looks to d; 0:
+  /// there is none for certain, ask feet().
   int foot_inside(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
                   search::Foot& foot) const {
     const PlaneTriangle& triangle = triangles_[piece];
@@ -60,6 +60,7 @@ class FootSearch {
   double same_point() const { return same_point_; }
 
  private:
+  bool is_well_inside_curved(const Piece& piece, const Vector3& d, double reach) const;
   int foot_inside_curved(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
                          search::Foot& foot) const;
 

@@ -37,6 +37,20 @@ double PlaneTriangle::inside(const Vector3& d) const {
   return least;
 }
 
+double PlaneTriangle::from_border(const Vector3& d, const Piece& piece) const {
+  using Point = Eigen::Vector2d;
+  const Parameter<2> xi = over(d).xi;
+  double least2 = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    if (piece.edge[i] < 0) continue;
+    const Point a = Point::Map(corner_[i]), way = Point::Map(corner_[(i + 1) % 3]) - a;
+    const Point from = Point::Map(xi.data()) - a;
+    const double t = std::clamp(from.dot(way) / way.squaredNorm(), 0.0, 1.0);
+    least2 = std::min(least2, (from - t * way).squaredNorm());
+  }
+  return std::sqrt(least2);
+}
+
 std::vector<PlaneTriangle> plane_triangles(const Surface& surface) {
   std::vector<PlaneTriangle> triangles;
   triangles.reserve(surface.pieces.size());

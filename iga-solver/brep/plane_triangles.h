@@ -39,6 +39,9 @@ class alignas(64) PlaneTriangle {
   OverTriangle over(const Vector3& d) const { return over(d, normal()); }
   /// Least distance of a point's foot on the plane from a side, negative beyond one [length].
   double inside(const Vector3& d) const;
+  /// Least distance of that foot from those sides of this piece where the face ends; infinite if none does
+  /// [length].
+  double from_border(const Vector3& d, const Piece& piece) const;
 
   /// Too far is what is not nearer than `reach` for certain; over it is what is not farther than `slack`
   /// beyond a side [length].
