@@ -14,7 +14,7 @@ using nurbs::Vector3;
 namespace {
 
 // Of its reach: how far a particle moves before it chooses pieces again; from where on it chooses none.
-constexpr double kMargin = 0.2, kNear = 1.1;
+constexpr double kMargin = 0.05, kNear = 1.05;
 constexpr int kCalm = 8;  // looks at the same pieces, after which it may do with fewer
 constexpr double kNoWay = std::numeric_limits<double>::infinity();
 
@@ -108,7 +108,7 @@ FeetRange FaceTracker::feet_of_fast(const Query& query, const ParticleSlots& slo
 
 // Of a particle that is slow, so that the few are enough for a while.
 void FaceTracker::choose_fewer_pieces(const Query& query) {
-  constexpr double kWhile = 32.0, kLeast = 0.01;  // of what it has moved since; of its reach
+  constexpr double kWhile = 16.0, kLeast = 0.01;  // of what it has moved since; of its reach
   const State& state = states_[query.candidate];
   const double moved = (query.centre - state.centre).norm();
   const double margin = std::max(kWhile * moved, kLeast * query.touch_reach);
