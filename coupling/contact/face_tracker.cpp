@@ -13,8 +13,9 @@ using nurbs::Vector3;
 
 namespace {
 
-// Of its reach: how far a particle moves before it chooses pieces again; from where on it chooses none.
-constexpr double kMargin = 0.05, kNear = 1.05;
+// Of its reach: how far a particle moves before it chooses pieces again, over one face and over several; from
+// where on it chooses none.
+constexpr double kMargin = 0.2, kSmallMargin = 0.05, kNear = 1.05;
 constexpr int kCalm = 8;  // looks at the same pieces, after which it may do with fewer
 constexpr double kNoWay = std::numeric_limits<double>::infinity();
 
@@ -83,6 +84,7 @@ FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
     const double distance = nearest(query, query.list_reach, Of::list);
     if (distance > kNear * query.touch_reach) return none(query, slots, distance);
     choose_pieces(query, Of::list, kMargin * query.touch_reach);
+    if (state.alone < 0) choose_pieces(query, Of::chosen, kSmallMargin * query.touch_reach);
   } else if (++state.looks == kCalm) {
     choose_fewer_pieces(query);
   }

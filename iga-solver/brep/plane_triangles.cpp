@@ -32,7 +32,7 @@ double PlaneTriangle::inside(const Vector3& d) const {
     const double *a = corner_[i], *b = corner_[(i + 1) % 3];
     const double way[2] = {b[0] - a[0], b[1] - a[1]};
     const double in = way[0] * (at[1] - a[1]) - way[1] * (at[0] - a[0]);
-    least = std::min(least, in / std::hypot(way[0], way[1]));
+    least = std::min(least, in / std::sqrt(way[0] * way[0] + way[1] * way[1]));
   }
   return least;
 }
