@@ -72,20 +72,19 @@ void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int cou
   minima.finish(neighbours_);
 }
 
+// The point of these pieces that is nearest to a foot beside them would be on a border.
 bool FootSearch::is_well_inside(const int* pieces, int count, const Vector3& d, double reach,
                                 double margin) const {
   const Piece& first = surface_.pieces[*pieces];
   if (!first.triangle()) return count == 1 && is_well_inside_curved(first, d, reach);
   const double height = triangles_[*pieces].over(d).height;
-  bool is_over = false;
   for (const int* number = pieces; number < pieces + count; ++number) {
     const Piece& piece = surface_.pieces[*number];
     if (piece.face != first.face) return false;
     const double in = triangles_[*number].from_border(d, piece);
     if (in < margin || in * in + height * height <= reach * reach) return false;
-    is_over |= triangles_[*number].inside(d) >= 0.0;
   }
-  return is_over;
+  return true;
 }
 
 bool FootSearch::is_well_inside_curved(const Piece& piece, const Vector3& d, double reach) const {

@@ -25,18 +25,6 @@ PlaneTriangle::PlaneTriangle(const Surface& surface, const Piece& piece) {
   leeway_ = kUp * static_cast<float>(off);
 }
 
-double PlaneTriangle::inside(const Vector3& d) const {
-  const Parameter<2> at = over(d).xi;
-  double least = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const double *a = corner_[i], *b = corner_[(i + 1) % 3];
-    const double way[2] = {b[0] - a[0], b[1] - a[1]};
-    const double in = way[0] * (at[1] - a[1]) - way[1] * (at[0] - a[0]);
-    least = std::min(least, in / std::sqrt(way[0] * way[0] + way[1] * way[1]));
-  }
-  return least;
-}
-
 double PlaneTriangle::from_border(const Vector3& d, const Piece& piece) const {
   using Point = Eigen::Vector2d;
   const Parameter<2> xi = over(d).xi;

@@ -37,10 +37,8 @@ class alignas(64) PlaneTriangle {
     return {OverTriangle::Where::over, normal, normal.dot(from), {x_.dot(from), y_.dot(from)}};
   }
   OverTriangle over(const Vector3& d) const { return over(d, normal()); }
-  /// Least distance of a point's foot on the plane from a side, negative beyond one [length].
-  double inside(const Vector3& d) const;
-  /// Least distance of that foot from those sides of this piece where the face ends; infinite if none does
-  /// [length].
+  /// Least distance of a point's foot on the plane from those sides of this piece where the face ends;
+  /// infinite if none does [length].
   double from_border(const Vector3& d, const Piece& piece) const;
 
   /// Too far is what is not nearer than `reach` for certain; over it is what is not farther than `slack`
