@@ -25,6 +25,11 @@ double beyond(const FeetTracker::Query& query) {
   return query.touch_reach * (1.0 + kRoundOff);
 }
 
+// It may come to the surface within a step from farther than it touches.
+bool is_fast(const FeetTracker::Query& query) {
+  return query.squared_travel > query.touch_reach * query.touch_reach;
+}
+
 }  // namespace
 
 inline bool FaceTracker::has_moved_less(const Query& query, const State& state, double than) {
@@ -42,7 +47,7 @@ void FaceTracker::list_is_new() {
 inline bool FaceTracker::find_steady(const Query& query, TrackedFoot& steady) {
   State& state = states_[query.candidate];
   if (state.alone < 0 || state.sheet < 0 || query.contacts != 1) return false;
-  if (query.squared_travel > query.touch_reach * query.touch_reach) return false;
+  if (is_fast(query)) return false;
   const double margin =
       std::min(state.reach - query.touch_reach, state.margin);  // it may have grown or shrunk
   if (!(margin >= 0.0 && has_moved_less(query, state, margin))) return false;
@@ -77,7 +82,7 @@ void FaceTracker::prefetch(const Query& query) const {
 
 FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
   State& state = states_[query.candidate];
-  if (query.squared_travel > query.touch_reach * query.touch_reach) return feet_of_fast(query, slots);
+  if (is_fast(query)) return feet_of_fast(query, slots);
   const double margin = state.reach - query.touch_reach;
   const bool is_near = margin >= 0.0 && has_moved_less(query, state, margin);
   if (!is_near) {
