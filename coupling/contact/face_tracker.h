@@ -4,8 +4,9 @@
 // A foot costs little here, so none is followed: all are found anew in each step that may have one.  Near
 // the wall a candidate looks only at the pieces that it can reach before it has moved by a small part of its
 // radius, the smaller the slower it is; farther away it looks for the nearest piece alone, and then rests
-// until it can be there.  Most that touch have one contact, inside one piece: then nobody looks at others.  A
-// branch is a foot of one sheet (brep/README.md), wherever it moves on it, over edges and vertices too.
+// until it can be there.  Most that touch have one contact, inside one face: follow() finds it, and
+// nobody looks at others.  A branch is a foot of one sheet (brep/README.md), wherever it moves on it, over
+// edges and vertices too.
 #pragma once
 
 #include <vector>
