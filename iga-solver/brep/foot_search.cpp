@@ -18,7 +18,11 @@ FootSearch::FootSearch(const Surface& surface)
       tree_(surface),
       triangles_(plane_triangles(surface)),
       neighbours_(surface),
-      same_point_(kSamePoint * surface.slack) {}
+      same_point_(kSamePoint * surface.slack) {
+  normals_.resize(surface.faces.size());
+  for (const PlaneTriangle& triangle : triangles_)
+    if (triangle.exists()) normals_[triangle.face()] = triangle.normal();
+}
 
 void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) const {
   const size_t begin = pieces.size();
@@ -71,13 +75,23 @@ void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int cou
   minima.finish(neighbours_);
 }
 
-bool FootSearch::is_well_inside(int number, const Vector3& d, double reach, double margin) const {
-  const Piece& piece = surface_.pieces[number];
-  if (!piece.triangle() && !piece.rectangle()) return false;
-  if (piece.triangle()) {
-    const double inside = triangles_[number].inside(d), height = triangles_[number].over(d).height;
-    return inside >= margin && inside * inside + height * height > reach * reach;
+// The point of these pieces that is nearest to a foot beside them would be on a border.
+bool FootSearch::is_well_inside(const int* pieces, int count, const Vector3& d, double reach,
+                                double margin) const {
+  const Piece& first = surface_.pieces[*pieces];
+  if (!first.triangle()) return count == 1 && is_well_inside_curved(first, d, reach);
+  const double height = triangles_[*pieces].over(d).height;
+  for (const int* number = pieces; number < pieces + count; ++number) {
+    const Piece& piece = surface_.pieces[*number];
+    if (piece.face != first.face) return false;
+    const double in = triangles_[*number].from_border(d, piece);
+    if (in < margin || in * in + height * height <= reach * reach) return false;
   }
+  return true;
+}
+
+bool FootSearch::is_well_inside_curved(const Piece& piece, const Vector3& d, double reach) const {
+  if (!piece.rectangle()) return false;
   const Borders& borders = surface_.borders[piece.borders()];
   for (int i = 0; i < 4; ++i) {
     if (borders.use[i] >= 0 &&
