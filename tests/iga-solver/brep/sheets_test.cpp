@@ -54,6 +54,20 @@ TEST(Sheets, TwoPlatesThatCrossHaveASheetForEachSideOfEachWing) {
   EXPECT_EQ(feet(plates, {-0.1, 0.2, 0.5}, 0.3).size(), 2u);
 }
 
+TEST(Sheets, TrianglesThatCoverEachOtherCountTwiceUnlessTheyAreOfOneSheet) {
+  const Vector3 a(0, 0, 0), b(3, 0, 0), c(3, 3, 0), d(0, 3, 0), over(2.0, 1.0, 0.5);
+  Wall plate;
+  plate.add_quad(a, b, c, d);
+  ASSERT_EQ(feet(built(plate), over, 1.0).size(), 1u);
+  Wall other_diagonal = plate, patch = plate, flap = plate;
+  other_diagonal.add_quad(b, c, d, a);
+  patch.add_triangle({1.5, 0.5, 0}, {2.5, 0.5, 0}, {2.2, 1.5, 0});
+  flap.add_triangle(a, c, {2.5, 0.5, 0});  // its free sides join what is above and below
+  EXPECT_EQ(feet(built(other_diagonal), over, 1.0).size(), 2u);
+  EXPECT_EQ(feet(built(patch), over, 1.0).size(), 2u);
+  EXPECT_EQ(feet(built(flap), over, 1.0).size(), 1u);
+}
+
 TEST(Sheets, AFootThatLeavesAFaceOfAConcaveEdgeStaysOnTheEdge) {
   // A blunt corner, 150 degrees: to the left of the edge's plane over one face, the other's foot is on the
   // edge.
