@@ -124,6 +124,9 @@ TEST(Overlaps, TrianglesThatPierceEachOther) {
   expect_pairs(kPlate + std::vector<Corners>{{0.5 * kX - kZ, 0.6 * kX + kZ, 0.4 * kX + kZ}}, 0, 1);
   // from a shared corner
   expect_pairs(kPlate + std::vector<Corners>{{-kX - kY, 0.5 * kX + kZ, 0.5 * kX - kZ}}, 0, 1);
+  // a tip that stands across the plate's rim, in it by more, and by less than 1e-6 of the size
+  for (const auto& [in, pairs] : {std::pair(1e-4, 1L), std::pair(1e-6, 0L)})
+    expect_pairs(kPlate + std::vector<Corners>{{(1.0 - in) * kX, 2.0 * kX + kZ, 2.0 * kX - kZ}}, 0, pairs);
   // a rib through it by more, and by less than 1e-6 of the size
   for (const auto& [through, pairs] : {std::pair(1e-4, 2L), std::pair(1e-6, 0L)})
     expect_pairs(kPlate + square(0.2 * kX - 0.9 * kY - through * kZ, kY, kZ), 0, pairs);
