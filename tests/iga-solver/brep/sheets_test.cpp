@@ -8,6 +8,7 @@
 #include "brep/builder.h"
 #include "brep/foot_search.h"
 #include "brep/summary.h"
+#include "stl_trial.h"
 #include "trials.h"
 
 namespace brep {
@@ -164,6 +165,16 @@ TEST(Trials, RandomWallsAgreeWithTheJudge) {
     for (int k = 0; k < 210; ++k) EXPECT_EQ(trial.try_point(k, count), "") << index << ", point " << k;
   }
   EXPECT_GT(count, 20000);
+}
+
+TEST(Trials, WallsThatWereWrittenToStlFilesAgreeWithTheJudge) {
+  long count = 0;
+  for (int index = 0; index < 48; ++index) {
+    const auto trial = trials::stl_trial(1, index);
+    ASSERT_EQ(trial->try_sheets(), "") << index;
+    for (int k = 0; k < 60; ++k) EXPECT_EQ(trial->try_point(k, count), "") << index << ", point " << k;
+  }
+  EXPECT_GT(count, 10000);
 }
 
 // Exactly over a vertex of a face: the pieces beside see an edge or its end, as round-off has it.
