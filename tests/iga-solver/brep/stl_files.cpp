@@ -112,8 +112,8 @@ void cut_finely(Wall& wall, std::mt19937& random) {
     const bool inside = inside_a_plane(wall, a, b);
     // A strip along a kink is part of the wrong plane if it is within 1e-6 of the size of that.
     const double height = inside || small < 1e-6 ? small : std::max(small, 1e-3);
-    // Shorter sides are one point in a file; shorter edges are bent by its rounding, and feet on them move.
-    const double shortest = (inside ? 3e-5 : 2e-2) / (wall.points[b] - wall.points[a]).norm();
+    // Shorter edges are bent by rounding, and feet on them move.
+    const double shortest = (inside ? 1e-3 : 5e-2) / (wall.points[b] - wall.points[a]).norm();
     if (whole(random, 0, 1) == 1)
       split_inside(wall, t, side, where, height);
     else if (shortest < 0.5)
