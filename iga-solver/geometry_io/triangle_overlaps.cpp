@@ -18,13 +18,13 @@ namespace {
 
 using nurbs::Vector3;
 
-struct Triangle {
+struct FlatTriangle {
   std::array<Vector3, 3> corner;
   Vector3 normal;               // unit
   double lowest_height;         // of its three [length]
   std::array<Vector3, 3> into;  // unit, in its plane, across the side from corner i on
 
-  Triangle(const Vector3& a, const Vector3& b, const Vector3& c) : corner{a, b, c} {
+  FlatTriangle(const Vector3& a, const Vector3& b, const Vector3& c) : corner{a, b, c} {
     const Vector3 twice_area = (b - a).cross(c - a);
     double longest = 0.0;
     normal = twice_area.normalized();
@@ -35,7 +35,7 @@ struct Triangle {
     }
     lowest_height = longest > 0.0 ? twice_area.norm() / longest : 0.0;
   }
-  std::array<double, 3> heights(const Triangle& other) const {
+  std::array<double, 3> heights(const FlatTriangle& other) const {
     std::array<double, 3> h;
     for (int i = 0; i < 3; ++i) h[i] = normal.dot(other.corner[i] - corner[0]);
     return h;
@@ -57,7 +57,7 @@ bool on_both_sides(const std::array<double, 3>& h, double tolerance) {
 }
 
 // Where a triangle with corners on both sides of a plane, at these heights, meets it.
-std::array<Vector3, 2> cut(const Triangle& t, const std::array<double, 3>& h) {
+std::array<Vector3, 2> cut(const FlatTriangle& t, const std::array<double, 3>& h) {
   std::array<Vector3, 2> ends;
   int count = 0;
   for (int i = 0; i < 3 && count < 2; ++i) {
@@ -69,7 +69,7 @@ std::array<Vector3, 2> cut(const Triangle& t, const std::array<double, 3>& h) {
 }
 
 // Heights: of each one's corners over the other.
-bool pierce(const Triangle& a, const Triangle& b, const std::array<double, 3>& ha,
+bool pierce(const FlatTriangle& a, const FlatTriangle& b, const std::array<double, 3>& ha,
             const std::array<double, 3>& hb, double tolerance) {
   if (!on_both_sides(ha, tolerance) || !on_both_sides(hb, tolerance)) return false;
   const std::array<Vector3, 2> p = cut(a, ha), q = cut(b, hb);
@@ -98,7 +98,7 @@ Polygon clipped(const Polygon& polygon, const Vector3& into, const Vector3& orig
 }
 
 // Whether all of b is beyond a side of a, but for the tolerance.
-bool beyond_a_side(const Triangle& a, const Triangle& b, double tolerance) {
+bool beyond_a_side(const FlatTriangle& a, const FlatTriangle& b, double tolerance) {
   for (int i = 0; i < 3; ++i) {
     double inside = 0.0;
     for (const Vector3& x : b.corner) inside = std::max(inside, a.into[i].dot(x - a.corner[i]));
@@ -108,7 +108,7 @@ bool beyond_a_side(const Triangle& a, const Triangle& b, double tolerance) {
 }
 
 // Whether b, seen along the normal of a, covers part of a that is wider than the tolerance.
-bool cover(const Triangle& a, const Triangle& b, double tolerance) {
+bool cover(const FlatTriangle& a, const FlatTriangle& b, double tolerance) {
   if (beyond_a_side(a, b, tolerance) || beyond_a_side(b, a, tolerance)) return false;
   Polygon common{{b.corner[0], b.corner[1], b.corner[2]}, 3};
   for (int i = 0; i < 3 && common.count > 0; ++i) common = clipped(common, a.into[i], a.corner[i]);
@@ -122,7 +122,7 @@ bool cover(const Triangle& a, const Triangle& b, double tolerance) {
   return twice_area.norm() > tolerance * around;  // of a strip: its width
 }
 
-void add(OverlappingPairs& pairs, int i, int j) {
+void add_pair(OverlappingPairs& pairs, int i, int j) {
   const auto [first, second] = std::minmax(i, j);
   if (pairs.count++ == 0 || std::tie(first, second) < std::tie(pairs.first, pairs.second))
     pairs.first = first, pairs.second = second;
@@ -133,12 +133,12 @@ void add(OverlappingPairs& pairs, int i, int j) {
 Overlaps overlaps_of(const TriangleMesh& mesh) {
   const double tolerance =
       kSamePoint * (mesh.points.rowwise().maxCoeff() - mesh.points.rowwise().minCoeff()).norm();
-  std::vector<Triangle> triangles;
+  std::vector<FlatTriangle> triangles;
   std::vector<search::Box> boxes;
   std::vector<int> number;
   for (int t = 0; t < mesh.count(); ++t) {
     const int* c = &mesh.triangles[3 * t];
-    const Triangle triangle(mesh.points.col(c[0]), mesh.points.col(c[1]), mesh.points.col(c[2]));
+    const FlatTriangle triangle(mesh.points.col(c[0]), mesh.points.col(c[1]), mesh.points.col(c[2]));
     if (triangle.lowest_height <= tolerance) continue;  // its plane is unsure
     const auto& x = triangle.corner;
     boxes.push_back({x[0].cwiseMin(x[1]).cwiseMin(x[2]), x[0].cwiseMax(x[1]).cwiseMax(x[2])});
@@ -148,12 +148,12 @@ Overlaps overlaps_of(const TriangleMesh& mesh) {
   }
   Overlaps overlaps;
   for_box_pairs(boxes, [&](int i, int j) {
-    const Triangle &a = triangles[i], &b = triangles[j];
+    const FlatTriangle &a = triangles[i], &b = triangles[j];
     const std::array<double, 3> hb = a.heights(b), ha = b.heights(a);
     if (within(hb, tolerance) ? cover(a, b, tolerance) : within(ha, tolerance) && cover(b, a, tolerance))
-      add(overlaps.in_plane, number[i], number[j]);
+      add_pair(overlaps.in_plane, number[i], number[j]);
     else if (pierce(a, b, ha, hb, tolerance))
-      add(overlaps.piercing, number[i], number[j]);
+      add_pair(overlaps.piercing, number[i], number[j]);
   });
   return overlaps;
 }

@@ -47,7 +47,7 @@ std::vector<Corners> operator+(std::vector<Corners> a, const std::vector<Corners
   return a;
 }
 
-std::vector<Corners> cube() {
+std::vector<Corners> unit_cube() {
   std::vector<Corners> wall;
   for (int d = 0; d < 3; ++d)
     for (const double at : {0.0, 1.0})
@@ -56,7 +56,7 @@ std::vector<Corners> cube() {
 }
 
 // n x 2n triangles, of which those at the poles have no area.
-std::vector<Corners> sphere(int n) {
+std::vector<Corners> unit_sphere(int n) {
   std::vector<Corners> wall;
   const auto at = [n](int i, int j) {
     const double phi = nurbs::kPi * (i % (2 * n)) / n, theta = nurbs::kPi * j / n;
@@ -80,8 +80,8 @@ const Vector3 kX = Vector3::UnitX(), kY = Vector3::UnitY(), kZ = Vector3::UnitZ(
 const std::vector<Corners> kPlate = square(-kX - kY, 2.0 * kX, 2.0 * kY);  // z = 0; its diagonal is x = y
 
 TEST(Overlaps, AProperMeshHasNone) {
-  expect_pairs(cube(), 0, 0);
-  expect_pairs(sphere(40), 0, 0);
+  expect_pairs(unit_cube(), 0, 0);
+  expect_pairs(unit_sphere(40), 0, 0);
 }
 
 TEST(Overlaps, WhatTouchesDoesNotOverlap) {
@@ -133,7 +133,7 @@ TEST(Overlaps, TrianglesThatPierceEachOther) {
 }
 
 TEST(Overlaps, TheFirstPairIsShown) {
-  const Overlaps overlaps = overlaps_of(mesh_of_triangles(cube() + square(5.0 * kX, kX, kY) +
+  const Overlaps overlaps = overlaps_of(mesh_of_triangles(unit_cube() + square(5.0 * kX, kX, kY) +
                                                           square(Vector3(5.6, 0.1, 0), 0.2 * kX, 0.2 * kY) +
                                                           square(Vector3(0.5, 0.1, -0.5), 0.1 * kX, kZ)));
   EXPECT_EQ(overlaps.in_plane.count, 2);
@@ -148,7 +148,7 @@ TEST(Overlaps, TheFirstPairIsShown) {
 using Lattice = std::array<std::int64_t, 3>;
 using LatticeTriangle = std::array<Lattice, 3>;
 
-std::int64_t volume(const Lattice& a, const Lattice& b, const Lattice& c, const Lattice& d) {
+std::int64_t lattice_volume(const Lattice& a, const Lattice& b, const Lattice& c, const Lattice& d) {
   std::int64_t m[3][3];
   for (int k = 0; k < 3; ++k) m[0][k] = b[k] - a[k], m[1][k] = c[k] - a[k], m[2][k] = d[k] - a[k];
   return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
@@ -159,22 +159,23 @@ std::int64_t volume(const Lattice& a, const Lattice& b, const Lattice& c, const 
 bool side_goes_through(const LatticeTriangle& t, const LatticeTriangle& u) {
   for (int i = 0; i < 3; ++i) {
     const Lattice &p = t[i], &q = t[(i + 1) % 3];
-    if ((volume(u[0], u[1], u[2], p) > 0) == (volume(u[0], u[1], u[2], q) > 0)) continue;
-    const bool turn = volume(p, q, u[0], u[1]) > 0;
-    if (turn == (volume(p, q, u[1], u[2]) > 0) && turn == (volume(p, q, u[2], u[0]) > 0)) return true;
+    if ((lattice_volume(u[0], u[1], u[2], p) > 0) == (lattice_volume(u[0], u[1], u[2], q) > 0)) continue;
+    const bool turn = lattice_volume(p, q, u[0], u[1]) > 0;
+    if (turn == (lattice_volume(p, q, u[1], u[2]) > 0) && turn == (lattice_volume(p, q, u[2], u[0]) > 0))
+      return true;
   }
   return false;
 }
-std::int64_t area(const Lattice& a, const Lattice& b, const Lattice& c) {
+std::int64_t lattice_area(const Lattice& a, const Lattice& b, const Lattice& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 // Whether a line along a side of t, in the plane of x and y, has nothing of u on its side.
 bool side_parts(const LatticeTriangle& t, const LatticeTriangle& u) {
   for (int i = 0; i < 3; ++i) {
     const Lattice &p = t[i], &q = t[(i + 1) % 3];
-    const std::int64_t sign = area(t[0], t[1], t[2]) > 0 ? 1 : -1;
+    const std::int64_t sign = lattice_area(t[0], t[1], t[2]) > 0 ? 1 : -1;
     bool parts = true;
-    for (const Lattice& x : u) parts = parts && sign * area(p, q, x) <= 0;
+    for (const Lattice& x : u) parts = parts && sign * lattice_area(p, q, x) <= 0;
     if (parts) return true;
   }
   return false;
@@ -191,7 +192,7 @@ std::vector<LatticeTriangle> random_triangles(std::mt19937& random, int count, b
     LatticeTriangle t;
     for (Lattice& x : t)
       for (int k = 0; k < 3; ++k) x[k] = middle[k] + (flat && k == 2 ? 0 : whole(-width / 5, width / 5));
-    if (std::abs(area(t[0], t[1], t[2])) > width * width / 50) found.push_back(t);
+    if (std::abs(lattice_area(t[0], t[1], t[2])) > width * width / 50) found.push_back(t);
   }
   return found;
 }
