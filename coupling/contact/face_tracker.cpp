@@ -53,9 +53,11 @@ inline bool FaceTracker::find_steady(const Query& query, TrackedFoot& steady) {
       std::min(state.reach - query.touch_reach, state.margin);  // it may have grown or shrunk
   if (!(margin >= 0.0 && has_moved_less(query, state, margin))) return false;
   search::Foot& foot = steady.foot;
+  if (follows_) foot.xi = state.xi;
   const int side = search_.foot_inside(state.alone, query.centre, beyond(query), charts_, foot);
   if (side != state.side) return false;
   state.last = foot.point;
+  if (follows_) state.xi = foot.xi;
   steady.slot = 0;
   steady.side = of_patch(foot.patch, side);
   return true;
@@ -249,6 +251,7 @@ void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
   state.sheet = found_.size() == 1 ? found_[0].sheet : -1;
   state.side = found_[0].side;
   state.last = found_[0].point;
+  state.xi = found_[0].xi;
 }
 
 // Most have one contact, and had it before: then nobody asks the slot where that was.

@@ -23,7 +23,11 @@ class FaceTracker final : public FeetTracker {
   /// Keeps references to all.  `charts`: to the parameters that feet are given in; null: the faces' own.
   FaceTracker(const brep::FootSearch& search, const std::vector<brep::Chart>* charts,
               const CandidateList& candidates, SearchCounts& counts)
-      : FeetTracker(candidates), search_(search), charts_(charts), counts_(counts) {}
+      : FeetTracker(candidates),
+        search_(search),
+        charts_(charts),
+        counts_(counts),
+        follows_(search.surface().patches != nullptr) {}
 
   void list_is_new() override;
   void follow(Query* queries, int count) override;
@@ -34,6 +38,7 @@ class FaceTracker final : public FeetTracker {
     nurbs::Vector3 centre = nurbs::Vector3::Zero();  // when its pieces were chosen
     double reach = 0.0;                              // then; 0: not yet [length]
     nurbs::Vector3 last = nurbs::Vector3::Zero();    // its foot in the last step, if it had one alone
+    nurbs::Parameter<2> xi{};                        // of that, where it is followed (brep::FootSearch)
     int sheet = -1, side = 0;                        // of that and its face; -1: none, or its list is new
     int looks = 0;                                   // at these pieces
     int alone = -1;       // one of these, if all are of one face, which the candidate is well inside of ...
@@ -65,6 +70,7 @@ class FaceTracker final : public FeetTracker {
   const brep::FootSearch& search_;
   const std::vector<brep::Chart>* charts_;
   SearchCounts& counts_;
+  bool follows_;                   // patches, on which feet are followed from where they were
   std::vector<State> states_;      // per candidate
   std::vector<int> pieces_;        // those chosen, of each image at the beginning of its range of elements
   std::vector<int> piece_counts_;  // of these, per image of each candidate

@@ -79,6 +79,7 @@ void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int cou
 bool FootSearch::is_well_inside(const int* pieces, int count, const Vector3& d, double reach,
                                 double margin) const {
   const Piece& first = surface_.pieces[*pieces];
+  if (first.kind == Piece::Kind::element) return is_well_inside_patch(pieces, count, d, reach);
   if (!first.triangle()) return count == 1 && is_well_inside_curved(first, d, reach);
   const double height = triangles_[*pieces].over(d).height;
   for (const int* number = pieces; number < pieces + count; ++number) {
@@ -90,7 +91,19 @@ bool FootSearch::is_well_inside(const int* pieces, int count, const Vector3& d, 
   return true;
 }
 
+// Of a trimmed face edges and vertices would be among the pieces.
+bool FootSearch::is_well_inside_patch(const int* pieces, int count, const Vector3& d, double reach) const {
+  const Piece& first = surface_.pieces[*pieces];
+  const int patch = surface_.faces[first.face].patch;
+  return std::all_of(pieces, pieces + count, [&](int number) {
+    const Piece& piece = surface_.pieces[number];
+    return piece.kind == Piece::Kind::element && piece.face == first.face &&
+           surface_.patches->has_one_foot(patch, piece.element(), d, reach);
+  });
+}
+
 bool FootSearch::is_well_inside_curved(const Piece& piece, const Vector3& d, double reach) const {
+  if (piece.kind == Piece::Kind::trimmed) return true;  // foot_inside() sees to the rest
   if (!piece.rectangle()) return false;
   const Borders& borders = surface_.borders[piece.borders()];
   for (int i = 0; i < 4; ++i) {
@@ -107,12 +120,30 @@ bool FootSearch::is_well_inside_curved(const Piece& piece, const Vector3& d, dou
 int FootSearch::foot_inside_curved(int piece, const Vector3& d, double reach,
                                    const std::vector<Chart>* charts, search::Foot& foot) const {
   foot.patch = surface_.pieces[piece].face;
-  if (!charts) return 0;
+  if (!charts) return surface_.trimmed() ? foot_inside_trimmed(foot.patch, d, reach, foot) : 0;
   const PolarFoot at = surface_.faces[foot.patch].polar_foot(d);
   if (at.many || !(std::abs(at.height) < reach) || !(*charts)[foot.patch].place(at, foot.xi)) return 0;
   foot.point = at.point;
   foot.distance = std::abs(at.height);
   return at.height < 0.0 ? -1 : 1;
+}
+
+int FootSearch::foot_inside_trimmed(int number, const Vector3& d, double reach, search::Foot& foot) const {
+  const Face& face = surface_.faces[number];
+  int side;
+  if (face.kind == Kind::nurbs) {
+    const search::Foot at = surface_.patches->projector(face.patch).warm(d, foot.xi);
+    if (at.status != FootStatus::interior) return 0;
+    foot.xi = at.xi, foot.point = at.point, foot.distance = at.distance;
+    side = surface_.patches->normal(face.patch, at.xi).dot(d - at.point) < 0.0 ? -1 : 1;
+  } else {
+    const Projection at = face.project(d);
+    if (at.many) return 0;
+    foot.xi = at.xi, foot.point = at.point, foot.distance = std::abs(at.height);
+    side = at.height < 0.0 ? -1 : 1;
+  }
+  return foot.distance < reach && side != -face.outward && surface_.domains[number].inside(foot.xi) ? side
+                                                                                                    : 0;
 }
 
 }  // namespace brep

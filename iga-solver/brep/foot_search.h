@@ -42,8 +42,8 @@ class FootSearch {
   /// d has one foot at most, as long as it moves by less than that.
   bool is_well_inside(const int* pieces, int count, const Vector3& d, double reach, double margin) const;
   /// That foot, given any of these pieces, if it is nearer than `reach`: sets its parameters (of the patch if
-  /// there is a chart), point, distance and patch.  The result is the side of the face that looks to d; 0:
-  /// there is none for certain, ask feet().
+  /// there is a chart; on a face that is a patch it goes on from those that stand there), point, distance and
+  /// patch.  The result is the side of the face that looks to d; 0: there is none for certain, ask feet().
   int foot_inside(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
                   search::Foot& foot) const {
     const PlaneTriangle& triangle = triangles_[piece];
@@ -60,7 +60,9 @@ class FootSearch {
   double same_point() const { return same_point_; }
 
  private:
+  bool is_well_inside_patch(const int* pieces, int count, const Vector3& d, double reach) const;
   bool is_well_inside_curved(const Piece& piece, const Vector3& d, double reach) const;
+  int foot_inside_trimmed(int face, const Vector3& d, double reach, search::Foot& foot) const;
   int foot_inside_curved(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
                          search::Foot& foot) const;
 

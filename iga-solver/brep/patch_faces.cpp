@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "brep/patch_faces.h"
 
+#include <Eigen/Geometry>
+#include <array>
 #include <utility>
 
 namespace brep {
@@ -10,6 +12,8 @@ PatchFaces::PatchFaces(std::vector<nurbs::Surface> patches) : patches_(std::move
     nurbs::check_patch(patch);
     const search::PatchPoints points(patch.control_points, 0, patch.space.control_point_count());
     projectors_.push_back(std::make_unique<search::SurfaceProjector>(patch.space, points));
+    constexpr std::array<bool, nurbs::kSideCount> kGoesOn{true, true, true, true};  // edges have their say
+    projectors_.back()->second_foot().begin_list(kGoesOn, 0.0);
     boxes_.emplace_back();
     for (int e = 0; e < patch.space.element_count(); ++e)
       boxes_.back().push_back(search::element_box(patch.space, patch.control_points, e));
@@ -31,6 +35,12 @@ Vector3 PatchFaces::tangent(int p, const Parameter<2>& xi, int i) const {
   for (int a = 0; a < basis.count; ++a)
     tangent += basis.dR[i][a] * patches_[p].control_points.col(basis.control_point[a]);
   return tangent;
+}
+
+Vector3 PatchFaces::normal(int p, const Parameter<2>& xi) const {
+  const Vector3 normal = tangent(p, xi, 0).cross(tangent(p, xi, 1));
+  const double length = normal.norm();
+  return length > 0.0 ? Vector3(normal / length) : shape(p, xi).normal;
 }
 
 bool PatchFaces::on_border(int p, const Parameter<2>& xi) const {

@@ -25,6 +25,13 @@ class PatchFaces {
   Vector3 point(int p, const Parameter<2>& xi) const;
   /// Point, normal along dS/dxi0 x dS/dxi1, curvatures; at a pole those of a point beside it.
   nurbs::SurfaceShape shape(int p, const Parameter<2>& xi) const;
+  /// That of shape(), at less cost.
+  Vector3 normal(int p, const Parameter<2>& xi) const;
+  /// Whether what is within `reach` of d on an element, and around it, has one foot at most, however d moves
+  /// as long as it stays within reach (search::SecondFoot).
+  bool has_one_foot(int p, int element, const Vector3& d, double reach) const {
+    return projectors_[p]->second_foot().excluded_until_next_list(d, reach, element);
+  }
   /// d S / d xi_i [length / parameter]
   Vector3 tangent(int p, const Parameter<2>& xi, int i) const;
   /// Whether xi is at an end of a range of the patch's parameters.
