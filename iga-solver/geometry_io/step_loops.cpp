@@ -24,6 +24,7 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr double kFitted = 1e-10;  // of the parameters
+constexpr double kPole = 1e-3;     // size of what is meant to be a point [mm]
 
 Vector2d first_point(const AnySpline& curve) { return curve.points.col(0).head<2>() / curve.points(2, 0); }
 Vector2d last_point(const AnySpline& curve) {
@@ -80,11 +81,27 @@ class LoopMaker {
       if (!trim.forward) trim.curve = reversed(trim.curve);
       trim.edge = edge;
       trim.pole = BRep_Tool::Degenerated(edge);
-      if (!trim.pole) trim.gap = gap_from(edge, *curve, from, to);
+      if (!trim.pole)
+        trim.gap = gap_from(edge, *curve, from, to);
+      else if (const double away = extent_in_space(*curve, from, to); away > kPole)
+        throw std::runtime_error(
+            fmt::format("an edge that is nowhere in space, but {:.3g} mm long on the surface", away));
       raw_.fitted += fitted ? 1 : 0;
       loop.push_back(std::move(trim));
     }
     return loop;
+  }
+
+  // How far a border leads away from where it begins.
+  double extent_in_space(const Geom2d_Curve& border, double from, double to) const {
+    constexpr int kPlaces = 8;
+    const gp_Pnt2d first = border.Value(from);
+    double away = 0.0;
+    for (int i = 1; i <= kPlaces; ++i) {
+      const gp_Pnt2d p = border.Value(from + (to - from) * i / kPlaces);
+      away = std::max(away, gap_in_space({first.X(), first.Y()}, {p.X(), p.Y()}));
+    }
+    return away;
   }
 
   // OpenCASCADE's tolerance of an edge should say it, and does not always.
