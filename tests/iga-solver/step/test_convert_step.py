@@ -14,8 +14,8 @@ import numpy
 import bad_files
 
 MAKE_STEP_PARTS, NURBS_CONVERT = os.environ["MAKE_STEP_PARTS"], os.environ["NURBS_CONVERT"]
-# Read by what they are, whatever they are called; mended, or read as a sheet with free edges.
-READ = {*bad_files.MENDABLE, "step_inside.igs", "iges_inside.step", "hole_alone_holes.step"}
+# Mended; read by what they are, whatever they are called; a sheet with free edges; numbers that are 0 in a shape that is one.
+READ = {*bad_files.MENDABLE, "step_inside.igs", "iges_inside.step", "hole_alone_holes.step", "garbage_closed_spline.igs"}
 SLOW = {"point_huge_cylinder.step"}
 
 
