@@ -278,6 +278,21 @@ AnySpline mapped_affinely(const AnySpline& curve, const ReadSurface& surface) {
   return out;
 }
 
+// Straight, one parameter being the same all along, and not forth and back.
+bool is_along_parameter(const AnySpline& curve, const ParameterBox& box) {
+  constexpr double kSame = 1e-11;
+  const Eigen::ArrayXXd points = curve.points.topRows<2>().array().rowwise() / curve.points.row(2).array();
+  for (int d = 0; d < 2; ++d) {
+    const Eigen::ArrayXd along = points.row(1 - d);
+    const auto n = along.size();
+    const Eigen::ArrayXd steps = along.tail(n - 1) - along.head(n - 1);
+    const bool same =
+        points.row(d).maxCoeff() - points.row(d).minCoeff() <= kSame * (box.high[d] - box.low[d]);
+    if (same && (steps.minCoeff() >= 0.0 || steps.maxCoeff() <= 0.0)) return true;
+  }
+  return false;
+}
+
 // Not affine: straight pieces along a parameter stay so, others are fitted.
 AnySpline mapped_curve(const AnySpline& curve, const ReadSurface& surface, const ParameterBox& box,
                        int& fitted_count) {
@@ -287,9 +302,8 @@ AnySpline mapped_curve(const AnySpline& curve, const ReadSurface& surface, const
     return q;
   };
   if (surface.map[0].affine() && surface.map[1].affine()) return mapped_affinely(curve, surface);
-  const Vector2d a = first_point(curve), b = last_point(curve);
-  if (curve.degree == 1 && curve.points.cols() == 2 && (a.x() == b.x() || a.y() == b.y()))
-    return segment(map(a), map(b), curve.begin(), curve.end());
+  if (is_along_parameter(curve, box))
+    return segment(map(first_point(curve)), map(last_point(curve)), curve.begin(), curve.end());
   ++fitted_count;
   const auto point = [&](double t) -> VectorXd { return map(curve.point(t)); };
   const Vector2d size{box.high[0] - box.low[0], box.high[1] - box.low[1]};
