@@ -2,12 +2,16 @@
 #include "coupling/face_fields.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "brep/triangle_mesh.h"
+#include "brep/builder.h"
+#include "brep/face_shape.h"
+#include "brep/facets.h"
+#include "brep/piece_distance.h"
 
 namespace coupling {
 namespace {
@@ -35,11 +39,26 @@ double depth_in(const brep::Surface& surface, const brep::Piece& piece, const Ve
   return least;
 }
 
+std::shared_ptr<const brep::Surface> in_triangles(std::shared_ptr<const brep::Surface> wall) {
+  if (!wall->trimmed()) return wall;
+  const nurbs::TriangleMesh mesh = brep::triangles_of(*wall, brep::kFacetChord * wall->size);
+  std::vector<int> corners;
+  for (const std::array<int, 3>& triangle : mesh.triangles)
+    corners.insert(corners.end(), triangle.begin(), triangle.end());
+  return std::make_shared<const brep::Surface>(brep::from_triangles(mesh.vertices, corners));
+}
+
 }  // namespace
 
 FaceFields::FaceFields(MPI_Comm comm, std::shared_ptr<const brep::Surface> surface)
-    : ContactFields(comm, static_cast<int>(surface->pieces.size()), static_cast<int>(surface->pieces.size())),
-      surface_(std::move(surface)),
+    : FaceFields(comm, surface, in_triangles(surface)) {}
+
+FaceFields::FaceFields(MPI_Comm comm, std::shared_ptr<const brep::Surface> surface,
+                       std::shared_ptr<const brep::Surface> triangles)
+    : ContactFields(comm, static_cast<int>(triangles->pieces.size()),
+                    static_cast<int>(triangles->pieces.size())),
+      wall_(std::move(surface)),
+      surface_(std::move(triangles)),
       tree_(*surface_),
       area_(static_cast<Eigen::Index>(surface_->pieces.size())) {
   near_.reserve(surface_->pieces.size());
@@ -49,7 +68,19 @@ FaceFields::FaceFields(MPI_Comm comm, std::shared_ptr<const brep::Surface> surfa
   }
 }
 
+// Triangles are within a chord of the wall.
+int FaceFields::nearest_piece(const Vector3& point) {
+  near_.clear();
+  for (double reach = 2.0 * brep::kFacetChord * wall_->size; near_.empty(); reach *= 2.0)
+    tree_.near(tree_.query(point, reach), near_);
+  return *std::min_element(near_.begin(), near_.end(), [&](int a, int b) {
+    return std::make_pair(brep::distance_of_piece(*surface_, a, point), a) <
+           std::make_pair(brep::distance_of_piece(*surface_, b, point), b);
+  });
+}
+
 int FaceFields::piece_at(const nurbs::SurfacePoint& foot) {
+  if (wall_ != surface_) return nearest_piece(brep::point_on(*wall_, foot.patch, foot.xi));
   const brep::Face& face = surface_->faces[foot.patch];
   const Vector3 point = face.point(foot.xi);
   constexpr double kUneven = 1e-5;  // of the size: triangles are in their face's plane to 1e-6 of it

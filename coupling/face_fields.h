@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What contacts do to a wall of triangles, as fields on it.  A contact belongs to the triangle that its foot
-// is in, so that the sum of area times pressure is the total force; on an edge, to that on one of its sides.
+// What contacts do to a wall of faces, as fields on its triangles, or on triangles near it if its faces are
+// trimmed.  A contact belongs to the triangle that its foot is in, or nearest to, so that the sum of area
+// times pressure is the total force; on an edge, to that on one of its sides.
 #pragma once
 
 #include <memory>
@@ -14,7 +15,7 @@ namespace coupling {
 /// Places and cells are triangles.
 class FaceFields final : public ContactFields {
  public:
-  /// Every rank builds the same.  `surface`: plane faces alone.
+  /// Every rank builds the same.  `surface`: plane faces alone, or trimmed ones.
   FaceFields(MPI_Comm comm, std::shared_ptr<const brep::Surface> surface);
 
   void add(const SurfaceContact& contact) override;
@@ -22,9 +23,12 @@ class FaceFields final : public ContactFields {
               const Selection& selection) override;
 
  private:
+  FaceFields(MPI_Comm comm, std::shared_ptr<const brep::Surface> surface,
+             std::shared_ptr<const brep::Surface> triangles);
   int piece_at(const nurbs::SurfacePoint& foot);
+  int nearest_piece(const Vector3& point);
 
-  std::shared_ptr<const brep::Surface> surface_;
+  std::shared_ptr<const brep::Surface> wall_, surface_;  // surface_: of triangles
   brep::PieceTree tree_;
   Eigen::RowVectorXd area_;
   std::vector<int> near_;  // of one contact

@@ -135,6 +135,8 @@ FingerprintPart geometry_part(const brep::Surface& faces) {
     shapes.insert(shapes.end(), {static_cast<double>(face.kind), face.R, face.r, face.low[0], face.low[1],
                                  face.high[0], face.high[1]});
   }
+  for (const brep::Vertex& vertex : faces.vertices)
+    if (faces.trimmed()) corners.insert(corners.end(), vertex.point.data(), vertex.point.data() + 3);
   for (const brep::Piece& piece : faces.pieces)
     for (const int vertex : piece.vertex)
       if (vertex >= 0)

@@ -6,6 +6,7 @@
 #include "coupling/model_text.h"
 #include "coupling/open_structure.h"
 #include "coupling/rigid/rigid_surface.h"
+#include "geometry_io/cad_placement.h"
 #include "geometry_io/geometry_io.h"
 #include "nurbs/memory.h"
 #include "nurbs/usable_number.h"
@@ -46,11 +47,28 @@ std::unique_ptr<RigidSurface> wall_of_triangles(const geometry_io::TriangleMesh&
       std::make_shared<const brep::Surface>(brep::from_triangles(mesh.points, mesh.triangles, edge_angle)));
 }
 
+// Of a CAD file, whose lengths are already those of `options.units`.
+std::unique_ptr<RigidSurface> wall_of_cad(const geometry_io::GeometryFile& file, const std::string& surface,
+                                          const RigidOptions& options, const std::string& path) {
+  const std::vector<int> faces = geometry_io::named_cad_faces(file, surface, path);
+  try {
+    brep::CadModel model = *file.cad;
+    if (options.placement) geometry_io::place(model, *options.placement);
+    auto wall = std::make_shared<const brep::Surface>(brep::from_cad(model, faces, options.edge_angle));
+    expect_usable((nurbs::NodalVectors(3, 2) << wall->low, wall->high).finished(), path);
+    return std::make_unique<RigidSurface>(std::move(wall));
+  } catch (const std::invalid_argument& error) {
+    throw geometry_io::InputError(fmt::format("{}: {}", path, error.what()));
+  }
+}
+
 OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
                                    const RigidOptions& options) {
-  const bool is_stl = geometry_io::format_of_path(path) == geometry_io::format::stl;
+  const std::optional<geometry_io::Format> format = geometry_io::format_of_path(path);
+  const bool takes_units = format == geometry_io::format::stl || format == geometry_io::format::cad;
   const geometry_io::GeometryFile file = geometry_io::read_geometry(
-      path, reader_on_all_ranks(comm), is_stl ? options.units : geometry_io::Units::si);
+      path, reader_on_all_ranks(comm), takes_units ? options.units : geometry_io::Units::si);
+  if (file.cad) return {wall_of_cad(file, surface, options, path), file.units};
   geometry_io::TriangleMesh triangles = geometry_io::named_triangles(file, surface, path).mesh;
   if (triangles.count() > 0) {
     place(triangles.points, options, path);

@@ -10,6 +10,7 @@
 #include <string>
 #include <tuple>
 
+#include "brep/face_shape.h"
 #include "coupling/force_distribution.h"
 #include "nurbs/assert.h"
 
@@ -167,8 +168,8 @@ const NodalForces& SurfaceExchange::export_add(const std::vector<ContactForce>& 
     NURBS_ASSERT(Vector3::Map(contact.F).allFinite(), contact.tag, contact.F[0], contact.F[1], contact.F[2]);
     const ContactSurface& surface = solver_.surface();
     if (surface.faces)
-      spread(contact, BoxBasis(*surface.faces,
-                               surface.faces->faces[contact.patch].point({contact.xi[0], contact.xi[1]})));
+      spread(contact, BoxBasis(*surface.faces, brep::point_on(*surface.faces, contact.patch,
+                                                              {contact.xi[0], contact.xi[1]})));
     else
       spread(contact, basis_of(contact, surface.topology));
   }

@@ -122,7 +122,7 @@ void FixWallNurbs::open_files() {
   }
   if (!options_.stl.file.empty()) {
     stl_ = std::make_unique<liggghts_pkg::StlOutput>(
-        world, options_.stl, liggghts_pkg::WallTriangles(structure_, exchange_), options_.twin);
+        world, options_.stl, liggghts_pkg::WallTriangles(structure_, exchange_, options_.twin));
     every = std::gcd(every, options_.stl.every);
   }
   if (every > 0) nevery = every;
@@ -336,7 +336,7 @@ void FixWallNurbs::restart(char* buffer) {
 int FixWallNurbs::getCreateMeshTriCount() {
   or_fail([&] {
     loop_.wall().import_all();
-    twin_.build(world, options_.file, liggghts_pkg::WallTriangles(structure_, exchange_), options_.twin);
+    twin_.build(world, options_.file, liggghts_pkg::WallTriangles(structure_, exchange_, options_.twin));
   });
   return twin_.triangle_count();
 }

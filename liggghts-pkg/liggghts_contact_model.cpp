@@ -8,14 +8,17 @@ namespace liggghts_pkg {
 using contact::Contact;
 using nurbs::Vector3;
 
-// The models add to the particle's force; a force of zero before shows what they add.
+// The models add to the particle's force; a force of zero before shows what they add.  One `data` serves all,
+// as in LIGGGHTS' own walls.
 void LiggghtsContactModel::evaluate(Contact* contacts, int count) {
+  LCM::SurfacesIntersectData data;
+  data.is_wall = true;
   for (Contact* contact = contacts; contact < contacts + count; ++contact) {
     Eigen::Map<Vector3> f(atom_.f[contact->particle]), torque(atom_.torque[contact->particle]);
     const Vector3 f_before = f, torque_before = torque;
     f.setZero();
     torque.setZero();
-    compute_with_spring(*contact);
+    compute_with_spring(*contact, data);
     contact->force = f;
     contact->torque = torque;
     f = f_before;
@@ -23,16 +26,14 @@ void LiggghtsContactModel::evaluate(Contact* contacts, int count) {
   }
 }
 
-void LiggghtsContactModel::compute_with_spring(Contact& contact) {
-  LCM::SurfacesIntersectData data;
+inline void LiggghtsContactModel::compute_with_spring(Contact& contact, LCM::SurfacesIntersectData& data) {
   if (!springs_.exist() || !contact.touches) return compute(contact, data);
   const Vector3 before = springs_.stretch(contact.history);
   compute(contact, data);
   springs_.add(data.kt, before, springs_.stretch(contact.history));
 }
 
-void LiggghtsContactModel::compute(Contact& contact, LCM::SurfacesIntersectData& data) {
-  data.is_wall = true;
+inline void LiggghtsContactModel::compute(Contact& contact, LCM::SurfacesIntersectData& data) {
   data.i = contact.particle;
   data.deltan = contact.overlap;
   data.contact_history = contact.history;

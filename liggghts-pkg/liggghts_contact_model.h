@@ -25,7 +25,7 @@ class LiggghtsContactModel final : public contact::ContactModel {
 
  private:
   void compute(contact::Contact& contact, LCM::SurfacesIntersectData& data);
-  void compute_with_spring(contact::Contact& contact);
+  void compute_with_spring(contact::Contact& contact, LCM::SurfacesIntersectData& data);
   void compute_with_effective_radius(contact::Contact& contact, LCM::SurfacesIntersectData& data);
 
   LAMMPS_NS::FixWallGran& wall_;

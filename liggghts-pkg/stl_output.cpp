@@ -12,18 +12,18 @@
 
 namespace liggghts_pkg {
 
-StlOutput::StlOutput(MPI_Comm comm, StlOptions options, const WallTriangles& triangles, int cells)
-    : comm_(comm), options_(std::move(options)), triangles_(triangles), cells_(cells) {
-  if (options_.chord) cells_ = triangles_.cells_within(*options_.chord);
+StlOutput::StlOutput(MPI_Comm comm, StlOptions options, const WallTriangles& triangles)
+    : comm_(comm), options_(std::move(options)), triangles_(triangles) {
+  if (options_.chord) triangles_.keep_within(*options_.chord);
   constexpr double kBytesPerTriangle = 100.0;
-  const double count = triangles_.count(cells_);
+  const double count = triangles_.count();
   nurbs::expect_memory(kBytesPerTriangle * count, fmt::format("stl of {:.3g} triangles", count));
 }
 
 void StlOutput::write(long step) {
   parallel::on_first_rank(comm_, [&] {
     vtk::write_stl(fmt::format("{}_{}.stl", options_.file, step),
-                   std::filesystem::path(options_.file).filename().string(), triangles_.in_space(cells_));
+                   std::filesystem::path(options_.file).filename().string(), triangles_.in_space());
   });
   at_beginning_ = false;
 }

@@ -14,9 +14,9 @@ namespace liggghts_pkg {
 
 class StlOutput {
  public:
-  /// Every rank: as many triangles as keep within the chord that `options` ask for now, else `cells` per
-  /// element and direction.  Throws std::invalid_argument if these are too many.
-  StlOutput(MPI_Comm comm, StlOptions options, const WallTriangles& triangles, int cells);
+  /// Every rank: as many triangles as keep within the chord that `options` ask for now, else those given.
+  /// Throws std::invalid_argument if these are too many.
+  StlOutput(MPI_Comm comm, StlOptions options, const WallTriangles& triangles);
 
   bool is_due(long step) const { return step % options_.every == 0; }
   /// Nothing has been written yet.
@@ -28,7 +28,6 @@ class StlOutput {
   MPI_Comm comm_;
   StlOptions options_;
   WallTriangles triangles_;
-  int cells_;
   bool at_beginning_ = true;
 };
 

@@ -15,7 +15,7 @@ class TriangleTwin {
  public:
   /// Collective; `cells` per element and direction of a wall of patches.  Throws std::runtime_error if
   /// LIGGGHTS has no memory for so many; `file`: of the wall, for the message.
-  void build(MPI_Comm comm, const std::string& file, const WallTriangles& triangles, int cells);
+  void build(MPI_Comm comm, const std::string& file, const WallTriangles& triangles);
 
   int triangle_count() const { return static_cast<int>(mesh_.triangles.size()); }
   /// Three numbers of corner i, three corners to a triangle.

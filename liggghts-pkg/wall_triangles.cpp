@@ -3,36 +3,47 @@
 
 #include <fmt/format.h>
 
-#include "brep/triangle_mesh.h"
+#include "brep/facets.h"
 
 namespace liggghts_pkg {
 
-double WallTriangles::count(int cells) const {
+WallTriangles::WallTriangles(const coupling::StructureSolver& structure,
+                             const coupling::SurfaceExchange& exchange, int cells)
+    : structure_(structure), exchange_(exchange), cells_(cells) {
+  constexpr double kCells = 2.0;  // of which the chord is the usual one
+  if (const auto& faces = structure.surface().faces)
+    chord_ = brep::kFacetChord * faces->size * kCells * kCells / (cells * cells);
+}
+
+void WallTriangles::keep_within(double chord) {
   const coupling::ContactSurface& surface = structure_.surface();
-  return surface.faces ? static_cast<double>(surface.faces->pieces.size())
-                       : 2.0 * cells * cells * surface.topology.element_count();
+  chord_ = chord;
+  if (!surface.faces)
+    cells_ = nurbs::cells_within(nurbs::split(surface.topology, exchange_.positions()), chord);
+}
+
+double WallTriangles::count() const {
+  const coupling::ContactSurface& surface = structure_.surface();
+  if (!surface.faces) return 2.0 * cells_ * cells_ * surface.topology.element_count();
+  return surface.faces->trimmed() ? static_cast<double>(in_body().triangles.size())
+                                  : static_cast<double>(surface.faces->pieces.size());
 }
 
 std::string WallTriangles::of_what() const {
   const coupling::ContactSurface& surface = structure_.surface();
-  return surface.faces ? fmt::format("a wall of {} triangles", surface.faces->pieces.size())
-                       : fmt::format("a wall of {} elements", surface.topology.element_count());
+  if (!surface.faces) return fmt::format("a wall of {} elements", surface.topology.element_count());
+  return surface.faces->trimmed() ? fmt::format("a wall of {} faces", surface.faces->faces.size())
+                                  : fmt::format("a wall of {} triangles", surface.faces->pieces.size());
 }
 
-int WallTriangles::cells_within(double chord) const {
+nurbs::TriangleMesh WallTriangles::in_body() const {
   const coupling::ContactSurface& surface = structure_.surface();
-  return surface.faces ? 1
-                       : nurbs::cells_within(nurbs::split(surface.topology, exchange_.positions()), chord);
+  return surface.faces ? brep::triangles_of(*surface.faces, chord_)
+                       : nurbs::tessellate(nurbs::split(surface.topology, exchange_.positions()), cells_);
 }
 
-nurbs::TriangleMesh WallTriangles::in_body(int cells) const {
-  const coupling::ContactSurface& surface = structure_.surface();
-  return surface.faces ? brep::triangles_of(*surface.faces)
-                       : nurbs::tessellate(nurbs::split(surface.topology, exchange_.positions()), cells);
-}
-
-nurbs::TriangleMesh WallTriangles::in_space(int cells) const {
-  nurbs::TriangleMesh mesh = in_body(cells);
+nurbs::TriangleMesh WallTriangles::in_space() const {
+  nurbs::TriangleMesh mesh = in_body();
   const coupling::RigidFrame frame = structure_.frame();
   mesh.vertices = (frame.rotation * mesh.vertices).colwise() + frame.origin;
   return mesh;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The wall in triangles, as it stands now: its own, if it is made of them, else cells x cells x 2 per
-// element.
+// The wall in triangles, as it stands now: its own, if it is made of them; cells x cells x 2 per element of
+// patches; of trimmed faces as many as keep within a chord of them.
 #ifndef LMP_WALL_TRIANGLES_H
 #define LMP_WALL_TRIANGLES_H
 
@@ -11,24 +11,28 @@ namespace liggghts_pkg {
 
 class WallTriangles {
  public:
-  /// Keeps references to both.
-  WallTriangles(const coupling::StructureSolver& structure, const coupling::SurfaceExchange& exchange)
-      : structure_(structure), exchange_(exchange) {}
+  /// Keeps references to both.  `cells`: per element and direction; of trimmed faces the chord is
+  /// brep::kFacetChord with 2, and shrinks with their square.
+  WallTriangles(const coupling::StructureSolver& structure, const coupling::SurfaceExchange& exchange,
+                int cells);
 
-  /// How many there are, and of what: "a wall of 35 elements".
-  double count(int cells) const;
-  std::string of_what() const;
-  /// The cells that keep them within `chord` of the surface [length].  Throws std::invalid_argument as
+  /// From now on those within `chord` of the surface [length].  Throws std::invalid_argument as
   /// nurbs::cells_within.
-  int cells_within(double chord) const;
+  void keep_within(double chord);
+  /// How many there are about, and of what: "a wall of 35 elements".
+  double count() const;
+  std::string of_what() const;
+  int cells() const { return cells_; }
   /// In space, in the place that the exchange has brought.
-  nurbs::TriangleMesh in_space(int cells) const;
+  nurbs::TriangleMesh in_space() const;
 
  private:
-  nurbs::TriangleMesh in_body(int cells) const;
+  nurbs::TriangleMesh in_body() const;
 
   const coupling::StructureSolver& structure_;
   const coupling::SurfaceExchange& exchange_;
+  int cells_;
+  double chord_ = 0.0;  // of trimmed faces
 };
 
 }  // namespace liggghts_pkg

@@ -85,23 +85,21 @@ bool ContactLoop::has_outgrown_list(const ParticleView& particles) const {
 
 /* ---------------------------------------------------------------------- one step */
 
-namespace {
-constexpr int kBlock = 64;  // candidates: their feet are found together, and are still at hand afterwards
-}  // namespace
-
 void ContactLoop::step(const ParticleView& particles, const StepInfo& step, ContactModel& model,
                        ContactObserver* observer) {
   contacts_.clear();
   forces_on_body_.clear();
   tracker_->begin_step(surface_motion_);
   body_squared_frequency_ = wall_.squared_frequency();
-  FeetTracker::Query queries[kBlock];
+  FeetTracker::Query queries[FeetTracker::kBlock];  // found together, and still at hand afterwards
   const int candidates = static_cast<int>(candidates_.candidates().size());
   for (int candidate = 0; candidate < candidates;) {
     const int count = next_block(particles, step, candidate, queries);
     tracker_->follow(queries, count);
     batch_.clear();
-    for (int k = 0; k < count; ++k) find_contacts(particles, step, queries[k]);
+    for (int k = 0; k < count; ++k)
+      if (!queries[k].steady || !go_on(particles, step, queries[k]))
+        find_contacts(particles, step, queries[k]);
     answer(particles, step, model, observer);
   }
 }
@@ -122,7 +120,7 @@ inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo
                                    FeetTracker::Query* queries) {
   const std::vector<Candidate>& candidates = candidates_.candidates();
   int count = 0;
-  for (; candidate < static_cast<int>(candidates.size()) && count < kBlock; ++candidate) {
+  for (; candidate < static_cast<int>(candidates.size()) && count < FeetTracker::kBlock; ++candidate) {
     const int i = candidates[candidate].particle;
     if (!particles.meets_wall(i)) continue;
     FeetTracker::Query& query = queries[count];
@@ -131,6 +129,9 @@ inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo
     if (tracker_->is_quiet(candidate, query.centre, query.touch_reach)) continue;
     query.candidate = candidate;
     query.list_reach = list_reach_[i];
+    query.particle = i;
+    query.contacts = used_slots_[i];
+    query.steady = nullptr;
     query.squared_travel =
         2.0 * (step.dt * step.dt * particles.velocity(i).squaredNorm() + wall_travel_ * wall_travel_);
     ++count;
@@ -138,12 +139,40 @@ inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo
   return count;
 }
 
+namespace {
+
+// The side changes where the branch goes on to another patch, and where the centre passes the surface.
+bool keeps_side(const ContactSlot& slot, const Foot& foot, double radius) {
+  constexpr double kDeep = 0.5;  // of the radius
+  return slot.is_beside(foot.patch) && foot.distance >= kDeep * radius;
+}
+
+}  // namespace
+
+// A contact that keeps its slot and its side; false: it may be another, ask find_contacts.
+inline bool ContactLoop::go_on(const ParticleView& particles, const StepInfo& step,
+                               const FeetTracker::Query& query) {
+  const int i = query.particle;
+  const TrackedFoot& tracked = *query.steady;
+  const Foot& foot = tracked.foot;
+  const double radius = particles.radius[i];
+  ContactSlot slot = particles.memory.slot(i, tracked.slot);
+  if (foot.distance > radius || foot.distance <= wall_.resolution() || !keeps_side(slot, foot, radius))
+    return false;
+  slot.set_parameters(foot.at());
+  const Vector3 delta = wall_.to_space_direction(query.centre - foot.point);
+  const Vector3 v_wall = wall_.velocity_below(foot, particles.centre(i), delta);
+  check_crossing(particles, step, query, foot.distance, delta, v_wall);
+  add_contact(particles, i, tracked, slot.history(), delta, v_wall);
+  return true;
+}
+
 inline void ContactLoop::find_contacts(const ParticleView& particles, const StepInfo& step,
                                        const FeetTracker::Query& query) {
-  const int i = candidates_.candidates()[query.candidate].particle;
+  const int i = query.particle;
   const ParticleSlots slots = slots_of(particles, i);
   const double radius = particles.radius[i];
-  for (TrackedFoot& tracked : tracker_->feet(query, slots)) {
+  for (TrackedFoot& tracked : query.steady ? FeetRange{query.steady, 1} : tracker_->feet(query, slots)) {
     Foot& foot = tracked.foot;
     const bool touches = foot.distance <= radius || foot.distance < query.touch_reach;
     Vector3 delta = wall_.to_space_direction(query.centre - foot.point);
@@ -155,12 +184,12 @@ inline void ContactLoop::find_contacts(const ParticleView& particles, const Step
     }
     Vector3 v_wall;
     if (touches || may_cross(particles, step, i, foot.distance)) {
-      v_wall = wall_.velocity(foot, particles.centre(i) - delta, delta);
-      check_crossing(particles, step, i, foot.distance, delta, v_wall);
+      v_wall = wall_.velocity_below(foot, particles.centre(i), delta);
+      check_crossing(particles, step, query, foot.distance, delta, v_wall);
     }
     if (touches) {
       tracked.slot = take_slot(particles, step, i, tracked, slots, delta);
-      add_contact(particles, i, tracked, delta, v_wall);
+      add_contact(particles, i, tracked, slots.slot(tracked.slot).history(), delta, v_wall);
     } else if (tracked.slot >= 0) {
       slots.slot(tracked.slot).clear();
       tracked.slot = -1;
@@ -178,8 +207,11 @@ inline bool ContactLoop::may_cross(const ParticleView& particles, const StepInfo
 
 // A centre that comes to the surface within one step would leave it on the other side; one that was on the
 // other side a step ago has done so.
-inline void ContactLoop::check_crossing(const ParticleView& particles, const StepInfo& step, int i,
-                                        double distance, const Vector3& delta, const Vector3& v_wall) {
+inline void ContactLoop::check_crossing(const ParticleView& particles, const StepInfo& step,
+                                        const FeetTracker::Query& query, double distance,
+                                        const Vector3& delta, const Vector3& v_wall) {
+  if (wall_.stands() && query.squared_travel < distance * distance) return;
+  const int i = query.particle;
   const double approach = (v_wall - particles.velocity(i)).dot(delta);  // times the distance
   // In this order: the sign of the approach is anyone's guess, for the processor too.
   if (std::abs(approach) * step.dt >= distance * distance &&
@@ -194,11 +226,8 @@ inline int ContactLoop::take_slot(const ParticleView& particles, const StepInfo&
   if (place < 0)
     throw TooManyContacts(fmt::format("particle {} touches the wall in more than {} places at step {}",
                                       particles.tag[i], slots.slot_count(), step.number));
-  // The side changes where the branch goes on to another patch, and where the centre passes the surface.
-  constexpr double kDeep = 0.5;  // of the radius
   ContactSlot slot = slots.slot(place);
-  const bool same_patch = !slot.empty() && slot.foot().patch == tracked.foot.patch;
-  if (same_patch && slot.side() != 0 && tracked.foot.distance >= kDeep * particles.radius[i])
+  if (keeps_side(slot, tracked.foot, particles.radius[i]))
     slot.set_parameters(tracked.foot.at());
   else
     slot.set_foot(tracked.foot.at(), tracked.side != 0 ? tracked.side : wall_.side_of(tracked.foot, delta));
@@ -206,7 +235,7 @@ inline int ContactLoop::take_slot(const ParticleView& particles, const StepInfo&
 }
 
 inline void ContactLoop::add_contact(const ParticleView& particles, int i, const TrackedFoot& tracked,
-                                     const Vector3& delta, const Vector3& v_wall) {
+                                     double* history, const Vector3& delta, const Vector3& v_wall) {
   NURBS_ASSERT(0 <= i && i < particles.count, i, particles.count);
   const Foot& foot = tracked.foot;
   const double radius = particles.radius[i];
@@ -221,42 +250,51 @@ inline void ContactLoop::add_contact(const ParticleView& particles, int i, const
   contact.effective_radius = options_.curvature_radius ? wall_.effective_radius(foot, delta, radius) : radius;
   contact.delta = delta;
   contact.wall_velocity = v_wall;
-  contact.history = particles.memory.slot(i, tracked.slot).history();
+  contact.history = history;
 }
 
 inline void ContactLoop::apply(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
   const int i = contact.particle;
   const Vector3 &F = contact.force, &T = contact.torque;
-  const Vector3 x = particles.centre(i), point = x - contact.delta;
   if (!std::isfinite(F.sum() + T.sum())) fail_as_not_finite(particles, step, contact);
   Eigen::Map<Vector3>(particles.f + 3 * i) += F;
   Eigen::Map<Vector3>(particles.torque + 3 * i) += T;
   if (contact.overlap < 0.0 && F.isZero(0.0)) return;
+  if (wall_.needs_forces()) push_body(particles, step, contact);
+  add_row(particles, contact);
+  if (contact.inside) inside_.raise(particles.tag[i], particles.radius[i], particles.velocity(i).norm());
+}
 
-  if (wall_.needs_forces()) {
-    expect_stable(particles, step, contact);
-    const Vector3 on_body = -(wall_.frame().rotation.transpose() * F);
-    forces_on_body_.push_back({particles.tag[i],
-                               contact.slot,
-                               contact.foot.patch,
-                               {contact.foot.xi[0], contact.foot.xi[1]},
-                               {on_body[0], on_body[1], on_body[2]}});
-  }
-  const Vector3 wall_torque = -(T + x.cross(F));
+inline void ContactLoop::add_row(const ParticleView& particles, const Contact& contact) {
+  const int i = contact.particle;
+  const Vector3& F = contact.force;
+  const Vector3 x = particles.centre(i);
   WallContact& row = contacts_.emplace_back();
   row.tag = particles.tag[i];
   row.patch = contact.foot.patch;
   row.xi[0] = contact.foot.xi[0], row.xi[1] = contact.foot.xi[1];
-  Vector3::Map(row.point) = point;
+  Vector3::Map(row.point) = x - contact.delta;
   Vector3::Map(row.force) = -F;
   row.overlap = contact.overlap;
-  Vector3::Map(row.torque) = wall_torque;
-  // The wall feels -F at the foot and what is left of the torque.
-  row.power = wall_.stands() ? 0.0
-                             : F.dot(contact.wall_velocity) -
-                                   (wall_torque + point.cross(F)).dot(wall_.frame().angular_velocity);
+  Vector3::Map(row.torque) = -(contact.torque + x.cross(F));
+  row.power = wall_.stands() ? 0.0 : power_of(contact, row);
   row.slot = contact.slot;
-  if (contact.inside) inside_.raise(particles.tag[i], particles.radius[i], particles.velocity(i).norm());
+}
+
+// The wall feels -F at the foot and what is left of the torque.
+double ContactLoop::power_of(const Contact& contact, const WallContact& row) const {
+  const Vector3 &F = contact.force, left = Vector3::Map(row.torque) + Vector3::Map(row.point).cross(F);
+  return F.dot(contact.wall_velocity) - left.dot(wall_.frame().angular_velocity);
+}
+
+void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
+  expect_stable(particles, step, contact);
+  const Vector3 on_body = -(wall_.frame().rotation.transpose() * contact.force);
+  forces_on_body_.push_back({particles.tag[contact.particle],
+                             contact.slot,
+                             contact.foot.patch,
+                             {contact.foot.xi[0], contact.foot.xi[1]},
+                             {on_body[0], on_body[1], on_body[2]}});
 }
 
 // A spring k between a particle and the surface has the squared frequency k (sum R_A^2 / m_A + 1 / m), and

@@ -114,18 +114,22 @@ class ContactLoop {
   void forget_lost_contacts(const ParticleView& particles);
   int next_block(const ParticleView& particles, const StepInfo& step, int& candidate,
                  FeetTracker::Query* queries);
+  bool go_on(const ParticleView& particles, const StepInfo& step, const FeetTracker::Query& query);
   void find_contacts(const ParticleView& particles, const StepInfo& step, const FeetTracker::Query& query);
   bool may_cross(const ParticleView& particles, const StepInfo& step, int particle, double distance) const;
-  void check_crossing(const ParticleView& particles, const StepInfo& step, int particle, double distance,
-                      const Vector3& delta, const Vector3& v_wall);
+  void check_crossing(const ParticleView& particles, const StepInfo& step, const FeetTracker::Query& query,
+                      double distance, const Vector3& delta, const Vector3& v_wall);
   ParticleSlots slots_of(const ParticleView& particles, int particle) {
     return particles.memory.of(particle, used_slots_[particle]);
   }
   int take_slot(const ParticleView& particles, const StepInfo& step, int particle, const TrackedFoot& tracked,
                 const ParticleSlots& slots, const Vector3& delta) const;
-  void add_contact(const ParticleView& particles, int particle, const TrackedFoot& tracked,
+  void add_contact(const ParticleView& particles, int particle, const TrackedFoot& tracked, double* history,
                    const Vector3& delta, const Vector3& v_wall);
   void apply(const ParticleView& particles, const StepInfo& step, const Contact& contact);
+  void add_row(const ParticleView& particles, const Contact& contact);
+  double power_of(const Contact& contact, const WallContact& row) const;
+  void push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact);
   void answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,
               ContactObserver* observer);
   void expect_stable(const ParticleView& particles, const StepInfo& step, const Contact& contact);

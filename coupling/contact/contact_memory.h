@@ -30,6 +30,11 @@ class ContactSlot {
     const double fraction = values_[0] - static_cast<int>(values_[0]);
     return fraction == 0.0 ? 0 : fraction < 0.4 ? 1 : -1;
   }
+  /// Whether it is on this patch, on a side that is known.
+  bool is_beside(int patch) const {
+    const double fraction = values_[0] - patch;
+    return fraction > 0.0 && fraction < 1.0;
+  }
   void set_foot(const nurbs::SurfacePoint& foot, int side) {
     NURBS_ASSERT(foot.patch >= 0 && -1 <= side && side <= 1, foot.patch, side);
     static constexpr double kFraction[] = {0.5, 0.0, 0.25};

@@ -29,7 +29,7 @@ void ContactTracker::list_is_new() {
   feet_.clear();
 }
 
-void ContactTracker::follow(const Query* queries, int count) {
+void ContactTracker::follow(Query* queries, int count) {
   constexpr int kMost = 64;
   Foot* feet[kMost];
   Vector3 centres[kMost];

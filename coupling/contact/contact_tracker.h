@@ -22,7 +22,7 @@ class ContactTracker final : public FeetTracker {
       : FeetTracker(candidates), search_(search), edge_angle_(edge_angle) {}
 
   void list_is_new() override;
-  void follow(const Query* queries, int count) override;
+  void follow(Query* queries, int count) override;
   FeetRange feet(const Query& query, const ParticleSlots& slots) override {
     const State& state = states_[query.candidate];
     if (!state.regular) return find_feet(query, slots);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "brep/face_shape.h"
 #include "nurbs/assert.h"
 
 namespace contact {
@@ -13,8 +14,9 @@ using nurbs::Vector3;
 
 namespace {
 
-// Of its reach: how far a particle moves before it chooses pieces again; from where on it chooses none.
-constexpr double kMargin = 0.2, kNear = 1.1;
+// Of its reach: how far a particle moves before it chooses pieces again, over one face and over several; from
+// where on it chooses none.
+constexpr double kMargin = 0.2, kSmallMargin = 0.05, kNear = 1.05;
 constexpr int kCalm = 8;  // looks at the same pieces, after which it may do with fewer
 constexpr double kNoWay = std::numeric_limits<double>::infinity();
 
@@ -24,7 +26,16 @@ double beyond(const FeetTracker::Query& query) {
   return query.touch_reach * (1.0 + kRoundOff);
 }
 
+// It may come to the surface within a step from farther than it touches.
+bool is_fast(const FeetTracker::Query& query) {
+  return query.squared_travel > query.touch_reach * query.touch_reach;
+}
+
 }  // namespace
+
+inline bool FaceTracker::has_moved_less(const Query& query, const State& state, double than) {
+  return (query.centre - state.centre).squaredNorm() <= than * than;
+}
 
 void FaceTracker::list_is_new() {
   FeetTracker::list_is_new();
@@ -33,27 +44,53 @@ void FaceTracker::list_is_new() {
   piece_counts_.resize(candidates_.image_element_count());
 }
 
-// What they look at first is on its way while others are looked at: memory takes longer than all the rest.
-void FaceTracker::follow(const Query* queries, int count) {
-  if (!search_.outgrows_cache()) return;
-  for (const Query* query = queries; query < queries + count; ++query)
-    if (states_[query->candidate].reach > 0.0)
-      for_each_image(*query, Of::chosen, [&](const Vector3&, const int* pieces, int number, const Vector3&) {
-        search_.prefetch(pieces, number);
-      });
+// Of a candidate that had this contact alone in the step before.
+inline bool FaceTracker::find_steady(const Query& query, TrackedFoot& steady) {
+  State& state = states_[query.candidate];
+  if (state.alone < 0 || state.sheet < 0 || query.contacts != 1) return false;
+  if (is_fast(query)) return false;
+  const double margin =
+      std::min(state.reach - query.touch_reach, state.margin);  // it may have grown or shrunk
+  if (!(margin >= 0.0 && has_moved_less(query, state, margin))) return false;
+  search::Foot& foot = steady.foot;
+  const int side = search_.foot_inside(state.alone, query.centre, beyond(query), charts_, foot);
+  if (side != state.side) return false;
+  state.last = foot.point;
+  steady.slot = 0;
+  steady.side = of_patch(foot.patch, side);
+  return true;
+}
+
+void FaceTracker::follow(Query* queries, int count) {
+  NURBS_ASSERT(states_.size() == candidates_.candidates().size() && count <= kBlock, states_.size(), count);
+  const bool waits_for_memory = search_.outgrows_cache();
+  TrackedFoot* steady = steady_.data();
+  for (Query* query = queries; query < queries + count; ++query)
+    if (find_steady(*query, *steady))
+      query->steady = steady++;
+    else if (waits_for_memory)
+      prefetch(*query);
+  counts_.add_interior(static_cast<int>(steady - steady_.data()));
+}
+
+// What it looks at first is on its way while others are looked at: memory takes longer than all the rest.
+void FaceTracker::prefetch(const Query& query) const {
+  if (states_[query.candidate].reach > 0.0)
+    for_each_image(query, Of::chosen, [&](const Vector3&, const int* pieces, int number, const Vector3&) {
+      search_.prefetch(pieces, number);
+    });
 }
 
 FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
-  NURBS_ASSERT(states_.size() == candidates_.candidates().size(), states_.size());
   State& state = states_[query.candidate];
-  if (query.squared_travel > query.touch_reach * query.touch_reach) return feet_of_fast(query, slots);
-  const double moved2 = (query.centre - state.centre).squaredNorm(), margin = state.reach - query.touch_reach;
-  const bool is_near = margin >= 0.0 && moved2 <= margin * margin;
-  if (is_near && find_steady(query, moved2, slots)) return {&steady_, 1};
+  if (is_fast(query)) return feet_of_fast(query, slots);
+  const double margin = state.reach - query.touch_reach;
+  const bool is_near = margin >= 0.0 && has_moved_less(query, state, margin);
   if (!is_near) {
     const double distance = nearest(query, query.list_reach, Of::list);
     if (distance > kNear * query.touch_reach) return none(query, slots, distance);
     choose_pieces(query, Of::list, kMargin * query.touch_reach);
+    if (state.alone < 0) choose_pieces(query, Of::chosen, kSmallMargin * query.touch_reach);
   } else if (++state.looks == kCalm) {
     choose_fewer_pieces(query);
   }
@@ -79,7 +116,7 @@ FeetRange FaceTracker::feet_of_fast(const Query& query, const ParticleSlots& slo
 
 // Of a particle that is slow, so that the few are enough for a while.
 void FaceTracker::choose_fewer_pieces(const Query& query) {
-  constexpr double kWhile = 32.0, kLeast = 0.01;  // of what it has moved since; of its reach
+  constexpr double kWhile = 16.0, kLeast = 0.01;  // of what it has moved since; of its reach
   const State& state = states_[query.candidate];
   const double moved = (query.centre - state.centre).norm();
   const double margin = std::max(kWhile * moved, kLeast * query.touch_reach);
@@ -127,27 +164,13 @@ void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
     *count++ = search_.activate(d, state.reach, pieces, number, pieces_.data() + (image++)->first);
   });
   state.alone = -1;
-  state.squared_margin = margin * margin;
+  state.margin = margin;
   const int* const first = pieces_.data() + candidates_.image_elements(candidate)->first;
-  if (candidate.image_count == 1 && piece_counts_[candidate.first_image] == 1 &&
+  const int number = piece_counts_[candidate.first_image];
+  if (candidate.image_count == 1 && number > 0 &&
       candidates_.images()[candidates_.image_elements(candidate)->image].isZero(0.0) &&
-      search_.is_well_inside(*first, query.centre, state.reach, margin))
+      search_.is_well_inside(first, number, query.centre, state.reach, margin))
     state.alone = *first;
-}
-
-// Of a candidate that had this contact alone in the step before.
-inline bool FaceTracker::find_steady(const Query& query, double squared_motion, const ParticleSlots& slots) {
-  State& state = states_[query.candidate];
-  if (state.alone < 0 || state.sheet < 0 || slots.used() != 1) return false;
-  if (squared_motion > state.squared_margin) return false;  // it has shrunk since
-  search::Foot& foot = steady_.foot;
-  const int side = search_.foot_inside(state.alone, query.centre, beyond(query), charts_, foot);
-  if (side == 0 || search_.surface().sheet(foot.patch, side) != state.sheet) return false;
-  state.last = foot.point;
-  steady_.slot = 0;
-  steady_.side = of_patch(foot.patch, side);
-  counts_.add_direct(foot);
-  return true;
 }
 
 void FaceTracker::find(const Query& query, double reach) {
@@ -203,7 +226,7 @@ double FaceTracker::squared_way(const Query& query, const ContactSlot& slot, con
   const brep::Surface& surface = search_.surface();
   if (surface.sheet(last.patch, of_patch(last.patch, slot.side())) != foot.sheet) return kNoWay;
   const brep::Parameter<2> xi = charts_ ? (*charts_)[last.patch].to_face(last.xi) : last.xi;
-  const double way2 = squared_way(query, surface.faces[last.patch].point(xi), foot.point);
+  const double way2 = squared_way(query, brep::point_on(surface, last.patch, xi), foot.point);
   // On one face a particle may have been displaced, however far.
   return last.patch == foot.patch || way2 <= query.touch_reach * query.touch_reach ? way2 : kNoWay;
 }
@@ -224,6 +247,7 @@ void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
     match_nearest(query, slots);
   State& state = states_[query.candidate];
   state.sheet = found_.size() == 1 ? found_[0].sheet : -1;
+  state.side = found_[0].side;
   state.last = found_[0].point;
 }
 

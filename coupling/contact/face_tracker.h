@@ -4,8 +4,9 @@
 // A foot costs little here, so none is followed: all are found anew in each step that may have one.  Near
 // the wall a candidate looks only at the pieces that it can reach before it has moved by a small part of its
 // radius, the smaller the slower it is; farther away it looks for the nearest piece alone, and then rests
-// until it can be there.  Most that touch have one contact, inside one piece: then nobody looks at others.  A
-// branch is a foot of one sheet (brep/README.md), wherever it moves on it, over edges and vertices too.
+// until it can be there.  Most that touch have one contact, inside one face: follow() finds it, and
+// nobody looks at others.  A branch is a foot of one sheet (brep/README.md), wherever it moves on it, over
+// edges and vertices too.
 #pragma once
 
 #include <vector>
@@ -25,7 +26,7 @@ class FaceTracker final : public FeetTracker {
       : FeetTracker(candidates), search_(search), charts_(charts), counts_(counts) {}
 
   void list_is_new() override;
-  void follow(const Query* queries, int count) override;
+  void follow(Query* queries, int count) override;
   FeetRange feet(const Query& query, const ParticleSlots& slots) override;
 
  private:
@@ -33,10 +34,10 @@ class FaceTracker final : public FeetTracker {
     nurbs::Vector3 centre = nurbs::Vector3::Zero();  // when its pieces were chosen
     double reach = 0.0;                              // then; 0: not yet [length]
     nurbs::Vector3 last = nurbs::Vector3::Zero();    // its foot in the last step, if it had one alone
-    int sheet = -1;                                  // of that; -1: none, or its list is new
+    int sheet = -1, side = 0;                        // of that and its face; -1: none, or its list is new
     int looks = 0;                                   // at these pieces
-    int alone = -1;               // of these the only one, which the candidate is well inside of ...
-    double squared_margin = 0.0;  // ... as long as it has not moved by more, squared
+    int alone = -1;       // one of these, if all are of one face, which the candidate is well inside of ...
+    double margin = 0.0;  // ... as long as it has not moved by more
   };
   enum class Of { list, chosen };
   template <class Function>
@@ -44,7 +45,9 @@ class FaceTracker final : public FeetTracker {
   double nearest(const Query& query, double reach, Of of) const;
   void choose_fewer_pieces(const Query& query);
   void choose_pieces(const Query& query, Of of, double margin);
-  bool find_steady(const Query& query, double squared_motion, const ParticleSlots& slots);
+  static bool has_moved_less(const Query& query, const State& state, double than);
+  bool find_steady(const Query& query, TrackedFoot& steady);
+  void prefetch(const Query& query) const;
   FeetRange feet_of_fast(const Query& query, const ParticleSlots& slots);
   void find(const Query& query, double reach);
   void keep_one_at_seams();
@@ -67,7 +70,8 @@ class FaceTracker final : public FeetTracker {
   std::vector<int> piece_counts_;  // of these, per image of each candidate
   std::vector<brep::Foot> found_;  // of one candidate, in this step; so are the next two
   std::vector<TrackedFoot> feet_;
-  TrackedFoot steady_{{{}, {}, 0.0, search::FootStatus::interior, 0}, 0};
+  std::vector<TrackedFoot> steady_ = std::vector<TrackedFoot>(
+      kBlock, {{{}, nurbs::Vector3::Zero(), 0.0, search::FootStatus::interior, 0}, 0});  // of a block
   struct Pair {
     double way2;
     int slot, foot;

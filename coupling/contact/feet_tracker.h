@@ -44,7 +44,12 @@ class FeetTracker {
     double touch_reach;           ///< feet nearer than this may touch
     double list_reach;            ///< feet nearer than this may do so before the next rebuild
     double squared_travel = 0.0;  ///< how far it and the wall move in a step, at most, squared [length^2]
+    int particle = 0;
+    int contacts = 0;  ///< slots of its memory that may be filled
+    TrackedFoot* steady =
+        nullptr;  ///< set by follow(): its only foot, that of slot 0, so feet() knows no more
   };
+  static constexpr int kBlock = 64;  ///< queries that are followed together, at most
   /// Whether nothing within `touch_reach` can touch a candidate: too little has moved or grown since its feet
   /// were found last.
   bool is_quiet(int candidate, const nurbs::Vector3& centre, double touch_reach) const {
@@ -53,9 +58,9 @@ class FeetTracker {
     return allowance > 0.0 && (centre - quiet.centre).squaredNorm() < allowance * allowance;
   }
   /// Takes the branches of these candidates to where they are now, as far as they are followed.
-  virtual void follow(const Query* queries, int count) = 0;
-  /// The feet of a candidate, after follow(); those nearer than touch_reach are complete.  `slots`
-  /// whose branches are gone are cleared.  Valid until the next call.
+  virtual void follow(Query* queries, int count) = 0;
+  /// The feet of a candidate that is not steady, after follow(); those nearer than touch_reach are complete.
+  /// `slots` whose branches are gone are cleared.  Valid until the next call.
   virtual FeetRange feet(const Query& query, const ParticleSlots& slots) = 0;
 
  protected:

@@ -74,6 +74,11 @@ class Wall {
     return v;
   }
 
+  /// The same with the place of the centre.
+  Vector3 velocity_below(const Foot& foot, const Vector3& centre, const Vector3& delta) const {
+    return stands_ ? Vector3(Vector3::Zero()) : velocity(foot, centre - delta, delta);
+  }
+
   /// +1 where dS/dxi x dS/deta points, -1 on the other side.
   int side_of(const Foot& foot, const Vector3& delta) const;
   bool has_inside(int patch) const { return is_closed_ && shape_->outward_sign(patch) != 0; }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "brep/face_shape.h"
 #include "coupling/contact/contact_tracker.h"
 #include "coupling/contact/face_tracker.h"
 #include "nurbs/surface_normal.h"
@@ -64,13 +65,13 @@ std::unique_ptr<FeetTracker> FaceShape::track(const CandidateList& candidates, S
 }
 
 Vector3 FaceShape::normal_at(const Foot& foot) const {
-  return search_.surface().faces[foot.patch].normal(foot.xi);
+  return brep::shape_on(search_.surface(), foot.patch, foot.xi).normal;
 }
 
 SurfaceShape FaceShape::shape_near(const Foot& foot) const {
-  const brep::Face& face = search_.surface().faces[foot.patch];
-  const brep::Parameter<2> k = face.curvatures(foot.xi);
-  return {foot.point, face.normal(foot.xi), {std::min(k[0], k[1]), std::max(k[0], k[1])}};
+  SurfaceShape shape = brep::shape_on(search_.surface(), foot.patch, foot.xi);
+  shape.point = foot.point;
+  return shape;
 }
 
 }  // namespace contact

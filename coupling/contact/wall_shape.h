@@ -94,7 +94,7 @@ class FaceShape final : public ShapeOnFaces {
                                      SearchCounts& counts) const override;
   nurbs::Vector3 normal_at(const search::Foot& foot) const override;
   nurbs::SurfaceShape shape_near(const search::Foot& foot) const override;
-  int outward_sign(int /*face*/) const override { return 0; }
+  int outward_sign(int face) const override { return search_.surface().faces[face].outward; }
 };
 
 /// Of patches, which are these faces in closed form.

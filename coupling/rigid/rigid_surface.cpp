@@ -6,6 +6,7 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "brep/facets.h"
 #include "coupling/force_distribution.h"
 #include "nurbs/assert.h"
 
@@ -37,9 +38,11 @@ RigidSurface::RigidSurface(std::shared_ptr<const brep::Surface> faces)
 double RigidSurface::lever(const Vector3& centre, const Vector3& axis) const {
   double largest = 0.0;
   const auto look_at = [&](const Vector3& x) { largest = std::max(largest, axis.cross(x - centre).norm()); };
-  if (surface_.faces)
-    for (const brep::Vertex& vertex : surface_.faces->vertices) look_at(vertex.point);
-  else
+  if (surface_.faces) {
+    const NodalVectors points =
+        brep::triangles_of(*surface_.faces, brep::kFacetChord * surface_.faces->size).vertices;
+    for (const auto x : points.colwise()) look_at(x);
+  } else
     for (const auto x : positions_.colwise()) look_at(x);
   return largest;
 }

@@ -19,8 +19,18 @@ struct MatchedSides {
 /// separate fans of faces touch.  Faces, pieces, borders and vertices must be there.
 void assemble(Surface& surface, const MatchedSides& matched);
 
-/// The steps of it: edges with their wedges and sheets, then corners.
+/// The steps of it: edges with their wedges, sheets, corners.
 void make_edges(Surface& surface, const MatchedSides& matched);
+void make_sheets(Surface& surface);
 void make_corners(Surface& surface, const MatchedSides& matched);
+
+/// Where two curves of a loop of a trimmed face meet in a vertex.
+struct LoopCorner {
+  int face, vertex;
+  int ray[2];     ///< Corner's: of the edge that leaves it, and of the one that arrives
+  double turned;  ///< angle of the face there [rad]
+};
+/// Corners of faces without pieces.
+void make_corners(Surface& surface, const std::vector<LoopCorner>& of_loops);
 
 }  // namespace brep

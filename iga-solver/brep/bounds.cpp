@@ -54,8 +54,93 @@ Bounds bounds_of(const Face& face) {
   return box;
 }
 
+namespace {
+
+// Of what is in a plane face's rectangle.
+Bounds bounds_of_plane(const Face& face) {
+  Bounds box{face.point(face.low), face.point(face.low)};
+  for (const Parameter<2>& corner :
+       {Parameter<2>{face.high[0], face.low[1]}, face.high, Parameter<2>{face.low[0], face.high[1]}}) {
+    box.low = box.low.cwiseMin(face.point(corner));
+    box.high = box.high.cwiseMax(face.point(corner));
+  }
+  return box;
+}
+
+// Cells of the range of parameters in which there is some of the face.
+void add_cells(const Face& whole, const TrimDomain& domain, std::vector<Bounds>& boxes) {
+  constexpr int kCells = 12;
+  const double step[2] = {(whole.high[0] - whole.low[0]) / kCells, (whole.high[1] - whole.low[1]) / kCells};
+  for (int i = 0; i < kCells; ++i)
+    for (int j = 0; j < kCells; ++j) {
+      Face cell = whole;
+      cell.low = {whole.low[0] + i * step[0], whole.low[1] + j * step[1]};
+      cell.high = {whole.low[0] + (i + 1) * step[0], whole.low[1] + (j + 1) * step[1]};
+      if (domain.where(cell.low, cell.high) == TrimDomain::Where::outside) continue;
+      boxes.push_back(cell.kind == Kind::plane ? bounds_of_plane(cell) : bounds_of(cell));
+    }
+}
+
+// Ends and middles of small arcs, and how far these bulge beyond them.
+void add_arcs(const Edge& edge, std::vector<Bounds>& boxes) {
+  constexpr int kArcs = 16;
+  const double angle = edge.length / kArcs, bulge = edge.R * (1.0 - std::cos(0.25 * angle));
+  for (int k = 0; k < kArcs; ++k) {
+    const Vector3 a = edge.point(k * angle), b = edge.point((k + 0.5) * angle),
+                  c = edge.point((k + 1) * angle);
+    boxes.push_back({(a.cwiseMin(b).cwiseMin(c).array() - bulge).matrix(),
+                     (a.cwiseMax(b).cwiseMax(c).array() + bulge).matrix()});
+  }
+}
+
+void add_edge(const Surface& surface, const Piece& piece, std::vector<Bounds>& boxes) {
+  const Edge& edge = surface.edges[piece.edge[0]];
+  if (edge.line()) {
+    const Vector3 a = edge.point(0.0), b = edge.point(edge.length);
+    boxes.push_back({a.cwiseMin(b), a.cwiseMax(b)});
+  } else if (!edge.spline()) {
+    add_arcs(edge, boxes);
+  } else {
+    const BezierCurve<3>& curve = surface.chunks[edge.first_chunk + piece.chunk()].curve;
+    Bounds box{curve.point(0), curve.point(0)};
+    for (int k = 1; k <= curve.degree(); ++k) {
+      box.low = box.low.cwiseMin(curve.point(k));
+      box.high = box.high.cwiseMax(curve.point(k));
+    }
+    boxes.push_back(box);
+  }
+}
+
+}  // namespace
+
+void add_boxes(const Surface& surface, const Piece& piece, std::vector<Bounds>& boxes) {
+  switch (piece.kind) {
+    case Piece::Kind::trimmed:
+      return add_cells(surface.faces[piece.face], surface.domains[piece.face], boxes);
+    case Piece::Kind::edge:
+      return add_edge(surface, piece, boxes);
+    case Piece::Kind::element: {
+      const search::Box& box = surface.patches->box(surface.faces[piece.face].patch, piece.element());
+      return boxes.push_back({box.low, box.high});
+    }
+    case Piece::Kind::vertex: {
+      const Vector3& point = surface.vertices[piece.vertex[0]].point;
+      return boxes.push_back({point, point});
+    }
+    default:
+      return boxes.push_back(bounds_of(surface, piece));
+  }
+}
+
 Bounds bounds_of(const Surface& surface, const Piece& piece) {
-  if (!piece.triangle()) return bounds_of(surface.faces[piece.face]);
+  if (piece.rectangle()) return bounds_of(surface.faces[piece.face]);
+  if (!piece.triangle()) {
+    std::vector<Bounds> boxes;
+    add_boxes(surface, piece, boxes);
+    Bounds all = boxes.front();
+    for (const Bounds& box : boxes) all = {all.low.cwiseMin(box.low), all.high.cwiseMax(box.high)};
+    return all;
+  }
   const Vector3 &a = surface.vertices[piece.vertex[0]].point, &b = surface.vertices[piece.vertex[1]].point,
                 &c = surface.vertices[piece.vertex[2]].point;
   return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};

@@ -13,6 +13,8 @@ struct Bounds {
 /// Around a face that is no plane: tight for cylinders, else at most a few times too large.
 Bounds bounds_of(const Face& face);
 Bounds bounds_of(const Surface& surface, const Piece& piece);
+/// The same by several boxes, all but those of trimmed faces and arcs by one; appends them.
+void add_boxes(const Surface& surface, const Piece& piece, std::vector<Bounds>& boxes);
 
 /// The smallest circle around a triangle.
 struct Circle {

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "brep/cad_model.h"
 #include "brep/surface.h"
 
 namespace brep {
@@ -28,5 +29,9 @@ Surface from_triangles(const NodalVectors& points, const std::vector<int>& trian
 /// whole turn has no border at its seam; the tip of a cone and the poles of part of a sphere are vertices.
 /// Throws std::invalid_argument, naming the face, if a radius, angle or range is not possible.
 Surface from_faces(const std::vector<Face>& faces, double edge_angle = 0.02);
+
+/// These faces of a CAD model, with the edges and vertices on their borders; an edge whose other faces are
+/// not among them is free.  Throws std::invalid_argument, naming the face, if its loops make no sense.
+Surface from_cad(const CadModel& model, const std::vector<int>& faces, double edge_angle = 0.02);
 
 }  // namespace brep

@@ -5,6 +5,7 @@
 
 #include "brep/assembly.h"
 #include "brep/disjoint_sets.h"
+#include "brep/edge_uses.h"
 #include "brep/sides.h"
 
 namespace brep {
@@ -13,10 +14,10 @@ namespace {
 // The corners of a wall before they are sorted by vertices.
 class Corners {
  public:
-  Corners(Surface& surface, const MatchedSides& matched)
-      : surface_(surface), mate_(matched.mate), of_side_(4 * surface.pieces.size(), -1) {}
+  Corners(Surface& surface, const std::vector<int>& mate)
+      : surface_(surface), mate_(mate), of_side_(4 * surface.pieces.size(), -1) {}
 
-  void make() {
+  void make(const std::vector<LoopCorner>& of_loops) {
     const int pieces = static_cast<int>(surface_.pieces.size());
     for (int p = 0; p < pieces; ++p) {
       if (surface_.pieces[p].triangle())
@@ -24,6 +25,7 @@ class Corners {
       else
         face_corners(p);
     }
+    for (const LoopCorner& at : of_loops) add(at.face, at.vertex, at.ray[0], at.ray[1], at.turned);
     sort_by_vertex();
     const int vertices = static_cast<int>(surface_.vertices.size());
     for (int v = 0; v < vertices; ++v) link(v);
@@ -38,7 +40,7 @@ class Corners {
 
   int use_at(int side) const {
     const Piece& piece = surface_.pieces[piece_of_side(side)];
-    return piece.triangle() ? piece.edge[side % 4] : surface_.borders[piece.edge[0]].use[side % 4];
+    return piece.triangle() ? piece.edge[side % 4] : surface_.borders[piece.borders()].use[side % 4];
   }
   int ray(int use, int vertex) const {
     const Edge& edge = surface_.edges[surface_.uses[use].edge];
@@ -72,7 +74,7 @@ class Corners {
 
   void face_corners(int p) {
     const int face = surface_.pieces[p].face;
-    const Borders& borders = surface_.borders[surface_.pieces[p].edge[0]];
+    const Borders& borders = surface_.borders[surface_.pieces[p].borders()];
     const Face& shape = surface_.faces[face];
     if (shape.whole_turn(0) || shape.whole_turn(1)) {
       if (borders.vertex[0] < 0) return;
@@ -135,9 +137,11 @@ class Corners {
     groups_.reset(2 * count);
     regions_.reset(2 * count);
     for (const auto& [ray, c] : rays_) {
-      const EdgeUse& use = surface_.uses[ray / 2];
-      const EdgeUse& next = surface_.next_use(surface_.edges[use.edge], ray / 2);
-      const int next_ray = 2 * static_cast<int>(&next - surface_.uses.data()) + ray % 2;
+      const Edge& edge = surface_.edges[surface_.uses[ray / 2].edge];
+      const Uses uses = edge.varies ? uses_at_end(surface_, edge, ray % 2).uses : uses_of(surface_, edge);
+      const EdgeUse& use = uses.with_number(ray / 2);
+      const EdgeUse& next = uses.next(use);
+      const int next_ray = 2 * uses.number(next) + ray % 2;
       const auto found = std::lower_bound(rays_.begin(), rays_.end(), std::make_pair(next_ray, 0));
       const int to = found->second;
       fans_.join(c, to);
@@ -191,7 +195,7 @@ class Corners {
       int place = place_[of_side_[side]];
       if (moved_[place] >= 0) place = moved_[place];
       Piece& piece = surface_.pieces[side / 4];
-      (piece.triangle() ? piece.vertex : surface_.borders[piece.edge[0]].vertex)[side % 4] =
+      (piece.triangle() ? piece.vertex : surface_.borders[piece.borders()].vertex)[side % 4] =
           vertex_of_[place];
     }
     for (size_t c = 0; c < surface_.corners.size(); ++c)
@@ -200,7 +204,7 @@ class Corners {
   }
 
   Surface& surface_;
-  const std::vector<int>& mate_;
+  std::vector<int> mate_;
   std::vector<int> of_side_;  // the corner where a side begins
   std::vector<Found> found_;
   std::vector<int> place_;      // of a found corner among those of the surface
@@ -213,6 +217,10 @@ class Corners {
 
 }  // namespace
 
-void make_corners(Surface& surface, const MatchedSides& matched) { Corners(surface, matched).make(); }
+void make_corners(Surface& surface, const MatchedSides& matched) { Corners(surface, matched.mate).make({}); }
+
+void make_corners(Surface& surface, const std::vector<LoopCorner>& of_loops) {
+  Corners(surface, {}).make(of_loops);
+}
 
 }  // namespace brep

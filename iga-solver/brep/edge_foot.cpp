@@ -42,26 +42,63 @@ Vector3 EdgeFoot::point() const {
   return edge_.origin + scale * (x_ * edge_.radial + y_ * edge_.axis.cross(edge_.radial));
 }
 
-int use_at_wedge(const Surface& surface, const Edge& edge, const double* q) {
-  for (int u = edge.first_use; u < edge.first_use + edge.use_count; ++u) {
-    const EdgeUse& use = surface.uses[u];
-    const double *m = use.conormal, *n = surface.next_use(edge, u).conormal;
+EdgePoint EdgeFoot::on_edge() const {
+  if (edge_.line()) return {point(), edge_.axis, along_ / edge_.length};
+  double angle = on_axis() ? 0.5 * edge_.length : std::atan2(y_, x_);
+  if (angle < 0.0) angle += nurbs::kTwoPi;
+  if (angle > edge_.length) angle = angle - edge_.length < nurbs::kTwoPi - angle ? edge_.length : 0.0;
+  return {point(), edge_.tangent(angle), angle / edge_.length};
+}
+
+const EdgeUse& use_at_wedge(const Uses& uses, const double* q) {
+  for (const EdgeUse& use : uses) {
+    const double *m = use.conormal, *n = uses.next(use).conormal;
     const double after = m[0] * q[1] - m[1] * q[0], before = q[0] * n[1] - q[1] * n[0];
-    if (use.wide ? after >= 0.0 || before >= 0.0 : after >= 0.0 && before >= 0.0) return u;
+    if (use.wide ? after >= 0.0 || before >= 0.0 : after >= 0.0 && before >= 0.0) return use;
   }
-  return edge.first_use;
+  return *uses.first;
 }
 
 int use_at_wedge_of_ray(const Surface& surface, int ray, const Vector3& w) {
-  const Edge& edge = surface.edges[surface.uses[ray / 2].edge];
-  const Vector3 across = edge.axis.cross(edge.radial);
-  double q[2] = {w.dot(edge.radial), w.dot(across)};
-  if (!edge.line()) {
-    const double end = ray % 2 == 0 ? 0.0 : edge.length;
-    q[0] = w.dot(std::cos(end) * edge.radial + std::sin(end) * across);
-    q[1] = w.dot(edge.axis);
+  const UsesAtEnd at = uses_at_end(surface, surface.edges[surface.uses[ray / 2].edge], ray % 2);
+  const double q[2] = {w.dot(at.across.u), w.dot(at.across.v)};
+  return at.uses.number(use_at_wedge(at.uses, q));
+}
+
+// Newton's method between ends at which the distance falls and rises.
+bool minimum_on(const Chunk& chunk, const Vector3& d, double slack, double& s) {
+  constexpr int kMostSteps = 60;
+  constexpr double kRoundOff = 1e-15;
+  const auto slope = [&](double at, double& curvature, double& speed) {
+    const auto c = chunk.curve.derivatives(at);
+    const Vector3 from = c.point - d;
+    speed = c.first.norm();
+    curvature = c.first.squaredNorm() + from.dot(c.second);
+    return from.dot(c.first);
+  };
+  double curvature, speed;
+  const double start = slope(0.0, curvature, speed);
+  const bool at_start = std::abs(start) <= slack * speed;
+  const double end = slope(1.0, curvature, speed);
+  const bool at_end = std::abs(end) <= slack * speed;
+  if (start < 0.0 && end > 0.0) {
+    double low = 0.0, high = 1.0;
+    s = start / (start - end);
+    for (int k = 0; k < kMostSteps; ++k) {
+      const double g = slope(s, curvature, speed);
+      (g < 0.0 ? low : high) = s;
+      double next = curvature > 0.0 ? s - g / curvature : 0.5 * (low + high);
+      if (!(next > low && next < high)) next = 0.5 * (low + high);
+      const bool done = std::abs(next - s) <= kRoundOff;
+      s = next;
+      if (done) break;
+    }
+    return true;
   }
-  return use_at_wedge(surface, edge, q);
+  s = at_start && start >= 0.0 ? 0.0 : 1.0;
+  const bool kink =
+      end <= 0.0 && chunk.way_on.dot(chunk.curve.at(1.0) - d) >= 0.0 && !chunk.way_on.isZero(0.0);
+  return (at_start && start >= 0.0) || (at_end && end <= 0.0) || kink;
 }
 
 }  // namespace brep

@@ -114,7 +114,8 @@ class FromFaces {
       for (int i = 0; i < 4; ++i) borders.vertex[i] = points.number(face.point(corner_parameters(face, i)));
     else if (face.kind == Kind::cone && !is_border(face, 0))
       borders.vertex[0] = points.number(face.frame.origin);
-    surface_.pieces.push_back({f, {-1, -1, -1}, {static_cast<int>(surface_.borders.size()), -1, -1}});
+    surface_.pieces.push_back(
+        {f, {-1, -1, -1}, {static_cast<int>(surface_.borders.size()), -1, -1}, Piece::Kind::rectangle});
     surface_.borders.push_back(borders);
     matched_.mate.resize(4 * surface_.pieces.size(), -1);
   }
@@ -139,7 +140,7 @@ class FromFaces {
           found[{-1, axes.number(axis), middles.number(curve.origin), radius, 0}].push_back(side);
           continue;
         }
-        const int* at = piece.triangle() ? piece.vertex : surface_.borders[piece.edge[0]].vertex;
+        const int* at = piece.triangle() ? piece.vertex : surface_.borders[piece.borders()].vertex;
         const int a = at[i], b = at[(i + 1) % (piece.triangle() ? 3 : 4)];
         found[{std::min(a, b), std::max(a, b), middles.number(curve.point(0.5 * curve.length)), radius, 1}]
             .push_back(side);

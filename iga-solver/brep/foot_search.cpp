@@ -18,7 +18,11 @@ FootSearch::FootSearch(const Surface& surface)
       tree_(surface),
       triangles_(plane_triangles(surface)),
       neighbours_(surface),
-      same_point_(10.0 * surface.slack) {}
+      same_point_(kSamePoint * surface.slack) {
+  normals_.resize(surface.faces.size());
+  for (const PlaneTriangle& triangle : triangles_)
+    if (triangle.exists()) normals_[triangle.face()] = triangle.normal();
+}
 
 void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) const {
   const size_t begin = pieces.size();
@@ -27,6 +31,9 @@ void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) 
   pieces.erase(std::remove_if(pieces.begin() + static_cast<std::ptrdiff_t>(begin), pieces.end(), far),
                pieces.end());
   std::sort(pieces.begin() + static_cast<std::ptrdiff_t>(begin), pieces.end());
+  if (surface_.trimmed())  // a piece can have several boxes
+    pieces.erase(std::unique(pieces.begin() + static_cast<std::ptrdiff_t>(begin), pieces.end()),
+                 pieces.end());
 }
 
 int FootSearch::activate(const Vector3& d, double reach, const int* pieces, int count, int* active) const {
@@ -68,13 +75,24 @@ void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int cou
   minima.finish(neighbours_);
 }
 
-bool FootSearch::is_well_inside(int number, const Vector3& d, double reach, double margin) const {
-  const Piece& piece = surface_.pieces[number];
-  if (piece.triangle()) {
-    const double inside = triangles_[number].inside(d), height = triangles_[number].over(d).height;
-    return inside >= margin && inside * inside + height * height > reach * reach;
+// The point of these pieces that is nearest to a foot beside them would be on a border.
+bool FootSearch::is_well_inside(const int* pieces, int count, const Vector3& d, double reach,
+                                double margin) const {
+  const Piece& first = surface_.pieces[*pieces];
+  if (!first.triangle()) return count == 1 && is_well_inside_curved(first, d, reach);
+  const double height = triangles_[*pieces].over(d).height;
+  for (const int* number = pieces; number < pieces + count; ++number) {
+    const Piece& piece = surface_.pieces[*number];
+    if (piece.face != first.face) return false;
+    const double in = triangles_[*number].from_border(d, piece);
+    if (in < margin || in * in + height * height <= reach * reach) return false;
   }
-  const Borders& borders = surface_.borders[piece.edge[0]];
+  return true;
+}
+
+bool FootSearch::is_well_inside_curved(const Piece& piece, const Vector3& d, double reach) const {
+  if (!piece.rectangle()) return false;
+  const Borders& borders = surface_.borders[piece.borders()];
   for (int i = 0; i < 4; ++i) {
     if (borders.use[i] >= 0 &&
         EdgeFoot(surface_.edges[surface_.uses[borders.use[i]].edge], d).distance2() <= reach * reach)

@@ -37,19 +37,19 @@ class FootSearch {
   /// Appends the feet of d nearer than `reach`, given all pieces that are (more do no harm).
   void feet(const Vector3& d, double reach, const int* pieces, int count, std::vector<Foot>& out) const;
 
-  /// Whether d is over this piece so far from its borders that they are not within `reach`, and it stays over
-  /// it while it moves by less than `margin`.  If no other piece is within reach either, d has one foot at
-  /// most, as long as it moves by less than that.
-  bool is_well_inside(int piece, const Vector3& d, double reach, double margin) const;
-  /// That foot, if it is nearer than `reach`: sets its parameters (of the patch if there is a chart), point,
-  /// distance and patch.  The result is the side of the face that looks to d; 0: there is none for certain,
-  /// ask feet().
+  /// Whether d is over these pieces, of one face, so far from its borders that they are not within `reach`,
+  /// and it stays over them while it moves by less than `margin`.  If no other piece is within reach either,
+  /// d has one foot at most, as long as it moves by less than that.
+  bool is_well_inside(const int* pieces, int count, const Vector3& d, double reach, double margin) const;
+  /// That foot, given any of these pieces, if it is nearer than `reach`: sets its parameters (of the patch if
+  /// there is a chart), point, distance and patch.  The result is the side of the face that looks to d; 0:
+  /// there is none for certain, ask feet().
   int foot_inside(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
                   search::Foot& foot) const {
     const PlaneTriangle& triangle = triangles_[piece];
     if (!triangle.exists()) return foot_inside_curved(piece, d, reach, charts, foot);
-    const OverTriangle at = triangle.over(d);
     foot.patch = triangle.face();
+    const OverTriangle at = triangle.over(d, normals_[foot.patch]);
     foot.xi = charts ? (*charts)[foot.patch].to_patch(at.xi) : at.xi;
     foot.point = d - at.height * at.normal;
     foot.distance = std::abs(at.height);
@@ -60,6 +60,7 @@ class FootSearch {
   double same_point() const { return same_point_; }
 
  private:
+  bool is_well_inside_curved(const Piece& piece, const Vector3& d, double reach) const;
   int foot_inside_curved(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
                          search::Foot& foot) const;
 
@@ -68,6 +69,7 @@ class FootSearch {
   const Surface& surface_;
   PieceTree tree_;
   std::vector<PlaneTriangle> triangles_;
+  std::vector<Vector3> normals_;  // of plane faces, as their triangles have it
   SmoothNeighbours neighbours_;
   double same_point_;
 };

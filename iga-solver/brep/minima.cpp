@@ -35,12 +35,13 @@ void Minima::add_beside_triangle(const Piece& piece) {
 void Minima::add_of_side(const Piece& piece, int i, const BesideSide& beside) {
   const double leeway = slack_ * std::sqrt(beside.length2);
   const double before = -beside.along, behind = beside.along - beside.length2;
-  if (piece.edge[i] >= 0 && before <= leeway && behind <= leeway) add_of_edge(piece.edge[i]);
+  if (piece.edge[i] >= 0 && before <= leeway && behind <= leeway)
+    add_of_edge(surface_.uses[piece.edge[i]].edge, piece.edge[i]);
   if (before >= -leeway) add_of_vertex(piece.vertex[i], piece.face);
   if (behind >= -leeway) add_of_vertex(piece.vertex[(i + 1) % 3], piece.face);
 }
 
-void Minima::add_of_face(const Piece& piece) {
+void Minima::add_of_rectangle(const Piece& piece) {
   const Face& face = surface_.faces[piece.face];
   if (face.distance_of_whole(d_) >= reach_) return;
   const Projection foot = face.project(d_);
@@ -50,57 +51,71 @@ void Minima::add_of_face(const Piece& piece) {
           foot.height < 0.0 ? -1 : 1,
           piece.face});
   if (foot.many && foot.outside <= slack_) return;  // its borders are no nearer
-  const Borders& borders = surface_.borders[piece.edge[0]];
+  const Borders& borders = surface_.borders[piece.borders()];
   for (int i = 0; i < 4; ++i) {
-    if (borders.use[i] >= 0) add_of_edge(borders.use[i]);
+    if (borders.use[i] >= 0) add_of_edge(surface_.uses[borders.use[i]].edge, borders.use[i]);
     if (borders.vertex[i] >= 0) add_of_vertex(borders.vertex[i], piece.face);
   }
 }
 
-void Minima::add_of_edge(int use) {
-  const EdgeUse& visiting = surface_.uses[use];
-  const Edge& edge = surface_.edges[visiting.edge];
+void Minima::add_of_edge(int number, int visiting) {
+  const Edge& edge = surface_.edges[number];
   if (!edge.line() && std::abs(edge.axis.dot(d_ - edge.origin)) >= reach_) return;  // spares a root
   const EdgeFoot foot(edge, d_);
-  if (foot.distance2() >= reach_ * reach_ || foot.beyond() > slack_) return;
-  const int u = use_at_wedge(surface_, edge, foot.q);
-  add_in_wedge(visiting, surface_.uses[u], surface_.next_use(edge, u), foot.q, foot.point());
+  const double slack = surface_.slack_of_edge(number);
+  if (foot.distance2() >= reach_ * reach_ || foot.beyond() > slack) return;
+  if (surface_.guides.empty())  // nobody asks where on the edge it is
+    return add_in_wedge(uses_of(surface_, edge), visiting, {{foot.point(), {}, 0.0}, foot.q, slack});
+  const EdgePoint at = foot.on_edge();
+  const Uses uses =
+      edge.varies ? local_uses(surface_, edge, at, across(edge, at.point)) : uses_of(surface_, edge);
+  add_in_wedge(uses, visiting, {at, foot.q, slack});
 }
 
 // Of a point where d is square above the face: on a curved one it can be the farthest, beyond the centre.
-bool Minima::is_nearest_of_whole(int face, const Vector3& point) const {
-  const Face& shape = surface_.faces[face];
-  return shape.kind == Kind::plane || (d_ - point).norm() <= (1.0 + kSame) * shape.distance_of_whole(d_);
+bool Minima::is_nearest_of_whole(const EdgeUse& use, int number, const EdgePoint& at) const {
+  const Face& shape = surface_.faces[use.face];
+  if (shape.kind == Kind::plane) return true;
+  const double distance = (d_ - at.point).norm();
+  if (shape.kind == Kind::nurbs)
+    return is_lowest_beside(use.face, parameters_at(surface_, number, at), distance);
+  return distance <= (1.0 + kSame) * shape.distance_of_whole(d_);
 }
 
-void Minima::add_in_wedge(const EdgeUse& visiting, const EdgeUse& use, const EdgeUse& next, const double* q,
-                          const Vector3& point) {
-  const auto is_off = [&](const EdgeUse& use_of) {
-    const double into = q[0] * use_of.conormal[0] + q[1] * use_of.conormal[1];
-    return into < -slack_ || (into <= slack_ && is_nearest_of_whole(use_of.face, point));
+void Minima::add_in_wedge(const Uses& uses, int visiting, const OnEdge& on) {
+  const EdgeUse &use = use_at_wedge(uses, on.q), &next = uses.next(use);
+  const auto is_off = [&](const EdgeUse& use_of, int its_number) {
+    const double into = on.q[0] * use_of.conormal[0] + on.q[1] * use_of.conormal[1];
+    return into < -on.slack || (into <= on.slack && is_nearest_of_whole(use_of, its_number, on.at));
   };
-  const bool off_use = is_off(use), off_next = is_off(next);
+  const int number = uses.number(use), next_number = uses.number(next);
+  const bool off_use = is_off(use, number), off_next = is_off(next, next_number);
+  if (on.slack > slack_) widen(on.slack);
   if (joins(use.wedge)) {
-    if (off_use && off_next) add(use.face, use.side, FootStatus::edge, use.edge, point);
+    if (off_use && off_next) add(use.face, use.side, FootStatus::edge, use.edge, on.at, number);
     return;
   }
-  if (off_use && &visiting == &use) add(use.face, use.side, FootStatus::edge, use.edge, point);
-  if (off_next && &visiting == &next) add(next.face, -next.side, FootStatus::edge, use.edge, point);
+  if (off_use && (visiting == kAll || visiting == number))
+    add(use.face, use.side, FootStatus::edge, use.edge, on.at, number);
+  if (off_next && (visiting == kAll || visiting == next_number))
+    add(next.face, -next.side, FootStatus::edge, use.edge, on.at, next_number);
 }
 
 void Minima::add_of_vertex(int v, int face) {
   const Vertex& vertex = surface_.vertices[v];
   const Vector3 w = d_ - vertex.point;
   if (w.squaredNorm() >= reach_ * reach_) return;
+  corner_slack_ = surface_.slack_of_vertex(v);
+  if (corner_slack_ > slack_) widen(corner_slack_);
   for (int c = vertex.first_corner; c < vertex.first_corner + vertex.corner_count; ++c) {
     const Corner& corner = surface_.corners[c];
-    if (corner.face != face) continue;
+    if (face != kAll && corner.face != face) continue;
     for (int s = 0; s < 2; ++s) {
       if (!corner.leads[s] || !in_group(vertex, corner.group[s], w)) continue;
       const Region here = region_of(vertex, w);
       // What is a minimum only on the border, by the slack, is none for any point beside it.
       if (corner.region[s] == here.number && in_group(vertex, corner.group[s], w + here.inward))
-        add(face, s == 0 ? 1 : -1, FootStatus::corner, v, vertex.point);
+        add_of_corner(corner, s == 0 ? 1 : -1, v);
     }
   }
 }
@@ -108,9 +123,10 @@ void Minima::add_of_vertex(int v, int face) {
 // Not uphill along an edge from its end; square above an arc d can be beyond its centre.
 bool Minima::is_off_ray(int ray, const Vector3& w) const {
   const double along = ray_direction(surface_, ray).dot(w);
-  if (along > slack_) return false;
+  if (along > corner_slack_) return false;
   const Edge& edge = surface_.edges[surface_.uses[ray / 2].edge];
-  return along < -slack_ || edge.line() || w.squaredNorm() <= (1.0 + kSame) * EdgeFoot(edge, d_).distance2();
+  return along < -corner_slack_ || edge.line() ||
+         w.squaredNorm() <= (1.0 + kSame) * EdgeFoot(edge, d_).distance2();
 }
 
 bool Minima::in_group(const Vertex& vertex, int group, const Vector3& w) const {
@@ -119,8 +135,9 @@ bool Minima::in_group(const Vertex& vertex, int group, const Vector3& w) const {
     if (corner.group[0] != group && corner.group[1] != group) continue;
     for (const int ray : corner.ray)
       if (ray >= 0 && !is_off_ray(ray, w)) return false;
-    if (!corner.reflex && surface_.faces[corner.face].kind != Kind::cone) continue;
-    if (Sector(surface_, vertex, corner).steepest(w, 0.0) > slack_) return false;
+    const Kind kind = surface_.faces[corner.face].kind;
+    if (!corner.reflex && kind != Kind::cone && (kind != Kind::nurbs || surface_.poles.empty())) continue;
+    if (Sector(surface_, vertex, corner).steepest(w, 0.0) > corner_slack_) return false;
   }
   return true;
 }
@@ -144,7 +161,8 @@ Minima::Region Minima::region_of(const Vertex& vertex, const Vector3& w) const {
     const int side = sector.side(w);
     region.number = corners[c].region[side < 0];
     region.inward.setZero();
-    if (std::abs(sector.height(w)) <= slack_) region.inward = 2.0 * side * slack_ * sector.axis();
+    if (std::abs(sector.height(w)) <= corner_slack_)
+      region.inward = 2.0 * side * corner_slack_ * sector.axis();
   }
   if (nearest < 0) return region;
   const int use = use_at_wedge_of_ray(surface_, nearest, w);
@@ -154,16 +172,24 @@ Minima::Region Minima::region_of(const Vertex& vertex, const Vector3& w) const {
   return region;
 }
 
-void Minima::add(int face, int side, FootStatus status, int entity, const Vector3& point) {
+void Minima::add_of_corner(const Corner& corner, int side, int v) {
+  const int ray = corner.ray[0];
+  const EdgePoint at{surface_.vertices[v].point, {}, static_cast<double>(ray % 2)};
+  add(corner.face, side, FootStatus::corner, v, at, ray / 2);
+}
+
+void Minima::add(int face, int side, FootStatus status, int entity, const EdgePoint& at, int use) {
   const Face& shape = surface_.faces[face];
   Parameter<2> xi;
   if (shape.kind == Kind::plane) {
-    const Vector3 from = point - shape.frame.origin;
+    const Vector3 from = at.point - shape.frame.origin;
     xi = {from.dot(shape.frame.x), from.dot(shape.frame.y)};
+  } else if (shape.kind == Kind::nurbs) {
+    xi = parameters_at(surface_, use, at);
   } else {
-    xi = shape.project(point).xi;
+    xi = shape.project(at.point).xi;
   }
-  keep({{xi, point, (d_ - point).norm(), status, 0, face}, surface_.sheet(face, side), side, entity});
+  keep({{xi, at.point, (d_ - at.point).norm(), status, 0, face}, surface_.sheet(face, side), side, entity});
 }
 
 }  // namespace brep

@@ -2,16 +2,21 @@
 // All feet of one point, piece by piece: the rules of the README.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
+#include "brep/edge_uses.h"
 #include "brep/foot.h"
 #include "brep/plane_triangles.h"
 #include "brep/smooth_neighbours.h"
 #include "brep/surface.h"
 
 namespace brep {
+
+/// Points of a wall are the same if they are not farther apart than this many times the slack.
+constexpr double kSamePoint = 10.0;
 
 class Minima {
  public:
@@ -26,7 +31,7 @@ class Minima {
         begin_(out.size()) {}
 
   void add_of_piece(int piece, const PlaneTriangle& triangle) {
-    if (!triangle.exists()) return add_of_face(surface_.pieces[piece]);
+    if (!triangle.exists()) return add_of_other(surface_.pieces[piece]);
     const OverTriangle at = triangle.place(d_, reach_, slack_);
     if (at.where == OverTriangle::Where::over)
       keep_over(triangle.face(), at);
@@ -36,6 +41,7 @@ class Minima {
   /// Leaves one foot of several at one point, and of those that slightly concave smooth edges join the
   /// nearest. Feet are by distance then.
   void finish(const SmoothNeighbours& neighbours) {
+    if (!elements().empty()) add_of_elements();
     if (out_.size() > begin_ + 1) choose(neighbours);
   }
 
@@ -54,11 +60,23 @@ class Minima {
   }
   void add_beside_triangle(const Piece& piece);
   void add_of_side(const Piece& piece, int i, const BesideSide& beside);
-  void add_of_face(const Piece& piece);
-  void add_of_edge(int use);
-  bool is_nearest_of_whole(int face, const Vector3& point) const;
-  void add_in_wedge(const EdgeUse& visiting, const EdgeUse& use, const EdgeUse& next, const double* q,
-                    const Vector3& point);
+  void add_of_other(const Piece& piece);
+  void add_of_rectangle(const Piece& piece);
+  void add_of_trimmed(int face);
+  void add_of_elements();
+  void add_on_patch(int face, const search::Foot& foot);
+  void add_of_chunk(const Piece& piece);
+  // Of an edge as seen from a face that meets it by this use, or from all; of a vertex from one face, or all.
+  static constexpr int kAll = -1;
+  void add_of_edge(int edge, int visiting);
+  bool is_nearest_of_whole(const EdgeUse& use, int number, const EdgePoint& at) const;
+  bool is_lowest_beside(int face, const Parameter<2>& xi, double distance) const;
+  struct OnEdge {
+    const EdgePoint& at;
+    const double* q;
+    double slack;
+  };
+  void add_in_wedge(const Uses& uses, int visiting, const OnEdge& on);
   void add_of_vertex(int vertex, int face);
   bool is_off_ray(int ray, const Vector3& w) const;
   bool in_group(const Vertex& vertex, int group, const Vector3& w) const;
@@ -69,12 +87,22 @@ class Minima {
     Vector3 inward = Vector3::Zero();
   };
   Region region_of(const Vertex& vertex, const Vector3& w) const;
-  void add(int face, int side, FootStatus status, int entity, const Vector3& point);
+  // `use`: one by which the face meets the point, for the search on a patch; -1: none.
+  void add_of_corner(const Corner& corner, int side, int vertex);
+  void add(int face, int side, FootStatus status, int entity, const EdgePoint& at, int use);
   void keep(const Foot& foot) {
+    if (surface_.faces[foot.patch].outward == -foot.side) return;
     for (size_t k = begin_; k < out_.size(); ++k)
-      if (out_[k].status == foot.status && out_[k].entity == foot.entity && out_[k].sheet == foot.sheet)
+      if (out_[k].status == foot.status && out_[k].entity == foot.entity && out_[k].sheet == foot.sheet &&
+          (out_[k].point - foot.point).squaredNorm() <= same_point2_)
         return;
     out_.push_back(foot);
+  }
+  void widen(double slack) { same_point2_ = std::max(same_point2_, kSamePoint * kSamePoint * slack * slack); }
+  // Pieces of patches, of which all are searched together.
+  static std::vector<int>& elements() {
+    thread_local std::vector<int> pieces;
+    return pieces;
   }
   void choose(const SmoothNeighbours& neighbours);
   bool repeats(const Foot& foot, const Foot& other) const;
@@ -83,6 +111,7 @@ class Minima {
   const Surface& surface_;
   Vector3 d_;
   double reach_, slack_, same_point2_;
+  double corner_slack_ = 0.0;  // of the vertex that is looked at
   std::vector<Foot>& out_;
   size_t begin_;  // of this point's feet
 };

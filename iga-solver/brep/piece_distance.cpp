@@ -6,12 +6,57 @@
 #include <cmath>
 #include <limits>
 
+#include "brep/edge_foot.h"
+
 namespace brep {
+
+namespace {
+
+// Of a plane face from the rectangle around its loops.
+double distance_of_trimmed(const Face& face, const Vector3& d) {
+  if (face.kind != Kind::plane) return face.distance_of_whole(d);
+  const Projection foot = face.project(d);
+  double sum = foot.height * foot.height;
+  for (int i = 0; i < 2; ++i) {
+    const double off = std::max({face.low[i] - foot.xi[i], foot.xi[i] - face.high[i], 0.0});
+    sum += off * off;
+  }
+  return std::sqrt(sum);
+}
+
+double distance_of_edge(const Surface& surface, const Piece& piece, const Vector3& d) {
+  const Edge& edge = surface.edges[piece.edge[0]];
+  if (edge.spline()) {
+    const Chunk& chunk = surface.chunks[edge.first_chunk + piece.chunk()];
+    return std::max((d - chunk.centre).norm() - chunk.radius, 0.0);
+  }
+  const EdgeFoot foot(edge, d);
+  const double beyond = edge.line() ? std::max(foot.beyond(), 0.0) : 0.0;
+  return std::sqrt(foot.distance2() + beyond * beyond);
+}
+
+double distance_of_other(const Surface& surface, const Piece& piece, const Vector3& d) {
+  const Face& face = surface.faces[piece.face];
+  switch (piece.kind) {
+    case Piece::Kind::trimmed:
+      return distance_of_trimmed(face, d);
+    case Piece::Kind::element:
+      return std::sqrt(surface.patches->box(face.patch, piece.element()).squared_distance(d));
+    case Piece::Kind::edge:
+      return distance_of_edge(surface, piece, d);
+    case Piece::Kind::vertex:
+      return (d - surface.vertices[piece.vertex[0]].point).norm();
+    default:
+      return face.distance_of_whole(d);
+  }
+}
+
+}  // namespace
 
 double distance_of_piece(const Surface& surface, int number, const Vector3& d) {
   const Piece& piece = surface.pieces[number];
+  if (!piece.triangle()) return distance_of_other(surface, piece, d);
   const Face& face = surface.faces[piece.face];
-  if (!piece.triangle()) return face.distance_of_whole(d);
   const Vector3& n = face.frame.z;
   bool inside = true;
   double least = std::numeric_limits<double>::infinity();

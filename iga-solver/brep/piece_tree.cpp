@@ -20,26 +20,36 @@ float rounded_up(double x) { return static_cast<float>(x) * (1.0f + kRoundOff) +
 
 struct PieceTree::Boxes {
   std::vector<Eigen::Vector3f> low, high;
+  std::vector<std::int32_t> piece;
 };
 
-PieceTree::PieceTree(const Surface& surface) : discs_(surface.pieces.size()), order_(surface.pieces.size()) {
+PieceTree::PieceTree(const Surface& surface) : discs_(surface.pieces.size()) {
   units_.set(surface.low, surface.high);
   Boxes boxes;
-  const int count = static_cast<int>(surface.pieces.size());
-  boxes.low.reserve(count);
-  boxes.high.reserve(count);
-  for (int p = 0; p < count; ++p) {
-    set_disc(surface, p);
-    const Bounds box = bounds_of(surface, surface.pieces[p]);
-    boxes.low.emplace_back(units_.in_units(box.low).cast<float>().array() - kRoundOff);
-    boxes.high.emplace_back(units_.in_units(box.high).cast<float>().array() + kRoundOff);
+  const int pieces = static_cast<int>(surface.pieces.size());
+  boxes.low.reserve(pieces);
+  boxes.high.reserve(pieces);
+  boxes.piece.reserve(pieces);
+  std::vector<Bounds> of_piece;
+  for (int p = 0; p < pieces; ++p) {
+    of_piece.clear();
+    add_boxes(surface, surface.pieces[p], of_piece);
+    set_disc(surface, p, of_piece);
+    for (const Bounds& box : of_piece) {
+      boxes.low.emplace_back(units_.in_units(box.low).cast<float>().array() - kRoundOff);
+      boxes.high.emplace_back(units_.in_units(box.high).cast<float>().array() + kRoundOff);
+      boxes.piece.push_back(p);
+    }
   }
+  const int count = static_cast<int>(boxes.piece.size());
+  order_.resize(count);
   std::iota(order_.begin(), order_.end(), 0);
   nodes_.reserve(count / 2 + 1);
   if (count > 0) build(boxes, 0, count);
+  for (std::int32_t& box : order_) box = boxes.piece[box];
 }
 
-void PieceTree::set_disc(const Surface& surface, int p) {
+void PieceTree::set_disc(const Surface& surface, int p, const std::vector<Bounds>& boxes) {
   const Piece& piece = surface.pieces[p];
   Circle circle;
   Vector3 normal = Vector3::Zero();
@@ -51,7 +61,9 @@ void PieceTree::set_disc(const Surface& surface, int p) {
     for (int i = 0; i < 3; ++i)
       thickness = std::max(thickness, std::abs(normal.dot(corner(i) - circle.centre)));
   } else {
-    const Bounds box = bounds_of(surface, piece);
+    Bounds box{Vector3::Zero(), Vector3::Zero()};  // of a face of which nothing is left
+    if (!boxes.empty()) box = boxes.front();
+    for (const Bounds& part : boxes) box = {box.low.cwiseMin(part.low), box.high.cwiseMax(part.high)};
     circle = {units_.in_units(0.5 * (box.low + box.high)),
               0.5 * (units_.in_units(box.high) - units_.in_units(box.low)).norm()};
   }

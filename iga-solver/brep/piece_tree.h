@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "brep/bounds.h"
 #include "brep/surface.h"
 #include "nurbs/processor.h"
 #include "search/box_units.h"
@@ -24,7 +25,7 @@ class PieceTree {
   };
   Query query(const Vector3& d, double reach) const;
 
-  /// Appends the pieces that may be within reach, in no order.
+  /// Appends the pieces that may be within reach, in no order; those with several boxes maybe more than once.
   void near(const Query& query, std::vector<int>& pieces) const;
   /// Those of these pieces that are not farther than the reach for certain.  Returns their number; `kept` has
   /// room for `count`, and may be `pieces`.
@@ -63,7 +64,7 @@ class PieceTree {
     std::int32_t count;  // 0: not a leaf
   };
   struct Boxes;
-  void set_disc(const Surface& surface, int piece);
+  void set_disc(const Surface& surface, int piece, const std::vector<Bounds>& boxes);
   void build(const Boxes& boxes, int first, int count);
 
   search::BoxUnits units_;

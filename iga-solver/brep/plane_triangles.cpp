@@ -25,16 +25,18 @@ PlaneTriangle::PlaneTriangle(const Surface& surface, const Piece& piece) {
   leeway_ = kUp * static_cast<float>(off);
 }
 
-double PlaneTriangle::inside(const Vector3& d) const {
-  const Parameter<2> at = over(d).xi;
-  double least = std::numeric_limits<double>::infinity();
+double PlaneTriangle::from_border(const Vector3& d, const Piece& piece) const {
+  using Point = Eigen::Vector2d;
+  const Parameter<2> xi = over(d).xi;
+  double least2 = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
-    const double *a = corner_[i], *b = corner_[(i + 1) % 3];
-    const double way[2] = {b[0] - a[0], b[1] - a[1]};
-    const double in = way[0] * (at[1] - a[1]) - way[1] * (at[0] - a[0]);
-    least = std::min(least, in / std::hypot(way[0], way[1]));
+    if (piece.edge[i] < 0) continue;
+    const Point a = Point::Map(corner_[i]), way = Point::Map(corner_[(i + 1) % 3]) - a;
+    const Point from = Point::Map(xi.data()) - a;
+    const double t = std::clamp(from.dot(way) / way.squaredNorm(), 0.0, 1.0);
+    least2 = std::min(least2, (from - t * way).squaredNorm());
   }
-  return least;
+  return std::sqrt(least2);
 }
 
 std::vector<PlaneTriangle> plane_triangles(const Surface& surface) {

@@ -29,13 +29,17 @@ class alignas(64) PlaneTriangle {
   bool exists() const { return face_ >= 0; }
   int face() const { return face_; }
 
-  /// `place` where that is over the triangle for certain.
-  OverTriangle over(const Vector3& d) const {
-    const Vector3 from = d - origin_, normal = x_.cross(y_);
+  /// Of the face; worked out.
+  Vector3 normal() const { return x_.cross(y_); }
+  /// `place` where that is over the triangle for certain; `normal` as normal() has it.
+  OverTriangle over(const Vector3& d, const Vector3& normal) const {
+    const Vector3 from = d - origin_;
     return {OverTriangle::Where::over, normal, normal.dot(from), {x_.dot(from), y_.dot(from)}};
   }
-  /// Least distance of a point's foot on the plane from a side, negative beyond one [length].
-  double inside(const Vector3& d) const;
+  OverTriangle over(const Vector3& d) const { return over(d, normal()); }
+  /// Least distance of a point's foot on the plane from those sides of this piece where the face ends;
+  /// infinite if none does [length].
+  double from_border(const Vector3& d, const Piece& piece) const;
 
   /// Too far is what is not nearer than `reach` for certain; over it is what is not farther than `slack`
   /// beyond a side [length].

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The sector of a face at a vertex as a cone of directions: plane, or part of the tip of a cone.
+// The sector of a face at a vertex as a cone of directions: plane, part of the tip of a cone, or that of all
+// ways that lead off the pole of a patch.
 #pragma once
 
 #include "brep/surface.h"
@@ -23,6 +24,10 @@ class Sector {
   const Vector3& ray(int k) const { return ray_[k]; }
 
  private:
+  double steepest_off_pole(const Vector3& w, double rays, double& part) const;
+
+  const Surface& surface_;
+  const Pole* pole_ = nullptr;
   Vector3 axis_;  // counterclockwise about it from ray to ray
   Vector3 ray_[2];
   double cos_ = 0.0, sin_ = 1.0;  // of the angle between -axis and the sector

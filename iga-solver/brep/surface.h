@@ -4,10 +4,14 @@
 // wedge of 2 pi); sides on both ends of a convex or smooth wedge belong to one sheet (README.md).
 #pragma once
 
+#include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "brep/face.h"
+#include "brep/patch_faces.h"
+#include "brep/trim_domain.h"
 
 namespace brep {
 
@@ -18,14 +22,15 @@ inline bool joins(Wedge wedge) { return wedge != Wedge::concave; }
 
 /// A face that meets in an edge, and the wedge that begins at it, counterclockwise.
 struct EdgeUse {
-  double conormal[2];  ///< into the face, in the plane across the edge (Edge::across)
-  int face, edge;      ///< their numbers
-  std::int8_t side;    ///< +1 or -1: the side of the face that looks into the wedge
-  Wedge wedge;         ///< up to the next use of the edge
-  bool wide;           ///< the wedge's angle is pi or more
+  double conormal[2];     ///< into the face, in the plane across the edge (Edge::across)
+  int face, edge;         ///< their numbers
+  std::int8_t side;       ///< +1 or -1: the side of the face that looks into the wedge
+  Wedge wedge;            ///< up to the next use of the edge
+  bool wide;              ///< the wedge's angle is pi or more
+  std::int8_t along = 0;  ///< +1 or -1: whether the edge runs along a loop of the face, or against it
 };
 
-/// A straight line, or a circle or an arc of one.
+/// A straight line, a circle or an arc of one, or a spline.
 struct Edge {
   Vector3 origin;  ///< start of a line, centre of a circle
   Vector3 axis;    ///< direction of a line from start to end, axis of a circle
@@ -33,13 +38,24 @@ struct Edge {
   double length;   ///< of a line [length]; angle of an arc about its axis, 2 pi if closed [rad]
   double R = 0.0;  ///< radius; 0: a line [length]
   int vertex[2];   ///< start and end; -1: closed
-  int first_use = 0, use_count = 0;  ///< of Surface::uses, by their angle
+  int first_use = 0, use_count = 0;       ///< of Surface::uses, by their angle
+  int first_chunk = -1, chunk_count = 0;  ///< of a spline, of Surface::chunks
+  bool varies = false;                    ///< its uses hold half way; elsewhere local_uses() (edge_uses.h) do
 
-  bool line() const { return R == 0.0; }
+  bool line() const { return R == 0.0 && first_chunk < 0; }
+  bool spline() const { return first_chunk >= 0; }
   bool closed() const { return vertex[0] < 0; }
-  /// Length along a line, angle along an arc.
+  /// Length along a line, angle along an arc; not of a spline.
   Vector3 point(double t) const;
   Vector3 tangent(double t) const;
+};
+
+/// A part of a spline edge, which turns by little.
+struct Chunk {
+  BezierCurve<3> curve;
+  Vector3 way_on;  ///< tangent of what follows, where there is a kink too; zero at the edge's end
+  Vector3 centre;
+  double radius;  ///< of a ball around it [length]
 };
 
 /// One sector of a face at a vertex, between two rays (ends of edges) counterclockwise about the normal.
@@ -59,15 +75,28 @@ struct Vertex {
   int first_corner = 0, corner_count = 0;  ///< none: in the middle of a plane face
 };
 
-/// A triangle of a plane face, counterclockwise about its normal; other faces have one piece each.
+/// What searches look at.  Of a trimmed face, its edges and vertices are pieces of their own.
 struct Piece {
-  int face;
-  int vertex[3];  ///< -1: not a triangle
-  int edge[3];    ///< use of the edge from vertex[i] to vertex[i + 1]; -1: inside the face; see Borders
-  bool triangle() const { return vertex[0] >= 0; }
+  enum class Kind : std::int8_t {
+    triangle,   ///< of a plane face, counterclockwise about its normal
+    rectangle,  ///< a face whose border is that of its parameters' range (Borders)
+    trimmed,    ///< a face with a domain
+    element,    ///< of a face that is a patch
+    edge,       ///< or a chunk of one
+    vertex
+  };
+  int face;       ///< of an edge or a vertex: one of theirs
+  int vertex[3];  ///< of a triangle; the first, of a vertex
+  int edge[3];    ///< of a triangle: use of the edge from vertex[i] to vertex[i + 1], -1: inside the face
+  Kind kind = Kind::triangle;
+  bool triangle() const { return kind == Kind::triangle; }
+  bool rectangle() const { return kind == Kind::rectangle; }
+  int borders() const { return edge[0]; }  ///< of a rectangle
+  int element() const { return edge[0]; }  ///< of the face's patch
+  int chunk() const { return edge[1]; }    ///< of the edge edge[0]; -1: the whole
 };
 
-/// Of a piece that is no triangle, number edge[0] of Surface::borders.  Sides of its rectangle are
+/// Of a piece that is a rectangle, number borders() of Surface::borders.  Its sides are
 /// counterclockwise: xi1 = low, xi0 = high, xi1 = high, xi0 = low; corner i is where side i begins.
 struct Borders {
   int use[4] = {-1, -1, -1, -1};     ///< -1: a seam or a pole
@@ -75,6 +104,13 @@ struct Borders {
 };
 
 constexpr double kEdgeAngle = 0.02;  ///< of edges that count as smooth, if nothing else is said [rad]
+
+/// A side of a patch's parameters that is one point in space, or a part of one.
+struct Pole {
+  int face;
+  Parameter<2> from, to;
+  Vector3 point;
+};
 
 struct Surface {
   std::vector<Face> faces;
@@ -91,7 +127,20 @@ struct Surface {
   Vector3 low, high;               ///< that box
   double slack = 0.0;              ///< how far borders of two faces may be apart [length]
 
+  // Of trimmed faces; nothing if there are none.
+  std::vector<TrimDomain> domains;               ///< of every face
+  std::shared_ptr<const PatchFaces> patches;     ///< of faces of kind nurbs
+  std::vector<Pole> poles;                       ///< of patches
+  std::vector<Chunk> chunks;                     ///< of one edge in a row
+  std::vector<double> edge_slack, vertex_slack;  ///< in place of `slack`, not less [length]
+  static constexpr int kGuides = 17;
+  /// Of every use: parameters on its face where that is a patch, at as many places along the edge.
+  std::vector<std::array<Parameter<2>, kGuides>> guides;
+
   int sheet(int face, int side) const { return sheets[2 * face + (side < 0)]; }
+  bool trimmed() const { return !domains.empty(); }
+  double slack_of_edge(int edge) const { return edge_slack.empty() ? slack : edge_slack[edge]; }
+  double slack_of_vertex(int vertex) const { return vertex_slack.empty() ? slack : vertex_slack[vertex]; }
   const EdgeUse& next_use(const Edge& edge, int use) const {
     return uses[use + 1 < edge.first_use + edge.use_count ? use + 1 : edge.first_use];
   }

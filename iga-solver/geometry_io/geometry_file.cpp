@@ -184,4 +184,15 @@ std::vector<OrientedSurface> named_surface(const GeometryFile& geometry, const s
   return patches;
 }
 
+std::vector<int> named_cad_faces(const GeometryFile& geometry, const std::string& name,
+                                 const std::string& file) {
+  const auto found = geometry.cad_surfaces.find(name);
+  if (found != geometry.cad_surfaces.end()) return found->second;
+  try {
+    return cad_faces(*geometry.cad, {name});
+  } catch (const std::invalid_argument& error) {
+    throw InputError(fmt::format("{}: {}", file, error.what()));
+  }
+}
+
 }  // namespace geometry_io

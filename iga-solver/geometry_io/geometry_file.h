@@ -92,4 +92,9 @@ JoinedMesh named_triangles(const GeometryFile& geometry, const std::string& name
 std::vector<OrientedSurface> named_surface(const GeometryFile& geometry, const std::string& name,
                                            const std::string& file);
 
+/// The faces of one surface of a CAD file: a name under `surfaces`, else a word as cad_faces takes it
+/// (cad_selection.h). Throws InputError that lists what there is.
+std::vector<int> named_cad_faces(const GeometryFile& geometry, const std::string& name,
+                                 const std::string& file);
+
 }  // namespace geometry_io

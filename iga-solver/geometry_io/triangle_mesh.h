@@ -60,4 +60,17 @@ struct Gap {
 /// The longest first.
 std::vector<Gap> gaps_of(const TriangleMesh& mesh);
 
+struct OverlappingPairs {
+  long count = 0;               ///< of two triangles
+  int first = -1, second = -1;  ///< triangles of the first of them
+};
+/// Triangles that lie over each other or pierce each other by more than kSamePoint of the size.  Those that
+/// touch, at sides and corners that they share or not (T-junctions), do neither.
+struct Overlaps {
+  OverlappingPairs in_plane;  ///< one lies in the plane of the other and covers part of it
+  OverlappingPairs piercing;  ///< each goes through the other
+};
+/// Triangles thinner than kSamePoint of the size are passed over.
+Overlaps overlaps_of(const TriangleMesh& mesh);
+
 }  // namespace geometry_io

@@ -59,6 +59,22 @@ std::string gaps_text(const GeometryFile& geometry, const JoinedMesh& all) {
   return text;
 }
 
+std::string pairs_text(const GeometryFile& geometry, const JoinedMesh& all, const OverlappingPairs& pairs,
+                       const std::string& what) {
+  if (pairs.count == 0) return "";
+  return fmt::format("    {} pair{} of triangles {}, one at {} and {}\n", pairs.count,
+                     pairs.count == 1 ? "" : "s", what, place_text(geometry, all, pairs.first),
+                     place_text(geometry, all, pairs.second));
+}
+
+std::string overlaps_text(const GeometryFile& geometry, const JoinedMesh& all) {
+  const Overlaps overlaps = overlaps_of(all.mesh);
+  const std::string text = pairs_text(geometry, all, overlaps.in_plane,
+                                      "in one plane cover each other (contacts there may count twice)") +
+                           pairs_text(geometry, all, overlaps.piercing, "pierce each other");
+  return text.empty() ? "  overlaps: none\n" : "  overlaps:\n" + text;
+}
+
 }  // namespace
 
 std::string triangles_text(const GeometryFile& geometry) {
@@ -70,7 +86,7 @@ std::string triangles_text(const GeometryFile& geometry) {
   return fmt::format(
              "triangles of all patches: {}, {} points; left out: {} without an area, {} that lie twice\n",
              all.mesh.count(), all.mesh.points.cols(), all.mesh.degenerate, all.mesh.repeated) +
-         wall_text(geometry, all) + gaps_text(geometry, all);
+         wall_text(geometry, all) + gaps_text(geometry, all) + overlaps_text(geometry, all);
 }
 
 }  // namespace geometry_io

@@ -42,6 +42,7 @@ void fuzz_one(const std::string& input) {
     check_mesh(all.mesh);
     check_that(all.part.size() == all.mesh.place.size());
     geometry_io::gaps_of(all.mesh);
+    geometry_io::overlaps_of(all.mesh);
     const brep::Summary wall = summary_of(brep::from_triangles(all.mesh.points, all.mesh.triangles));
     check_that(wall.area > 0.0);
   }

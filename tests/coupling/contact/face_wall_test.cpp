@@ -74,6 +74,23 @@ TEST(FaceWall, RollsOverEdgesWithoutAJump) {
   }
 }
 
+// The rim of a floor presses against the centre once that is beyond it: spring times overlap, from the
+// nearest point of two triangles that the ball is over one after the other.
+TEST(FaceWall, RollsOffAFreeRim) {
+  constexpr double kHeight = kRadius - 0.01, kStep = 1e-4;
+  RigidSurface wall = floor();
+  Balls balls(2, 1);
+  balls.add({-0.3, 3.9, kHeight}, kRadius);
+  BallsOnWall scene(wall, balls, 1.0, 1.0);
+  for (int step = 1; step <= 1900; ++step) {
+    scene.balls.centre(0)[1] += kStep;
+    scene.evaluate();
+    const Vector3 from_rim(0.0, std::max(scene.balls.centre(0)[1] - 4.0, 0.0), kHeight);
+    const double overlap = std::max(kRadius - from_rim.norm(), 0.0);
+    ASSERT_LT((scene.balls.force(0) - overlap * from_rim.normalized()).norm(), 1e-12) << step;
+  }
+}
+
 // On triangles much smaller than the ball, which comes to others while its list still holds: one contact
 // throughout, with the force of a plane.
 TEST(FaceWall, GoesOnToOtherTriangles) {

@@ -118,6 +118,7 @@ struct Into {
         directions.emplace_back(((1.0 - s) * first + s * second).normalized());
     }
   }
+  double width() const { return half ? 1.0 : first.cross(second).norm(); }
   // x is in the plane.
   bool leads_in(const Vector3& x) const {
     if (half) return x.dot(second) >= -1e-9;
@@ -181,7 +182,11 @@ std::vector<int> Judge::minima_at(const Vector3& p, const std::vector<int>& tria
   for (int fan = 0; fan < count; ++fan) {
     if (fans.label[fan] != fan) continue;
     // In which region is w: what is met first on the way to a direction inside a triangle of the fan.
-    const Vector3 target = into[fan].directions[into[fan].directions.size() / 2], start = w.normalized();
+    int widest = fan;  // of which a direction is told inside for certain
+    for (int k = fan; k < count; ++k)
+      if (fans.label[k] == fan && into[k].width() > into[widest].width()) widest = k;
+    const std::vector<Vector3>& directions = into[widest].directions;
+    const Vector3 target = directions[directions.size() / 2], start = w.normalized();
     Vector3 onward = target - target.dot(start) * start;
     if (onward.norm() < 1e-12) onward = start.unitOrthogonal();
     onward.normalize();

@@ -7,8 +7,8 @@
 
 namespace brep::trials {
 
-MixedTrial::MixedTrial(const std::vector<Face>& faces, const std::mt19937& random)
-    : Trial(random, from_faces(faces)),
+MixedTrial::MixedTrial(const std::vector<Face>& faces, const std::mt19937& random, Given given)
+    : Trial(random, given_as(given, from_faces(faces))),
       faces_(faces),
       judge_(faces, surface_.edge_angle),
       sheet_of_judge_(2 * faces.size(), -1) {

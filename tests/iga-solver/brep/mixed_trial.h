@@ -10,13 +10,14 @@ namespace brep::trials {
 
 class MixedTrial final : public Trial {
  public:
-  MixedTrial(unsigned seed, int index) : MixedTrial(seeded(seed, index), index) {}
+  MixedTrial(unsigned seed, int index, Given given = Given::plainly)
+      : MixedTrial(seeded(seed, index), index, given) {}
   std::string try_sheets() override;
 
  private:
-  MixedTrial(std::mt19937 random, int index)
-      : MixedTrial(random_mixed_wall(random, index % kMixedFamilies), random) {}
-  MixedTrial(const std::vector<Face>& faces, const std::mt19937& random);
+  MixedTrial(std::mt19937 random, int index, Given given)
+      : MixedTrial(random_mixed_wall(random, index % kMixedFamilies), random, given) {}
+  MixedTrial(const std::vector<Face>& faces, const std::mt19937& random, Given given);
   Vector3 draw(int place) override { return random_point(random_, faces_, place); }
   int sheet_of(const Minimum& minimum) const override { return sheet_of_judge_[minimum.sheet]; }
   const AnyJudge& judge() const override { return judge_; }

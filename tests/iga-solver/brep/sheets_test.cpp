@@ -8,6 +8,7 @@
 #include "brep/builder.h"
 #include "brep/foot_search.h"
 #include "brep/summary.h"
+#include "stl_trial.h"
 #include "trials.h"
 
 namespace brep {
@@ -52,6 +53,20 @@ TEST(Sheets, TwoPlatesThatCrossHaveASheetForEachSideOfEachWing) {
   EXPECT_EQ(plates.sheet_count, 4);  // the wings' sides joined over their rims
   EXPECT_EQ(feet(plates, {0.1, 0.2, 0.5}, 0.3).size(), 2u);
   EXPECT_EQ(feet(plates, {-0.1, 0.2, 0.5}, 0.3).size(), 2u);
+}
+
+TEST(Sheets, TrianglesThatCoverEachOtherCountTwiceUnlessTheyAreOfOneSheet) {
+  const Vector3 a(0, 0, 0), b(3, 0, 0), c(3, 3, 0), d(0, 3, 0), over(2.0, 1.0, 0.5);
+  Wall plate;
+  plate.add_quad(a, b, c, d);
+  ASSERT_EQ(feet(built(plate), over, 1.0).size(), 1u);
+  Wall other_diagonal = plate, patch = plate, flap = plate;
+  other_diagonal.add_quad(b, c, d, a);
+  patch.add_triangle({1.5, 0.5, 0}, {2.5, 0.5, 0}, {2.2, 1.5, 0});
+  flap.add_triangle(a, c, {2.5, 0.5, 0});  // its free sides join what is above and below
+  EXPECT_EQ(feet(built(other_diagonal), over, 1.0).size(), 2u);
+  EXPECT_EQ(feet(built(patch), over, 1.0).size(), 2u);
+  EXPECT_EQ(feet(built(flap), over, 1.0).size(), 1u);
 }
 
 TEST(Sheets, AFootThatLeavesAFaceOfAConcaveEdgeStaysOnTheEdge) {
@@ -150,6 +165,16 @@ TEST(Trials, RandomWallsAgreeWithTheJudge) {
     for (int k = 0; k < 210; ++k) EXPECT_EQ(trial.try_point(k, count), "") << index << ", point " << k;
   }
   EXPECT_GT(count, 20000);
+}
+
+TEST(Trials, WallsThatWereWrittenToStlFilesAgreeWithTheJudge) {
+  long count = 0;
+  for (int index = 0; index < 48; ++index) {
+    const auto trial = trials::stl_trial(1, index);
+    ASSERT_EQ(trial->try_sheets(), "") << index;
+    for (int k = 0; k < 60; ++k) EXPECT_EQ(trial->try_point(k, count), "") << index << ", point " << k;
+  }
+  EXPECT_GT(count, 10000);
 }
 
 // Exactly over a vertex of a face: the pieces beside see an edge or its end, as round-off has it.

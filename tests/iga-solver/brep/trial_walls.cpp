@@ -11,13 +11,6 @@ namespace {
 
 using Cell = std::array<int, 3>;
 
-double uniform(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
-int whole(std::mt19937& random, int low, int high) {
-  return std::uniform_int_distribution<int>(low, high)(random);
-}
-
 // Hull of random points: every three of them that have all others on one side.
 Wall convex(std::mt19937& random) {
   std::vector<Vector3> x;

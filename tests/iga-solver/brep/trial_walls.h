@@ -53,6 +53,12 @@ constexpr int kFamilies = 8;
 const char* family_name(int family);
 Wall random_wall(std::mt19937& random, int family);
 
+inline double uniform(std::mt19937& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+inline int whole(std::mt19937& random, int low, int high) {
+  return std::uniform_int_distribution<int>(low, high)(random);
+}
 Vector3 random_direction(std::mt19937& random);
 /// In space near a wall, beside edges and vertices, on planes of faces, on planes between two.
 constexpr int kPlaces = 6;

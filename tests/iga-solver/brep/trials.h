@@ -10,6 +10,10 @@
 
 namespace brep::trials {
 
+/// How a wall is given to the search.
+enum class Given { plainly, as_cad, as_patches };
+Surface given_as(Given given, Surface wall);
+
 class Trial {
  public:
   virtual ~Trial() = default;
@@ -31,8 +35,12 @@ class Trial {
   Surface surface_;
   double uneven_ = 0.0;   // how far points may be off their faces
   double beside_ = 1e-6;  // how far a point is moved off a border
+  bool rounded_ = false;  // points are off their faces, so what is on a border exactly may be on none
 
  private:
+  bool lies_on_an_axis() const;
+  bool found_beside(const Vector3& d, double reach, const Minimum& minimum) const;
+  bool twice_beside(const Vector3& d, double reach, const Foot& foot) const;
   bool minimum_beside(const Vector3& d, double reach, const Foot& foot) const;
   std::string compare(const Vector3& d, double reach, const std::vector<Foot>& feet) const;
 
@@ -44,17 +52,23 @@ class Trial {
 /// A random wall of triangles.
 class TriangleTrial final : public Trial {
  public:
-  TriangleTrial(unsigned seed, int index);
+  TriangleTrial(unsigned seed, int index, Given given = Given::plainly);
+  /// A surface that was made from the wall; `rounded`: by way of a file in single precision.
+  TriangleTrial(const Wall& meant, Surface surface, bool rounded, const std::mt19937& random)
+      : TriangleTrial(meant, surface, surface, rounded, random) {}
   std::string try_sheets() override;
 
  private:
-  TriangleTrial(std::mt19937 random, int index);  // the order: the wall is drawn first, then points
-  TriangleTrial(const Wall& wall, const std::mt19937& random);
+  TriangleTrial(std::mt19937 random, int index, Given given);  // the wall is drawn first, then points
+  TriangleTrial(const Wall& wall, const std::mt19937& random, Given given);
+  TriangleTrial(const Wall& meant, Surface plain, Surface surface, bool rounded, const std::mt19937& random);
+  int face_of(const Vector3& middle) const;
   Vector3 draw(int place) override { return random_point(random_, wall_, place); }
   int sheet_of(const Minimum& minimum) const override { return sheet_of_judge_[minimum.sheet]; }
   const AnyJudge& judge() const override { return judge_; }
 
   Wall wall_;
+  Surface plain_;
   Judge judge_;
   std::vector<int> sheet_of_judge_;  // the wall's
 };

@@ -39,7 +39,7 @@ class Stl(ConvertCase):
             self.assertIn("all patches: 12, 8 points; left out: 0 without an area, 0 that lie twice\n", printed)
             self.assertIn("  6 plane faces; edges: 12 convex, 0 concave, 0 smooth, 0 free, 0 of more than two faces\n", printed)
             self.assertIn("  area 24, closed, volume 8\n", printed)
-            self.assertIn("height 1.41; 0 are thinner than 1e-6 of the whole\n  gaps: none\n", printed)
+            self.assertIn("height 1.41; 0 are thinner than 1e-6 of the whole\n  gaps: none\n  overlaps: none\n", printed)
         self.assertIn("units cgs, 1 patch\npatch 0: 12 triangles, 8 points within x 0 to 2, y 0 to 2, z 0 to 2\n", printed)
         self.assertIn("worst triangle: triangle 1 of patch 0", printed)
 
@@ -64,6 +64,14 @@ class Stl(ConvertCase):
         self.assertIn("left out: 1 without an area, 1 that lie twice\n", printed)
         self.assertIn("3 free, 0 of more than two faces\n  area 22, open: no volume\n", printed)
         self.assertIn("  gaps: 1\n    3 free sides of triangles, length 6.82843, one at line ", printed)
+
+    def test_a_patch_and_a_plate_through_a_cube(self):
+        patch = [((0.3, 0.1, 2), (0.9, 0.1, 2), (0.9, 0.3, 2))]  # on z = 2, whose diagonal is x = y
+        through = [((0.4, 0.8, -1), (0.6, 0.8, -1), (0.5, 0.9, 1))]
+        printed = self.printed(cube=box(0, 2), patch=patch, through=through)
+        self.assertIn("\n  overlaps:\n    1 pair of triangles in one plane cover each other (contacts there may count twice)", printed)
+        self.assertIn(", one at line 16 of patch 0 and line 88 of patch 1\n", printed)
+        self.assertIn("    1 pair of triangles pierce each other, one at line 2 of patch 0 and line 97 of patch 2\n", printed)
 
     def test_a_facetted_cylinder_stays_facetted(self):
         n = 24

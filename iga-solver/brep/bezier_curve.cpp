@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "brep/bezier_curve.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "nurbs/basis.h"
+
+namespace brep {
+
+template <int Dim>
+typename BezierCurve<Dim>::Derivatives BezierCurve<Dim>::derivatives(double s) const {
+  const int p = degree();
+  Eigen::Matrix<double, Dim + 1, nurbs::kMaxDegree + 1> b;
+  b.leftCols(p + 1) = points;
+  Homogeneous first = Homogeneous::Zero(), second = Homogeneous::Zero();
+  for (int left = p; left > 0; --left) {  // de Casteljau's; the last columns say what derivatives are
+    if (left == 2) second = p * (p - 1) * (b.col(2) - 2.0 * b.col(1) + b.col(0));
+    if (left == 1) first = p * (b.col(1) - b.col(0));
+    for (int k = 0; k < left; ++k) b.col(k) += s * (b.col(k + 1) - b.col(k));
+  }
+  const double w = b(Dim, 0);
+  Derivatives at;
+  at.point = b.col(0).template head<Dim>() / w;
+  at.first = (first.template head<Dim>() - first[Dim] * at.point) / w;
+  at.second = (second.template head<Dim>() - 2.0 * first[Dim] * at.first - second[Dim] * at.point) / w;
+  return at;
+}
+
+template <int Dim>
+std::pair<BezierCurve<Dim>, BezierCurve<Dim>> BezierCurve<Dim>::parts(double s) const {
+  const double middle = begin + s * (end - begin);
+  std::pair<BezierCurve, BezierCurve> parts{{points, begin, middle}, {points, middle, end}};
+  auto& behind = parts.second.points;
+  for (int k = 1; k <= degree(); ++k) {
+    for (int i = 0; i <= degree() - k; ++i) behind.col(i) += s * (behind.col(i + 1) - behind.col(i));
+    parts.first.points.col(k) = behind.col(0);
+  }
+  return parts;
+}
+
+template <int Dim>
+std::vector<BezierCurve<Dim>> beziers(const Spline<Dim>& spline) {
+  const nurbs::KnotVector knots(spline.degree, spline.knots);
+  const auto count = static_cast<long>(knots.control_point_count());
+  const auto weights = static_cast<long>(spline.weights.size());
+  if (spline.points.cols() != count || (weights != 0 && weights != count))
+    throw std::invalid_argument(fmt::format("a curve of {} points and {} weights, expected {} of each",
+                                            spline.points.cols(), weights, count));
+  const std::vector<nurbs::ElementFunctions> functions = nurbs::element_functions(knots);
+  std::vector<BezierCurve<Dim>> result;
+  for (int e = 0; e < knots.element_count(); ++e) {
+    const int p = knots.degree(), first = knots.span_of_element(e) - p;
+    BezierCurve<Dim> curve{{}, knots.breaks()[e], knots.breaks()[e + 1]};
+    curve.points.setZero(Dim + 1, p + 1);
+    for (int k = 0; k <= p; ++k)
+      for (int j = 0; j <= p; ++j) {
+        const double w = weights == 0 ? 1.0 : spline.weights[first + j], N = functions[e].bezier[k][j];
+        curve.points.col(k).template head<Dim>() += N * w * spline.points.col(first + j);
+        curve.points(Dim, k) += N * w;
+      }
+    result.push_back(std::move(curve));
+  }
+  return result;
+}
+
+template struct BezierCurve<2>;
+template struct BezierCurve<3>;
+template std::vector<BezierCurve<2>> beziers(const Spline<2>&);
+template std::vector<BezierCurve<3>> beziers(const Spline<3>&);
+
+}  // namespace brep

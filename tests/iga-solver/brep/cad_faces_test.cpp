@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Walls of trimmed faces, as CAD files have them, and of patches: the feet of the judges.
+#include <gmock/gmock.h>
+
+#include "cad_of_wall.h"
+#include "mixed_trial.h"
+
+namespace brep::trials {
+namespace {
+
+constexpr int kPoints = 60;
+
+class CadFaces : public testing::TestWithParam<Given> {
+ protected:
+  static void expect_feet(Trial& trial, const std::string& name) {
+    long feet = 0;
+    EXPECT_EQ(trial.try_sheets(), "") << name;
+    for (int k = 0; k < kPoints; ++k) EXPECT_EQ(trial.try_point(k, feet), "") << name << " " << k;
+    EXPECT_GT(feet, 0) << name;
+  }
+};
+
+TEST_P(CadFaces, OfTrianglesHaveTheJudgesFeet) {
+  for (int index = 0; index < 2 * kFamilies; ++index) {
+    TriangleTrial trial(3, index, GetParam());
+    expect_feet(trial, family_name(index % kFamilies));
+  }
+}
+
+TEST_P(CadFaces, InClosedFormHaveTheJudgesFeet) {
+  for (int index = 0; index < kMixedFamilies; ++index) {
+    MixedTrial trial(5, index, GetParam());
+    expect_feet(trial, mixed_family_name(index));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Given, CadFaces, testing::Values(Given::as_cad, Given::as_patches),
+                         [](const auto& of) { return of.param == Given::as_cad ? "AsCad" : "AsPatches"; });
+
+}  // namespace
+}  // namespace brep::trials
