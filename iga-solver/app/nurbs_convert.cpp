@@ -18,6 +18,7 @@ using geometry_io::GeometryFile;
 
 struct Options {
   std::string in, out, surface, units = "si";
+  double tolerance = 0.0;
 };
 
 // The patches of one named surface, as a geometry of its own; faces of volumes become surfaces.
@@ -62,7 +63,8 @@ void run(const Options& options) {
   std::vector<std::string> inputs;
   const auto read_and_note = [&](const std::string& path) {
     inputs.push_back(path);
-    return geometry_io::read_file(path);
+    return options.tolerance > 0.0 ? geometry_io::read_fitted(path, options.tolerance)
+                                   : geometry_io::read_file(path);
   };
   GeometryFile geometry =
       geometry_io::read_geometry(options.in, read_and_note, geometry_io::units_from_name(options.units));
@@ -87,5 +89,9 @@ int main(int argc, char** argv) {
   command.add_option("--units", options.units,
                      "units of a file that has none (G+Smo, STL), and those to which CAD is brought: si "
                      "(default), cgs, mm-g-ms or mm-t-s");
+  command
+      .add_option("--tolerance", options.tolerance,
+                  "of STEP and IGES: fit surfaces of offset within so many mm, which are refused without")
+      ->check(app::positive_number);
   return app::run_command(command, argc, argv, options.in, [&] { run(options); });
 }

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // STEP and IGES by the program nurbs-read-step.
+#include <fmt/format.h>
+
 #include <new>
 #include <stdexcept>
 
@@ -26,10 +28,12 @@ double units_per_mm(Units units) {
 
 }  // namespace
 
-std::string unpacked_cad(const std::string& bytes, const std::string& file) {
+std::string unpacked_cad(const std::string& bytes, const std::string& file, double offset_tolerance) {
   const FileKind kind = kind_of_file(file, bytes);
   if (kind != FileKind::step && kind != FileKind::iges) expect_kind(FileKind::step, file, bytes);
   try {
+    if (offset_tolerance > 0.0)
+      return read_in_own_process(kStepReader, bytes, {fmt::format("{}", offset_tolerance)});
     return read_in_own_process(kStepReader, bytes);
   } catch (const std::bad_alloc&) {
     throw InputError(nurbs::out_of_memory(file));

@@ -218,7 +218,7 @@ double distance_to(const CadEdge& edge, const Vector3& point) {
   }
   const AnySpline curve = homogeneous(edge.curve);
   const auto away = [&](double t) { return (curve.point(t) - point).squaredNorm(); };
-  const int places = std::clamp<int>(4 * static_cast<int>(curve.points.cols()), 16, 400);
+  const int places = std::clamp<int>(12 * static_cast<int>(curve.points.cols()), 64, 800);
   return std::sqrt(away(lowest_place(away, curve.begin(), curve.end(), places)));
 }
 

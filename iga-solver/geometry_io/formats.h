@@ -17,8 +17,8 @@ std::string write_hdf5(const GeometryFile& geometry);
 /// STEP and IGES: bytes, or what unpacked_cad makes of them; `units` are those of the model.
 GeometryFile parse_cad(const std::string& bytes, const std::string& file, Units units);
 /// The model as bytes that others can parse without OpenCASCADE, by a process of its own (reader_process.h).
-/// Throws InputError.
-std::string unpacked_cad(const std::string& bytes, const std::string& file);
+/// Surfaces of offset are fitted within `offset_tolerance` [mm], or refused if it is 0.  Throws InputError.
+std::string unpacked_cad(const std::string& bytes, const std::string& file, double offset_tolerance = 0.0);
 
 /// `units` are those of a file without.
 GeometryFile parse_gismo(const std::string& text, const std::string& file, Units units);

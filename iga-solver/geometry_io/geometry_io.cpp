@@ -45,6 +45,13 @@ const FormatEntry& entry(Format format) {
 
 Format input_format(const std::string& path) { return format_of_path(path).value_or(format::yaml); }
 
+std::string bytes_of(const std::string& path) {
+  FileContent content = read_regular_file(path);
+  if (!content.problem.empty())
+    throw InputError(fmt::format("{}: cannot read this file: {}", path, content.problem));
+  return std::move(content.bytes);
+}
+
 // The file that a geometry file names names no further one.
 GeometryFile read_other_file(const std::string& path, Units units, const ReadFile& read) {
   GeometryFile geometry = entry(input_format(path)).parse(read(path), path, units);
@@ -73,11 +80,12 @@ std::string written_extensions() {
   return fmt::format("{} or {}", fmt::join(found, ", "), last);
 }
 
-std::string read_file(const std::string& path) {
-  FileContent content = read_regular_file(path);
-  if (!content.problem.empty())
-    throw InputError(fmt::format("{}: cannot read this file: {}", path, content.problem));
-  return readable(path, std::move(content.bytes));
+std::string read_file(const std::string& path) { return readable(path, bytes_of(path)); }
+
+std::string read_fitted(const std::string& path, double offset_tolerance) {
+  if (input_format(path) != format::cad)
+    throw InputError(path + ": a tolerance for surfaces of offset, expected a STEP or IGES file");
+  return unpacked_cad(bytes_of(path), path, offset_tolerance);
 }
 
 std::string readable(const std::string& path, std::string bytes) {

@@ -29,6 +29,8 @@ std::string written_extensions();
 using ReadFile = std::function<std::string(const std::string& path)>;
 /// Reads in this process, `readable` included.
 std::string read_file(const std::string& path);
+/// The same for STEP and IGES, but surfaces of offset are fitted within a tolerance > 0 [mm].
+std::string read_fitted(const std::string& path, double offset_tolerance);
 /// For a ReadFile on behalf of many: what an HDF5, STEP or IGES file holds as bytes that the others parse
 /// without the libraries that read it, which might crash on a damaged file; other files as they are.
 std::string readable(const std::string& path, std::string bytes);

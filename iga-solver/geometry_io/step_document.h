@@ -2,22 +2,13 @@
 // A STEP or IGES file as OpenCASCADE has read it: bodies and sheets in their places, with names and colours.
 #pragma once
 
-#include <NCollection_DataMap.hxx>
-#include <TopTools_ShapeMapHasher.hxx>
 #include <TopoDS_Shape.hxx>
 #include <string>
 #include <vector>
 
-namespace geometry_io {
+#include "geometry_io/step_label.h"
 
-/// What the file says of a face (or a solid).
-struct StepLabel {
-  std::string name;
-  int colour = -1;  ///< 0xRRGGBB
-  int entity = 0;   ///< #number
-};
-/// By shape, wherever it is.
-using StepLabels = NCollection_DataMap<TopoDS_Shape, StepLabel, TopTools_ShapeMapHasher>;
+namespace geometry_io {
 
 /// A solid, or the faces of a component that are of none.
 struct StepBody {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "geometry_io/step_document.h"
+#include "geometry_io/step_label.h"
 
 namespace geometry_io {
 

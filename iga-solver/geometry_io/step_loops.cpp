@@ -24,6 +24,7 @@ using Eigen::Vector2d;
 using Eigen::VectorXd;
 
 constexpr double kFitted = 1e-10;  // of the parameters
+constexpr double kPole = 1e-3;     // size of what is meant to be a point [mm]
 
 Vector2d first_point(const AnySpline& curve) { return curve.points.col(0).head<2>() / curve.points(2, 0); }
 Vector2d last_point(const AnySpline& curve) {
@@ -80,11 +81,27 @@ class LoopMaker {
       if (!trim.forward) trim.curve = reversed(trim.curve);
       trim.edge = edge;
       trim.pole = BRep_Tool::Degenerated(edge);
-      if (!trim.pole) trim.gap = gap_from(edge, *curve, from, to);
+      if (!trim.pole)
+        trim.gap = gap_from(edge, *curve, from, to);
+      else if (const double away = extent_in_space(*curve, from, to); away > kPole)
+        throw std::runtime_error(
+            fmt::format("an edge that is nowhere in space, but {:.3g} mm long on the surface", away));
       raw_.fitted += fitted ? 1 : 0;
       loop.push_back(std::move(trim));
     }
     return loop;
+  }
+
+  // How far a border leads away from where it begins.
+  double extent_in_space(const Geom2d_Curve& border, double from, double to) const {
+    constexpr int kPlaces = 8;
+    const gp_Pnt2d first = border.Value(from);
+    double away = 0.0;
+    for (int i = 1; i <= kPlaces; ++i) {
+      const gp_Pnt2d p = border.Value(from + (to - from) * i / kPlaces);
+      away = std::max(away, gap_in_space({first.X(), first.Y()}, {p.X(), p.Y()}));
+    }
+    return away;
   }
 
   // OpenCASCADE's tolerance of an edge should say it, and does not always.
@@ -261,6 +278,21 @@ AnySpline mapped_affinely(const AnySpline& curve, const ReadSurface& surface) {
   return out;
 }
 
+// Straight, one parameter being the same all along, and not forth and back.
+bool is_along_parameter(const AnySpline& curve, const ParameterBox& box) {
+  constexpr double kSame = 1e-11;
+  const Eigen::ArrayXXd points = curve.points.topRows<2>().array().rowwise() / curve.points.row(2).array();
+  for (int d = 0; d < 2; ++d) {
+    const Eigen::ArrayXd along = points.row(1 - d);
+    const auto n = along.size();
+    const Eigen::ArrayXd steps = along.tail(n - 1) - along.head(n - 1);
+    const bool same =
+        points.row(d).maxCoeff() - points.row(d).minCoeff() <= kSame * (box.high[d] - box.low[d]);
+    if (same && (steps.minCoeff() >= 0.0 || steps.maxCoeff() <= 0.0)) return true;
+  }
+  return false;
+}
+
 // Not affine: straight pieces along a parameter stay so, others are fitted.
 AnySpline mapped_curve(const AnySpline& curve, const ReadSurface& surface, const ParameterBox& box,
                        int& fitted_count) {
@@ -270,9 +302,8 @@ AnySpline mapped_curve(const AnySpline& curve, const ReadSurface& surface, const
     return q;
   };
   if (surface.map[0].affine() && surface.map[1].affine()) return mapped_affinely(curve, surface);
-  const Vector2d a = first_point(curve), b = last_point(curve);
-  if (curve.degree == 1 && curve.points.cols() == 2 && (a.x() == b.x() || a.y() == b.y()))
-    return segment(map(a), map(b), curve.begin(), curve.end());
+  if (is_along_parameter(curve, box))
+    return segment(map(first_point(curve)), map(last_point(curve)), curve.begin(), curve.end());
   ++fitted_count;
   const auto point = [&](double t) -> VectorXd { return map(curve.point(t)); };
   const Vector2d size{box.high[0] - box.low[0], box.high[1] - box.low[1]};

@@ -38,6 +38,28 @@ Handle(Geom_Surface) untrimmed(Handle(Geom_Surface) surface) {
   return surface;
 }
 
+// Files say 6.28318530718: ends of whole turns, poles and tips are put where they are meant.
+void snap(brep::CadFace& face) {
+  constexpr double kNear = 1e-11;
+  const brep::Face& s = face.shape;
+  const bool turns[] = {s.kind != brep::Kind::plane, s.kind == brep::Kind::torus};
+  const auto move = [&](int direction, double from, double to) {
+    for (brep::Loop& loop : face.loops)
+      for (brep::Trim& trim : loop)
+        for (double& x : trim.curve.points.row(direction))
+          if (std::abs(x - from) <= kNear) x = to;
+  };
+  for (int d = 0; d < 2; ++d)
+    if (turns[d] && std::abs(s.high[d] - s.low[d] - nurbs::kTwoPi) <= kNear) {
+      const double low = std::abs(s.low[d]) <= kNear ? 0.0 : s.low[d];
+      move(d, s.low[d], low);
+      move(d, s.high[d], low + nurbs::kTwoPi);
+    }
+  if (s.kind == brep::Kind::sphere)
+    for (const double pole : {-0.5 * nurbs::kPi, 0.5 * nurbs::kPi}) move(1, pole, pole);
+  if (s.kind == brep::Kind::cone) move(1, 0.0, 0.0);
+}
+
 class ModelMaker {
  public:
   ModelMaker(StepDocument document, const StepOptions& options)
@@ -138,6 +160,10 @@ class ModelMaker {
       model_.patches.push_back(std::move(*read.patch));
     }
     set_range(out.loops, out.shape);
+    if (out.shape.kind != brep::Kind::nurbs) {
+      snap(out);
+      set_range(out.loops, out.shape);
+    }
     out.tolerance = BRep_Tool::Tolerance(face);
     const int side = read.same_side() ? 1 : -1;
     out.outward = face.Orientation() == TopAbs_FORWARD    ? side

@@ -75,10 +75,9 @@ TEST(FileKind, ARefusalNamesTheWayOut) {
   const auto read = [](const char* file, const std::string& bytes) {
     return [=] { YamlMap::parse(bytes, file); };
   };
-  EXPECT_THAT(read("x.step", kStep),
-              ThrowsMessage<InputError>(
-                  AllOf(StartsWith("x.step: is a STEP file, expected another kind of file"),
-                        HasSubstr("geometry: {file: NAME}"))));
+  EXPECT_THAT(read("x.step", kStep), ThrowsMessage<InputError>(AllOf(
+                                         StartsWith("x.step: is a STEP file, expected another kind of file"),
+                                         HasSubstr("geometry: {file: NAME}"))));
   EXPECT_THAT(read("x.yaml", kTextStl), ThrowsMessage<InputError>(HasSubstr("from files called .stl")));
   EXPECT_THAT(read("x.yaml", kHdf5), ThrowsMessage<InputError>(HasSubstr("geometry: {file: NAME}")));
 }

@@ -28,7 +28,7 @@ class Refusals(ConvertCase):
             "binary": bytes(range(256)),
         }
         for kind, content in foreign.items():
-            names = ["wall.yaml", "wall.h5", "wall.xml"] + (["wall." + kind.lower()] if kind in ("STEP", "IGES") else [])
+            names = ["wall.yaml", "wall.h5", "wall.xml"]
             for name in names:
                 (self.folder / name).write_bytes(content)
                 self.write("model.yaml", f"units: si\ngeometry: {{file: {name}}}\n")
@@ -193,7 +193,7 @@ class Refusals(ConvertCase):
             ("units.yaml",): "good.h5: units are cgs, expected si as in the file that names this one",
             ("chain.yaml",): "units.yaml:2: geometry.file is good.h5 in a file that is itself read for another one",
             ("gone.yaml",): "nowhere.xml: cannot read this file",
-            ("good.h5", "out.stp"): "out.stp: unknown extension, expected .yaml, .yml, .h5, .hdf5 or .xml",
+            ("good.h5", "out.stp"): "out.stp: STEP or IGES files are read, not written, expected .yaml, .yml, .h5, .hdf5 or .xml",
             ("good.h5", "out.stl"): "out.stl: STL files are read, not written, expected .yaml, .yml, .h5, .hdf5 or .xml",
             ("part.stl", "out.h5"): "out.h5: HDF5 holds no triangles .STL., expected NURBS patches",
             ("good.h5", "none/out.h5"): "none/out.h5: cannot write here: No such file or directory",

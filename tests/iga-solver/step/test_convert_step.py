@@ -2,10 +2,12 @@
 """CAD files through nurbs-convert: to HDF5 and back to the last bit, units, surfaces by name, the bad files."""
 
 import os
+import re
 import subprocess
 import tempfile
 import time
 import unittest
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import h5py
@@ -14,9 +16,8 @@ import numpy
 import bad_files
 
 MAKE_STEP_PARTS, NURBS_CONVERT = os.environ["MAKE_STEP_PARTS"], os.environ["NURBS_CONVERT"]
-# Read by what they are, whatever they are called; mended, or read as a sheet with free edges.
-READ = {*bad_files.MENDABLE, "step_inside.igs", "iges_inside.step", "hole_alone_holes.step"}
-SLOW = {"point_huge_cylinder.step"}
+# Mended; read by what they are, whatever they are called; a sheet with free edges; numbers that are 0 in a shape that is one.
+READ = {*bad_files.MENDABLE, "step_inside.igs", "iges_inside.step", "hole_alone_holes.step", "garbage_closed_spline.igs"}
 
 
 def values(path: Path) -> dict:
@@ -83,23 +84,27 @@ class ConvertStep(unittest.TestCase):
         for words in ("nothing", "'face:25'", "'colour:000001'", "eg"):
             self.assertRegex(surfaces(words), "wall.yaml:3: .* expected all, face:N with N from 1 to 24, .*colour:FF8800.* sole, top")
 
+    def check_bad(self, bad) -> tuple:
+        path = self.folder / f"bad_{bad.name}"
+        path.write_bytes(bad.content)
+        start = time.monotonic()
+        return path, self.run_it(path.name), time.monotonic() - start
+
     def test_bad_files_are_refused_in_one_line(self):
-        """A crash of OpenCASCADE is one, too; those that it does not end on are known."""
-        files = [bad for bad in bad_files.bad_files(self.folder) if bad.name not in SLOW]
+        """A crash of OpenCASCADE is one, too; of files cut short and of wrong references one kind each is enough here."""
+        files = [bad for bad in bad_files.bad_files(self.folder) if not re.match("cut_.*(pipe|nested)|type_", bad.name)]
+        self.assertGreater(len(files), 60)
         for part in self.folder.glob("external_*.stp"):
             part.unlink()
-        for bad in files:
-            path = self.folder / f"bad_{bad.name}"
-            path.write_bytes(bad.content)
-            start = time.monotonic()
-            done = self.run_it(path.name)
-            with self.subTest(bad.name, wrong=bad.wrong):
-                self.assertLess(time.monotonic() - start, 20)
-                if bad.name in READ:
-                    self.assertEqual((done.returncode, done.stderr), (0, ""))
-                else:
-                    self.assertEqual(done.returncode, 1, done.stdout)
-                    self.assertRegex(done.stderr, rf"^ERROR: {path.name}: .*\n$")
+        with ThreadPoolExecutor(4) as pool:
+            for bad, (path, done, seconds) in zip(files, pool.map(self.check_bad, files)):
+                with self.subTest(bad.name, wrong=bad.wrong):
+                    self.assertLess(seconds, 20)
+                    if bad.name in READ:
+                        self.assertEqual((done.returncode, done.stderr), (0, ""))
+                    else:
+                        self.assertEqual(done.returncode, 1, done.stdout)
+                        self.assertRegex(done.stderr, rf"^ERROR: {path.name}: .*\n$")
 
 
 if __name__ == "__main__":
