@@ -2,6 +2,7 @@
 // The faces of a wall that are NURBS patches, each with its search.
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -14,10 +15,12 @@ namespace brep {
 class PatchFaces {
  public:
   /// Throws std::invalid_argument as nurbs::check_patch does.
-  explicit PatchFaces(std::vector<nurbs::Surface> patches);
+  /// Kinks inside that turn by no more than `edge_angle` are smooth [rad].
+  PatchFaces(const std::vector<nurbs::Surface>& patches, double edge_angle);
   PatchFaces(const PatchFaces&) = delete;  // searches refer to patches
 
   int count() const { return static_cast<int>(patches_.size()); }
+  /// The same surface as was given, maybe in more elements.
   const nurbs::Surface& patch(int p) const { return patches_[p]; }
   const search::SurfaceProjector& projector(int p) const { return *projectors_[p]; }
 
@@ -32,15 +35,29 @@ class PatchFaces {
   bool has_one_foot(int p, int element, const Vector3& d, double reach) const {
     return projectors_[p]->second_foot().excluded_until_next_list(d, reach, element);
   }
+  /// Whether the normals of an element lead to where d is, to its side `side` alone unless that is 0.
+  bool may_have_foot(int p, int element, const Vector3& d, int side) const;
+  /// Local minima of the distance from d nearer than `reach`, given all elements that are and may have one;
+  /// in place of those in `feet`.
+  void minima_on(int p, const std::vector<int>& elements, const Vector3& d, double reach,
+                 std::vector<search::Foot>& feet) const;
   /// d S / d xi_i [length / parameter]
   Vector3 tangent(int p, const Parameter<2>& xi, int i) const;
   /// Whether xi is at an end of a range of the patch's parameters.
   bool on_border(int p, const Parameter<2>& xi) const;
 
  private:
+  // A ball around an element, and a cone around its normals.
+  struct NormalCone {
+    Vector3 centre, normal;
+    double radius, sine;  // of the angle between normals and the cone's axis, at most; 2: any
+  };
+  static NormalCone cone_of(const nurbs::Surface& patch, const search::Box& box, int element);
+
   std::vector<nurbs::Surface> patches_;
   std::vector<std::unique_ptr<search::SurfaceProjector>> projectors_;
   std::vector<std::vector<search::Box>> boxes_;  // of elements
+  std::vector<std::vector<NormalCone>> cones_;
 };
 
 }  // namespace brep

@@ -98,15 +98,28 @@ void TrimDomain::add_curve(const BezierCurve<2>& curve, int depth) {
   const Box2 box = box_of(curve);
   const int bends = turns(curve);
   if (bends == 0 || depth == kDeepest || box.second[1] - box.first[1] <= kFlat * (high_[1] - low_[1]))
-    return add_part(curve.point(0), curve.point(p), &curve);
+    return add_small_parts(curve, 0);
   const auto [before, behind] = curve.parts(bends == 1 ? turning_point(curve) : 0.5);
   if (bends == 1) {
-    add_part(before.point(0), before.point(p), &before);
-    add_part(before.point(p), behind.point(p), &behind);
-    return;
+    add_small_parts(before, 0);
+    return add_small_parts(behind, 0);
   }
   add_curve(before, depth + 1);
   add_curve(behind, depth + 1);
+}
+
+// In boxes so small that few points are in one.
+void TrimDomain::add_small_parts(const BezierCurve<2>& curve, int depth) {
+  constexpr double kSmall = 1.0 / 64.0;  // of the loops' extent
+  constexpr int kMostHalvings = 8;
+  const Box2 box = box_of(curve);
+  const bool is_small = box.second[0] - box.first[0] <= kSmall * (high_[0] - low_[0]) ||
+                        box.second[1] - box.first[1] <= kSmall * (high_[1] - low_[1]);
+  if (is_small || depth == kMostHalvings)
+    return add_part(curve.point(0), curve.point(curve.degree()), &curve);
+  const auto [before, behind] = curve.parts(0.5);
+  add_small_parts(before, depth + 1);
+  add_small_parts(behind, depth + 1);
 }
 
 void TrimDomain::add_part(const Point& from, const Point& to, const BezierCurve<2>* curve) {

@@ -40,6 +40,7 @@ class TrimDomain {
   void add_loop(const Loop& loop);
   void add_line(const Point& from, const Point& to);
   void add_curve(const BezierCurve<2>& curve, int depth);
+  void add_small_parts(const BezierCurve<2>& curve, int depth);
   void add_part(const Point& from, const Point& to, const BezierCurve<2>* curve);
   void make_bands();
   bool is_left_of(const Part& part, const Parameter<2>& xi) const;

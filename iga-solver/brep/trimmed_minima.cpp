@@ -43,11 +43,14 @@ void Minima::add_of_elements() {
   thread_local std::vector<int> of_patch;
   thread_local std::vector<search::Foot> feet;
   of_patch.clear();
-  for (const int piece : elements()) of_patch.push_back(surface_.pieces[piece].element());
   const int face = surface_.pieces[elements().front()].face, patch = surface_.faces[face].patch;
+  for (const int piece : elements())
+    if (surface_.patches->may_have_foot(patch, surface_.pieces[piece].element(), d_,
+                                        surface_.faces[face].outward))
+      of_patch.push_back(surface_.pieces[piece].element());
   elements().clear();
-  surface_.patches->projector(patch).all_minima_on(d_, reach_, of_patch.data(),
-                                                   static_cast<int>(of_patch.size()), feet);
+  if (of_patch.empty()) return;
+  surface_.patches->minima_on(patch, of_patch, d_, reach_, feet);
   for (const search::Foot& foot : feet)
     if (!surface_.patches->on_border(patch, foot.xi) && surface_.domains[face].inside(foot.xi) &&
         (foot.status == FootStatus::interior || is_lowest_beside(face, foot.xi, foot.distance)))
