@@ -40,8 +40,40 @@ std::pair<BezierCurve<Dim>, BezierCurve<Dim>> BezierCurve<Dim>::parts(double s) 
   return parts;
 }
 
+namespace {
+
+// Index of the first of degree + 1 equal knots inside: there the curve may be in two; 0 if there are none.
+template <int Dim>
+int place_of_cut(const Spline<Dim>& spline) {
+  const int p = spline.degree, count = static_cast<int>(spline.knots.size());
+  for (int i = p + 1; i + 2 * p + 1 < count; ++i)
+    if (spline.knots[i] == spline.knots[i + p]) return i;
+  return 0;
+}
+
+template <int Dim>
+Spline<Dim> part_of(const Spline<Dim>& spline, int first_knot, int end_knot, int first, int count) {
+  Spline<Dim> part;
+  part.degree = spline.degree;
+  part.knots.assign(spline.knots.begin() + first_knot, spline.knots.begin() + end_knot);
+  part.points = spline.points.middleCols(first, count);
+  if (!spline.weights.empty())
+    part.weights.assign(spline.weights.begin() + first, spline.weights.begin() + first + count);
+  return part;
+}
+
+}  // namespace
+
 template <int Dim>
 std::vector<BezierCurve<Dim>> beziers(const Spline<Dim>& spline) {
+  const auto points = static_cast<int>(spline.points.cols());
+  if (const int cut = place_of_cut(spline); cut > 0 && cut < points) {
+    const int knots = static_cast<int>(spline.knots.size());
+    std::vector<BezierCurve<Dim>> result = beziers(part_of(spline, 0, cut + spline.degree + 1, 0, cut));
+    for (BezierCurve<Dim>& curve : beziers(part_of(spline, cut, knots, cut, points - cut)))
+      result.push_back(std::move(curve));
+    return result;
+  }
   const nurbs::KnotVector knots(spline.degree, spline.knots);
   const auto count = static_cast<long>(knots.control_point_count());
   const auto weights = static_cast<long>(spline.weights.size());

@@ -51,7 +51,8 @@ class FromCad {
   FromCad(const CadModel& model, const std::vector<int>& faces, double edge_angle) : model_(model) {
     if (faces.empty()) throw std::invalid_argument("faces: there are none");
     surface_.edge_angle = edge_angle;
-    if (!model.patches.empty()) surface_.patches = std::make_shared<const PatchFaces>(model.patches, edge_angle);
+    if (!model.patches.empty())
+      surface_.patches = std::make_shared<const PatchFaces>(model.patches, edge_angle);
     for (const int f : faces) add_face(model.faces.at(f));
     measure();
     for (const int f : faces) add_trims(model.faces[f]);

@@ -91,6 +91,7 @@ void Minima::add_in_wedge(const Uses& uses, int visiting, const OnEdge& on) {
   const int number = uses.number(use), next_number = uses.number(next);
   const bool off_use = is_off(use, number), off_next = is_off(next, next_number);
   if (on.slack > slack_) widen(on.slack);
+  if (visiting == kAll && uses.count > 2) add_square_above(uses, on);
   if (joins(use.wedge)) {
     if (off_use && off_next) add(use.face, use.side, FootStatus::edge, use.edge, on.at, number);
     return;
@@ -99,6 +100,19 @@ void Minima::add_in_wedge(const Uses& uses, int visiting, const OnEdge& on) {
     add(use.face, use.side, FootStatus::edge, use.edge, on.at, number);
   if (off_next && (visiting == kAll || visiting == next_number))
     add(next.face, -next.side, FootStatus::edge, use.edge, on.at, next_number);
+}
+
+// Of a trimmed face, what is inside ends at its border: square above an edge of many faces d is over those,
+// be it in their wedge or not.
+void Minima::add_square_above(const Uses& uses, const OnEdge& on) {
+  for (const EdgeUse& use : uses) {
+    const double* m = use.conormal;
+    if (std::abs(on.q[0] * m[0] + on.q[1] * m[1]) > on.slack ||
+        !is_nearest_of_whole(use, uses.number(use), on.at))
+      continue;
+    const int side = m[0] * on.q[1] - m[1] * on.q[0] > 0.0 ? use.side : -use.side;
+    add(use.face, side, FootStatus::edge, use.edge, on.at, uses.number(use));
+  }
 }
 
 void Minima::add_of_vertex(int v, int face) {

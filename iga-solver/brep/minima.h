@@ -77,6 +77,7 @@ class Minima {
     double slack;
   };
   void add_in_wedge(const Uses& uses, int visiting, const OnEdge& on);
+  void add_square_above(const Uses& uses, const OnEdge& on);
   void add_of_vertex(int vertex, int face);
   bool is_off_ray(int ray, const Vector3& w) const;
   bool in_group(const Vertex& vertex, int group, const Vector3& w) const;

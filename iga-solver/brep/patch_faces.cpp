@@ -110,17 +110,18 @@ bool PatchFaces::may_have_foot(int p, int element, const Vector3& d, int side) c
 void PatchFaces::minima_on(int p, const std::vector<int>& elements, const Vector3& d, double reach,
                            std::vector<search::Foot>& feet) const {
   const auto is_calm = [&](int element) { return has_one_foot(p, element, d, reach); };
-  if (!std::all_of(elements.begin(), elements.end(), is_calm))
-    return projectors_[p]->all_minima_on(d, reach, elements.data(), static_cast<int>(elements.size()), feet);
   const auto away = [&](int element) {
     const search::Box& box = boxes_[p][element];
     return box.squared_distance(d) + (0.5 * (box.low + box.high) - d).squaredNorm();
   };
   const int nearest =
       *std::min_element(elements.begin(), elements.end(), [&](int a, int b) { return away(a) < away(b); });
-  const search::Foot foot = projectors_[p]->warm(d, patches_[p].space.element_centre(nearest));
-  feet.clear();
-  if (foot.status != FootStatus::not_converged && foot.distance < reach) feet.push_back(foot);
+  if (std::all_of(elements.begin(), elements.end(), is_calm)) {
+    feet.assign(1, projectors_[p]->warm(d, patches_[p].space.element_centre(nearest)));
+    // On a border it may have come to a seam, beyond which it would go on.
+    if (feet[0].distance < reach && feet[0].status == FootStatus::interior) return;
+  }
+  projectors_[p]->all_minima_on(d, reach, elements.data(), static_cast<int>(elements.size()), feet);
 }
 
 bool PatchFaces::on_border(int p, const Parameter<2>& xi) const {
