@@ -61,7 +61,8 @@ class Trial {
       double least = 1e300;
       for (const brep::Foot& foot : feet) least = std::min(least, foot.distance);
       const double off = least - distance;
-      if (std::abs(off) <= std::max(1e-9 * wall_.size, judge_.tolerance())) {
+      // What is within the tolerance of a border may be in the face or not, and that of the edge, too.
+      if (std::abs(off) <= std::max(1e-9 * wall_.size, 2.0 * judge_.tolerance())) {
         worst_ = std::max(worst_, std::abs(off));
         continue;
       }
