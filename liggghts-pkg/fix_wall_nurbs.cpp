@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "atom.h"
+#include "brep/summary.h"
 #include "brep/triangle_mesh.h"
 #include "domain.h"
 #include "geometry_io/geometry_summary.h"
@@ -102,7 +103,11 @@ void FixWallNurbs::in_step(Action action) const {
 
 void FixWallNurbs::describe() {
   geometry_io::GeometryFile surface{opened_.units, {}, {}};
-  if (const auto& faces = structure_.surface().faces)
+  const auto& faces = structure_.surface().faces;
+  if (faces && faces->trimmed())
+    return messages_.print(
+        fmt::format("surface '{}' of '{}'\n{}", options_.surface, options_.file, brep::text_of(*faces)));
+  if (faces)
     surface.patches.emplace_back(geometry_io::mesh_of(brep::triangles_of(*faces)));
   else
     for (nurbs::Surface& patch : nurbs::split(loop_.wall().surface(), exchange_.positions()))

@@ -31,8 +31,9 @@ struct BezierCurve {
   std::pair<BezierCurve, BezierCurve> parts(double s) const;
 };
 
-/// Of each knot span one; a knot may stand degree + 1 times, where the curve stands still.  Throws std::invalid_argument as nurbs::KnotVector does, and if there is not one
-/// point, and one weight if any, for each function.
+/// Of each knot span one; a knot may stand degree + 1 times, where the curve stands still.  Throws
+/// std::invalid_argument as nurbs::KnotVector does, and if there is not one point, and one weight if any, for
+/// each function.
 template <int Dim>
 std::vector<BezierCurve<Dim>> beziers(const Spline<Dim>& spline);
 

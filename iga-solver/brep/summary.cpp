@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "brep/summary.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <cmath>
 
@@ -95,12 +97,28 @@ Summary summary_of(const Surface& surface) {
   const Vector3 middle = 0.5 * (surface.low + surface.high);
   double volume = 0.0;
   for (const Piece& piece : surface.pieces) {
+    if (surface.trimmed()) break;
     const Content content = content_of(surface, piece, middle);
     summary.area += content.area;
     volume += content.flux;
   }
   if (summary.closed && alike) summary.volume = volume;
   return summary;
+}
+
+std::string text_of(const Surface& surface) {
+  constexpr const char* kNames[] = {"plane", "cylinder", "cone", "sphere", "torus", "spline"};
+  const Summary summary = summary_of(surface);
+  std::string kinds;
+  for (int k = 0; k < 6; ++k)
+    if (summary.faces[k] > 0)
+      kinds += fmt::format("{}{} {}", kinds.empty() ? "" : ", ", summary.faces[k], kNames[k]);
+  return fmt::format(
+      "  {} faces ({}), from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})\n"
+      "  {} edges: {} smooth, {} convex, {} concave, {} free, {} of more than two faces\n",
+      surface.faces.size(), kinds, surface.low[0], surface.low[1], surface.low[2], surface.high[0],
+      surface.high[1], surface.high[2], surface.edges.size(), summary.smooth + summary.near_smooth,
+      summary.convex, summary.concave, summary.free, summary.many);
 }
 
 }  // namespace brep

@@ -7,17 +7,20 @@
 namespace brep {
 
 struct Summary {
-  int faces[5] = {0, 0, 0, 0, 0};  ///< by Kind
+  int faces[6] = {0, 0, 0, 0, 0, 0};  ///< by Kind
   int pieces = 0, vertices = 0, sheets = 0;
   int smooth = 0, near_smooth = 0;  ///< edges of two faces: within 1e-3 rad of pi, within edge_angle
   int convex = 0, concave = 0;      ///< sharp ones, as seen from where the normal of the first face points
   int free = 0, many = 0;           ///< edges of one face; of three or more
-  double area = 0.0;                ///< [length^2]
+  double area = 0.0;                ///< 0 of trimmed faces [length^2]
   bool closed = false;              ///< no free edges: it encloses a volume
   double volume = 0.0;              ///< if closed, with the faces turned alike, else 0 [length^3]
   double free_length = 0.0;         ///< of free edges [length]
 };
 
 Summary summary_of(const Surface& surface);
+
+/// Faces by kind, edges, extent: two lines.
+std::string text_of(const Surface& surface);
 
 }  // namespace brep
