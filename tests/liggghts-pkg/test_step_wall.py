@@ -242,9 +242,7 @@ class Written(unittest.TestCase):
         return np.array([line.split()[1:] for line in lines if line.startswith("vertex")], dtype=float).reshape(-1, 3, 3)
 
     def test_what_it_says(self):
-        match = re.search("surface 'all' of 'cylinder.step'\n3 faces, area (.*), within (.*)\n", self.whole.text)
-        self.assertAlmostEqual(float(match[1]), 2 * np.pi * 0.03 * 0.11, delta=5e-5)
-        self.assertRegex(match[2], r"^x -0.03\d* to 0.03\d*, y \S+ to 0.08\d*, z -0.03\d* to 0.03\d*$")
+        self.assertRegex(self.whole.text, "surface 'all' of 'cylinder.step'\n.*2 planes?, 1 cylinder")
 
     def test_pressure_adds_up_to_the_force(self):
         forces = np.array([self.whole.table[f"wall[{k}]"] for k in (1, 2, 3)])
