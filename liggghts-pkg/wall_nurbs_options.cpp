@@ -161,8 +161,8 @@ void check_complete(const WallNurbsOptions& options) {
         "'geometry FILE surface NAME' for a rigid one");
   if (options.surface.empty())
     fail(
-        "keyword 'surface' is missing, expected 'surface NAME' after the file, a name under 'surfaces' in "
-        "that file");
+        "keyword 'surface' is missing, expected 'surface NAME' after the file: a name under 'surfaces' in "
+        "that file, or 'all' of it");
   if (!options.contact_area.empty() && options.temperature.empty())
     fail("'contact_area' is that of heat, expected 'temperature T' of the wall beside it");
   if (options.placement && options.body != WallNurbsOptions::Body::rigid)

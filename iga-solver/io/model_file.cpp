@@ -128,6 +128,11 @@ void ModelFile::drop_control_points() {
 }
 
 ModelFile read_model_file(const std::string& path, const geometry_io::ReadFile& read) {
+  if (geometry_io::format_of_path(path) == geometry_io::format::cad)
+    throw geometry_io::InputError(
+        path +
+        ": is a STEP or IGES file, expected a model file (YAML): CAD has the faces of "
+        "a body, not the body; rigid walls take them by 'geometry'");
   const std::string text = read(path);
   if (geometry_io::format_of_path(path) == geometry_io::format::hdf5)  // what was read are its values
     geometry_io::refuse_kind(geometry_io::FileKind::hdf5, path);

@@ -85,6 +85,6 @@ expect_error 'pipe.yaml: cannot read.*named pipe' pipe.yaml
 sed 's/file: fall/file: pipe/' fall.yaml > to_pipe.yaml
 expect_error 'pipe.h5: cannot write here.*named pipe' to_pipe.yaml
 printf 'ISO-10303-21;\nHEADER;\n' > plate.step
-expect_error 'plate.step: is a STEP file, expected' plate.step
+expect_error 'plate.step: is a STEP or IGES file, expected a model file' plate.step
 printf '%s' '{"units": "si"},' > comma.json
 expect_error 'comma.json:1: broken YAML' comma.json
