@@ -50,7 +50,7 @@ std::shared_ptr<const brep::Surface> in_triangles(std::shared_ptr<const brep::Su
 
 }  // namespace
 
-FaceFields::FaceFields(MPI_Comm comm, std::shared_ptr<const brep::Surface> surface)
+FaceFields::FaceFields(MPI_Comm comm, const std::shared_ptr<const brep::Surface>& surface)
     : FaceFields(comm, surface, in_triangles(surface)) {}
 
 FaceFields::FaceFields(MPI_Comm comm, std::shared_ptr<const brep::Surface> surface,

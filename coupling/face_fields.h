@@ -16,7 +16,7 @@ namespace coupling {
 class FaceFields final : public ContactFields {
  public:
   /// Every rank builds the same.  `surface`: plane faces alone, or trimmed ones.
-  FaceFields(MPI_Comm comm, std::shared_ptr<const brep::Surface> surface);
+  FaceFields(MPI_Comm comm, const std::shared_ptr<const brep::Surface>& surface);
 
   void add(const SurfaceContact& contact) override;
   State state(const NodalVectors& control_points, const RigidFrame& frame,

@@ -70,7 +70,8 @@ bool Minima::is_lowest_beside(int face, const Parameter<2>& xi, double distance)
     step[i] = kBeside * (breaks[e[i] + 1] - breaks[e[i]]);
   }
   for (int way = 0; way < 9; ++way) {
-    const Parameter<2> beside{xi[0] + (way % 3 - 1) * step[0], xi[1] + (way / 3 - 1) * step[1]};
+    const int along[2] = {way % 3 - 1, way / 3 - 1};
+    const Parameter<2> beside{xi[0] + along[0] * step[0], xi[1] + along[1] * step[1]};
     if (way != 4 && surface_.domains[face].inside(beside) &&
         (surface_.patches->point(patch, beside) - d_).norm() < kNearer * distance)
       return false;
