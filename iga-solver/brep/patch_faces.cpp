@@ -13,7 +13,9 @@ namespace {
 
 // The same surface in smaller elements: of large ones, as fillets have, more are near a point than it takes.
 nurbs::Surface in_small_elements(nurbs::Surface patch) {
-  constexpr int kLeast = 16;  // elements along each direction
+  constexpr int kLeast = 16;   // elements along each direction
+  constexpr int kHighest = 3;  // degree at which a search in an element costs little
+  if (std::max(patch.space.degree(0), patch.space.degree(1)) <= kHighest) return patch;
   for (int i = 0; i < 2; ++i)
     while (patch.space.knots(i).element_count() < kLeast) {
       const std::vector<double> breaks = patch.space.knots(i).breaks();
