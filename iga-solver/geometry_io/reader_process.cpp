@@ -138,15 +138,15 @@ std::string read_in_own_process(const ReaderProgram& program, const std::string&
   in.write(bytes);
   const int status = wait_for(start(program, arguments, in, out));
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM))
-    throw std::runtime_error(fmt::format("damaged: {} comes to no end with it", program.library));
+    throw std::runtime_error(fmt::format("damaged: {} comes to no end with it", program.parser));
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL)
     throw std::runtime_error(fmt::format("{} was killed: more time or memory than allowed", program.name));
   if (WIFSIGNALED(status))
     throw std::runtime_error(
-        fmt::format("damaged: {} crashes on it ({})", program.library, strsignal(WTERMSIG(status))));
+        fmt::format("damaged: {} crashes on it ({})", program.parser, strsignal(WTERMSIG(status))));
   std::string answer = out.read();
   if (is_encoded(answer)) return answer;
-  throw std::runtime_error(answer.empty() ? fmt::format("damaged: {} gives up on it", program.library)
+  throw std::runtime_error(answer.empty() ? fmt::format("damaged: {} gives up on it", program.parser)
                                           : answer);
 }
 

@@ -12,7 +12,7 @@ namespace geometry_io {
 
 struct ReaderProgram {
   const char* name;
-  const char* library;  ///< that may crash
+  const char* parser;   ///< the library that may crash
   const char* without;  ///< why the program is needed, and what to do without it
 };
 

@@ -106,13 +106,14 @@ class LoopMaker {
 
   // OpenCASCADE's tolerance of an edge should say it, and does not always.
   double gap_from(const TopoDS_Edge& edge, const Geom2d_Curve& border, double from, double to) const {
-    constexpr int kPlaces = 40;
+    constexpr int kPlaces = 40, kPlacesAlike = 400;  // the latter take no search
     double first, last, gap = 0.0;
     const Handle(Geom_Curve) curve = BRep_Tool::Curve(edge, first, last);
     if (curve.IsNull()) return 0.0;
     const bool alike = BRep_Tool::SameParameter(edge) && first == from && last == to;
-    for (int i = 0; i <= kPlaces; ++i) {
-      const double t = from + (to - from) * i / kPlaces;
+    const int places = alike ? kPlacesAlike : kPlaces;
+    for (int i = 0; i <= places; ++i) {
+      const double t = from + (to - from) * i / places;
       const gp_Pnt2d p = border.Value(t);
       const gp_Pnt there = surface_.Value(p.X(), p.Y());
       gap = std::max(gap, alike ? there.Distance(curve->Value(t)) : distance(there, curve, first, last));
