@@ -30,9 +30,21 @@ Interval wave(double p, double q, double low, double high) {
   return values;
 }
 
+// Of what is in a plane face's rectangle.
+Bounds bounds_of_plane(const Face& face) {
+  Bounds box{face.point(face.low), face.point(face.low)};
+  for (const Parameter<2>& corner :
+       {Parameter<2>{face.high[0], face.low[1]}, face.high, Parameter<2>{face.low[0], face.high[1]}}) {
+    box.low = box.low.cwiseMin(face.point(corner));
+    box.high = box.high.cwiseMax(face.point(corner));
+  }
+  return box;
+}
+
 }  // namespace
 
 Bounds bounds_of(const Face& face) {
+  if (face.kind == Kind::plane) return bounds_of_plane(face);
   Bounds box;
   const Interval second{face.low[1], face.high[1]};
   for (int i = 0; i < 3; ++i) {
@@ -56,17 +68,6 @@ Bounds bounds_of(const Face& face) {
 
 namespace {
 
-// Of what is in a plane face's rectangle.
-Bounds bounds_of_plane(const Face& face) {
-  Bounds box{face.point(face.low), face.point(face.low)};
-  for (const Parameter<2>& corner :
-       {Parameter<2>{face.high[0], face.low[1]}, face.high, Parameter<2>{face.low[0], face.high[1]}}) {
-    box.low = box.low.cwiseMin(face.point(corner));
-    box.high = box.high.cwiseMax(face.point(corner));
-  }
-  return box;
-}
-
 // Cells of the range of parameters in which there is some of the face.
 void add_cells(const Face& whole, const TrimDomain& domain, std::vector<Bounds>& boxes) {
   constexpr int kCells = 12;
@@ -77,7 +78,7 @@ void add_cells(const Face& whole, const TrimDomain& domain, std::vector<Bounds>&
       cell.low = {whole.low[0] + i * step[0], whole.low[1] + j * step[1]};
       cell.high = {whole.low[0] + (i + 1) * step[0], whole.low[1] + (j + 1) * step[1]};
       if (domain.where(cell.low, cell.high) == TrimDomain::Where::outside) continue;
-      boxes.push_back(cell.kind == Kind::plane ? bounds_of_plane(cell) : bounds_of(cell));
+      boxes.push_back(bounds_of(cell));
     }
 }
 
@@ -127,23 +128,14 @@ void add_boxes(const Surface& surface, const Piece& piece, std::vector<Bounds>& 
       const Vector3& point = surface.vertices[piece.vertex[0]].point;
       return boxes.push_back({point, point});
     }
-    default:
-      return boxes.push_back(bounds_of(surface, piece));
+    case Piece::Kind::rectangle:
+      return boxes.push_back(bounds_of(surface.faces[piece.face]));
+    case Piece::Kind::triangle: {
+      const auto corner = [&](int i) -> const Vector3& { return surface.vertices[piece.vertex[i]].point; };
+      return boxes.push_back({corner(0).cwiseMin(corner(1)).cwiseMin(corner(2)),
+                              corner(0).cwiseMax(corner(1)).cwiseMax(corner(2))});
+    }
   }
-}
-
-Bounds bounds_of(const Surface& surface, const Piece& piece) {
-  if (piece.rectangle()) return bounds_of(surface.faces[piece.face]);
-  if (!piece.triangle()) {
-    std::vector<Bounds> boxes;
-    add_boxes(surface, piece, boxes);
-    Bounds all = boxes.front();
-    for (const Bounds& box : boxes) all = {all.low.cwiseMin(box.low), all.high.cwiseMax(box.high)};
-    return all;
-  }
-  const Vector3 &a = surface.vertices[piece.vertex[0]].point, &b = surface.vertices[piece.vertex[1]].point,
-                &c = surface.vertices[piece.vertex[2]].point;
-  return {a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c)};
 }
 
 Circle circle_around(const Vector3& a, const Vector3& b, const Vector3& c) {

@@ -10,10 +10,10 @@ struct Bounds {
   Vector3 low, high;
 };
 
-/// Around a face that is no plane: tight for cylinders, else at most a few times too large.
+/// Around the range of a face's parameters: tight for planes and cylinders, else at most a few times too
+/// large.
 Bounds bounds_of(const Face& face);
-Bounds bounds_of(const Surface& surface, const Piece& piece);
-/// The same by several boxes, all but those of trimmed faces and arcs by one; appends them.
+/// Of a piece, appended: several boxes of trimmed faces and arcs, of others one.
 void add_boxes(const Surface& surface, const Piece& piece, std::vector<Bounds>& boxes);
 
 /// The smallest circle around a triangle.

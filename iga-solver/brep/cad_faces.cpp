@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>
@@ -258,10 +259,11 @@ class FromCad {
     for (int i = 0; i < edge.use_count; ++i) {
       surface_.uses[edge.first_use + i] = uses[i];
       surface_.guides[edge.first_use + i] = guides[numbers[i] - edge.first_use];
-      for (const int k : trims)
-        if (trims_[k].use == numbers[i]) new_use_[k] = edge.first_use + i;
     }
-    for (const int k : trims) trims_[k].use = new_use_[k];
+    for (const int k : trims)
+      trims_[k].use =
+          edge.first_use +
+          static_cast<int>(std::find(numbers.begin(), numbers.end(), trims_[k].use) - numbers.begin());
   }
 
   // Faces that an edge joins on part of its way are of one sheet.
@@ -353,8 +355,7 @@ class FromCad {
   int faces_done_ = 0;
   std::vector<TrimOf> trims_;
   std::vector<int> first_of_loop_;
-  std::map<int, int> vertices_;  // of the model to the wall's
-  std::map<int, int> new_use_;
+  std::map<int, int> vertices_;                           // of the model to the wall's
   std::vector<std::array<double, 2>> tolerance_at_ends_;  // of edges
 };
 

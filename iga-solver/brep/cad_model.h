@@ -33,7 +33,7 @@ using Loop = std::vector<Trim>;
 struct CadFace {
   Face shape;               ///< without pieces; low, high: the box of its loops
   std::vector<Loop> loops;  ///< one at least
-  int solid = -1;           ///< -1: of none, two-sided
+  int solid = -1;           ///< of CadModel::solids, which may be a sheet; -1: none
   int outward = 0;  ///< +1 or -1: the side of shape's normal that is outside of its solid; 0: two-sided
   int number = 0;   ///< in the file, from 1
   int entity = 0;   ///< #number of STEP; 0: none

@@ -80,12 +80,7 @@ class FromFaces {
     surface_.low.setConstant(1e300);
     surface_.high.setConstant(-1e300);
     for (const Face& face : surface_.faces) {
-      Bounds box =
-          face.kind == Kind::plane ? Bounds{face.point(face.low), face.point(face.low)} : bounds_of(face);
-      for (int i = 0; i < 4 && face.kind == Kind::plane; ++i) {
-        box.low = box.low.cwiseMin(face.point(corner_parameters(face, i)));
-        box.high = box.high.cwiseMax(face.point(corner_parameters(face, i)));
-      }
+      const Bounds box = bounds_of(face);
       surface_.low = surface_.low.cwiseMin(box.low);
       surface_.high = surface_.high.cwiseMax(box.high);
     }
