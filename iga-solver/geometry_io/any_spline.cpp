@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 
 namespace geometry_io {
 namespace {
@@ -93,7 +94,14 @@ VectorXd AnySpline::point(double t) const {
   return w.head(w.size() - 1) / w(w.size() - 1);
 }
 
+// Ends that are those of spans but for round-off are these, or a span of no length would begin there.
 AnySpline window(const AnySpline& spline, double from, double to) {
+  constexpr double kRoundOff = 1e-12;
+  const double leeway = kRoundOff * std::max({to - from, std::abs(from), std::abs(to)});
+  for (const double t : spline.knots) {
+    if (std::abs(t - from) <= leeway) from = t;
+    if (std::abs(t - to) <= leeway) to = t;
+  }
   const int p = spline.degree;
   AnySpline part;
   part.degree = p;
@@ -130,6 +138,27 @@ AnySpline unrolled(int degree, const std::vector<double>& breaks, const std::vec
   for (int j = first; j < last; ++j) all.points.col(j - first) = points.col(((j % n) + n) % n);
   for (int i = first; i <= last + degree; ++i) all.knots.push_back(knot(i));
   return all;
+}
+
+AnySpline joined(const AnySpline& spline) {
+  constexpr double kSame = 1e-9;
+  const int p = spline.degree, count = static_cast<int>(spline.points.cols());
+  const double largest = spline.points.cwiseAbs().maxCoeff();
+  AnySpline out{p, {}, spline.points};
+  int columns = 0;
+  for (int i = 0; i < static_cast<int>(spline.knots.size()); ++i) {
+    // Knot i is the last of p + 1 equal ones; the columns before and behind them are i - p - 1 and i - p.
+    const bool full = i > p && i < count && spline.knots[i - p] == spline.knots[i];
+    if (full &&
+        (spline.points.col(i - p) - spline.points.col(i - p - 1)).cwiseAbs().maxCoeff() > kSame * largest)
+      throw std::runtime_error("in two pieces at parameter " + std::to_string(spline.knots[i]) +
+                               ", expected one");
+    if (!full) out.knots.push_back(spline.knots[i]);
+    if (i < p || i - p >= count) continue;
+    if (!full) out.points.col(columns++) = spline.points.col(i - p);
+  }
+  out.points.conservativeResize(Eigen::NoChange, columns);
+  return out;
 }
 
 AnySpline reversed(const AnySpline& spline) {

@@ -32,6 +32,10 @@ AnySpline window(const AnySpline& spline, double from, double to);
 /// covers [from, to]; its knots are not open.
 AnySpline unrolled(int degree, const std::vector<double>& breaks, const std::vector<int>& multiplicities,
                    const Eigen::MatrixXd& points, double from, double to);
+/// Knots inside that stand degree + 1 times, as some programs write them, once less: there the curve is
+/// written in two, with one point twice.  Throws std::runtime_error if these are apart by more than 1e-9 of
+/// the largest.
+AnySpline joined(const AnySpline& spline);
 /// The other way round: t becomes begin + end - t.
 AnySpline reversed(const AnySpline& spline);
 /// `matrix` times each column.

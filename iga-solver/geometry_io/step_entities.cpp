@@ -38,6 +38,11 @@ bool matters(const Handle(Standard_Transient) & entity) {
   return begins(type, "StepShape_") || begins(type, "StepGeom_");
 }
 
+// Colours, styles of lines.
+bool is_drawn_only(const Handle(Standard_Transient) & entity) {
+  return begins(entity->DynamicType()->Name(), "StepVisual_");
+}
+
 std::string named(const Model& model, const Handle(Standard_Transient) & entity) {
   const std::string type = model->TypeName(entity, false);
   return fmt::format("#{} ({})", model->IdentLabel(entity), type);
@@ -72,7 +77,7 @@ void refuse_broken_entities(const STEPControl_Reader& reader) {
   for (int i = 1; i <= model->NbEntities(); ++i) {
     const Handle(Interface_Check) check = model->Check(i, true);
     const Handle(Standard_Transient) entity = model->Value(i);
-    if (check->HasFailed() && (matters(entity) || model->IsRedefinedContent(i)))
+    if (check->HasFailed() && (matters(entity) || (model->IsRedefinedContent(i) && !is_drawn_only(entity))))
       throw std::runtime_error(fmt::format("{}: {}", named(model, entity), first_fail(check)));
     const std::string problem = problem_of(entity);
     if (!problem.empty()) throw std::runtime_error(fmt::format("{}: {}", named(model, entity), problem));

@@ -122,9 +122,9 @@ AnySpline opened(int degree, bool periodic, int count, const std::function<doubl
     multiplicities.push_back(multiplicity(i));
     knots.insert(knots.end(), multiplicities.back(), breaks.back());
   }
-  if (periodic) return window(unrolled(degree, breaks, multiplicities, points, low, high), low, high);
+  if (periodic) return joined(window(unrolled(degree, breaks, multiplicities, points, low, high), low, high));
   const AnySpline all{degree, knots, points};
-  return window(all, all.begin(), all.end());
+  return joined(window(all, all.begin(), all.end()));
 }
 
 ReadSurface b_spline(const Geom_BSplineSurface& s, const ParameterBox& box) {
@@ -152,7 +152,7 @@ bool is_conic_of_angle(GeomAbs_CurveType type) { return type == GeomAbs_Circle |
 AnySpline swept_curve(const Adaptor3d_Curve& curve, double low, double high, double tolerance,
                       ParameterMap& map, bool& fitted_anew) {
   bool fitted_curve = false;
-  AnySpline spline = spline_of<Adaptor3d_Curve>(curve, low, high, tolerance, fitted_curve);
+  AnySpline spline = joined(spline_of<Adaptor3d_Curve>(curve, low, high, tolerance, fitted_curve));
   fitted_anew = fitted_anew || fitted_curve;
   if (is_conic_of_angle(curve.GetType())) map.arc[0] = low, map.arc[1] = high;
   return spline;

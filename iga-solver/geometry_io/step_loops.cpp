@@ -148,14 +148,18 @@ class LoopMaker {
     return by;
   }
 
-  // One behind the other, in one turn.  The file's order where it is one.
+  // One behind the other, in one turn.  The file's order where it is one; what begins a turn away, only if
+  // nothing begins at the end itself: beside a seam both may be there.
   void chain(RawLoop& loop) const {
     constexpr double kNear = 1e-6;
     for (size_t i = 0; i + 1 < loop.size(); ++i) {
       const Vector2d end = end_of(loop[i]);
+      bool any_here = false;
+      for (size_t k = i + 1; k < loop.size(); ++k)
+        any_here = any_here || far(begin_of(loop[k]) - end) <= kNear;
       const auto distance = [&](size_t k) {
         const Vector2d step = begin_of(loop[k]) - end;
-        return far(step + turns(step));
+        return far(any_here ? step : step + turns(step));
       };
       size_t next = i + 1;
       double nearest = distance(next);

@@ -241,4 +241,24 @@ TEST_F(Reader, OffsetsAreRefusedOrFitted) {
   EXPECT_THAT(model.healed, testing::Contains(HasSubstr("fitted within 0.01 mm")));
 }
 
+// A point that stands twice, as a knot stands degree + 1 times, is one.
+TEST(AnySpline, WrittenInTwoPiecesIsJoined) {
+  geometry_io::AnySpline two{2, {0, 0, 0, 1, 1, 1, 3, 3, 3}, Eigen::MatrixXd(2, 6)};
+  two.points << 0, 1, 2, 2, 3, 5, 1, 1, 0, 0, 4, 2;
+  const geometry_io::AnySpline one = geometry_io::joined(two);
+  EXPECT_EQ(one.knots, (std::vector<double>{0, 0, 0, 1, 1, 3, 3, 3}));
+  for (const double t : {0.0, 0.3, 1.0, 1.7, 3.0}) EXPECT_TRUE(one.at(t).isApprox(two.at(t), 1e-14)) << t;
+  two.points(0, 3) = 2.1;
+  EXPECT_THROW(geometry_io::joined(two), std::runtime_error);
+}
+
+// Ends that are knots but for round-off make no span of no length.
+TEST(AnySpline, WindowEndsOnKnotsThatAreNear) {
+  const double knot = 78.539816339744831;
+  geometry_io::AnySpline spline{3, {knot, knot, knot, knot, 85, 85, 85, 85}, Eigen::MatrixXd::Random(2, 4)};
+  const geometry_io::AnySpline part = geometry_io::window(spline, knot - 3e-14, 85 + 2e-14);
+  EXPECT_EQ(part.knots, spline.knots);
+  EXPECT_EQ(part.points, spline.points);
+}
+
 }  // namespace

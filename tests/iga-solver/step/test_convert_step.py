@@ -72,6 +72,13 @@ class ConvertStep(unittest.TestCase):
         self.assertIn("'top' plane, area 12800, colour:FF8800", page)
         self.assertRegex(page, "edges: 42: 2 smooth .* 0 near-tangent .* 40 sharp, 0 free")
 
+    def test_a_broken_style_does_no_harm(self):
+        """Colours and lines of drawings are none of a wall's business, whatever is wrong with them."""
+        text = (self.folder / "box.step").read_text()
+        at = text.rindex("ENDSEC;")
+        (self.folder / "styled.step").write_text(text[:at] + "#99990 = CURVE_STYLE('',3,0.1,$);\n" + text[at:])
+        self.assertIn("6 plane", self.converted("styled.step"))
+
     def test_surfaces_by_name_in_yaml(self):
         def surfaces(words: str) -> str:
             (self.folder / "wall.yaml").write_text(
