@@ -114,7 +114,7 @@ std::vector<std::string> messages_of(const XSControl_Reader& reader) {
   const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
   Interface_CheckIterator checks = process->CheckList(false);
   for (checks.Start(); checks.More(); checks.Next()) {
-    const Handle(Interface_Check) check = checks.Value();
+    const Handle(Interface_Check)& check = checks.Value();
     for (int i = 1; i <= check->NbWarnings(); ++i) ++count[check->CWarning(i)];
     for (int i = 1; i <= check->NbFails(); ++i) ++count[check->CFail(i)];
   }

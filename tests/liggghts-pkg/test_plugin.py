@@ -195,7 +195,8 @@ class Misbehaviour(unittest.TestCase):
     def test_a_model_that_it_does_not_read(self):
         self.check(plugin(model="none.txt"), "spring_net.so .spring net.: open failed with code 2: cannot read 'none.txt'")
         self.check(plugin(), "code 3: net.txt: 'stifness' is no word", model=HAMMOCK.replace("stiff", "stif"), ranks=2)
-        self.check(plugin(), r"describe: patches\[0\]: .*degree", model=HAMMOCK.replace("degree 2", "degree 20"))
+        steep = HAMMOCK.replace("9 10", "20 21").replace("degree 2", "degree 17")
+        self.check(plugin(), r"describe: patches\[0\]: .*degree", model=steep)
 
     def test_a_step_that_fails_on_one_rank(self):
         for parts in (0, 1):
