@@ -129,13 +129,17 @@ struct Into {
 }  // namespace
 
 std::vector<int> Judge::edges_through(const Vector3& p, const std::vector<int>& triangles) const {
+  const std::set<int> given(triangles.begin(), triangles.end());
+  const auto is_given = [&](int t) { return given.count(t) != 0; };
   std::set<int> through;
   for (const int t : triangles)
     for (const int corner : wall_.triangles[t])
       for (const int e : edges_of_point_[corner]) {
         const Vector3 &a = wall_.points[edges_[e][0]], &b = wall_.points[edges_[e][1]];
         if ((b - a).normalized().cross(p - a).norm() < 1e-11 &&
-            (p - a).norm() + (p - b).norm() < (b - a).norm() + 1e-10)
+            (p - a).norm() + (p - b).norm() < (b - a).norm() + 1e-10 &&
+            // Next to a corner other edges of it are as near; p is on the one whose triangles are given.
+            std::all_of(of_edge_[e].begin(), of_edge_[e].end(), is_given))
           through.insert(e);
       }
   return {through.begin(), through.end()};
