@@ -32,7 +32,7 @@ void ContactReport::add(int wall, const contact::Contact& contact, const Vector3
   std::fill(history_.begin(), history_.end(), 0.0);
   std::copy_n(contact.history, std::min<std::size_t>(history_count, history_.size()), history_.begin());
   Vector3 point = centre - contact.delta, v_wall = contact.wall_velocity,
-          to_wall = -contact.delta.normalized();
+          to_wall = contact.distance < 0.0 ? contact.delta.normalized() : -contact.delta.normalized();
   const double distance = radius - contact.overlap;
   const Vector3 &F = contact.force, &T = contact.torque;
   compute_.add_wall_1(wall, contact.foot.patch, contact.particle, point.data(), v_wall.data());

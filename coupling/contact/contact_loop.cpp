@@ -176,7 +176,7 @@ inline void ContactLoop::find_contacts(const ParticleView& particles, const Step
     Foot& foot = tracked.foot;
     const bool touches = foot.distance <= radius || foot.distance < query.touch_reach;
     Vector3 delta = wall_.to_space_direction(query.centre - foot.point);
-    if (foot.distance <= wall_.resolution()) {
+    if (std::abs(foot.distance) <= wall_.resolution()) {
       const bool is_known = tracked.slot >= 0 && slots.slot(tracked.slot).foot().patch == foot.patch;
       delta = wall_.leave(foot, delta, is_known ? slots.slot(tracked.slot).side() : 0, radius,
                           particles.centre(i), particles.velocity(i));
@@ -211,6 +211,7 @@ inline void ContactLoop::check_crossing(const ParticleView& particles, const Ste
                                         const FeetTracker::Query& query, double distance,
                                         const Vector3& delta, const Vector3& v_wall) {
   if (wall_.stands() && query.squared_travel < distance * distance) return;
+  if (distance < 0.0) return;  // it stays on its side
   const int i = query.particle;
   const double approach = (v_wall - particles.velocity(i)).dot(delta);  // times the distance
   // In this order: the sign of the approach is anyone's guess, for the processor too.
@@ -244,7 +245,7 @@ inline void ContactLoop::add_contact(const ParticleView& particles, int i, const
   contact.slot = tracked.slot;
   contact.foot = foot.at();
   contact.touches = foot.distance <= radius;
-  contact.inside = wall_.has_inside(foot.patch) && wall_.is_inside(foot, delta);
+  contact.inside = foot.distance < 0.0 || (wall_.has_inside(foot.patch) && wall_.is_inside(foot, delta));
   contact.distance = foot.distance;
   contact.overlap = radius - foot.distance;
   contact.effective_radius = options_.curvature_radius ? wall_.effective_radius(foot, delta, radius) : radius;

@@ -16,7 +16,7 @@ struct Contact {
   nurbs::SurfacePoint foot;  ///< on the wall
   bool touches;              ///< overlap >= 0; else a gap, within the reach of models with cohesion
   bool inside;               ///< the centre is inside the body
-  double distance;           ///< from the foot to the centre [length]
+  double distance;           ///< from the foot to the centre; < 0: behind a skin that has one side [length]
   double overlap;            ///< the particle's radius less the distance [length]
   double effective_radius;   ///< of the pair; the particle's own unless the wall's curvature counts [length]
   Vector3 delta;             ///< from the foot to the centre [length]

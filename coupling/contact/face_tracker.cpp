@@ -97,11 +97,11 @@ FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
     choose_fewer_pieces(query);
   }
   find(query, beyond(query));
+  match_slots(query, slots);
   if (found_.empty()) {
     const double known = state.reach - (query.centre - state.centre).norm();
     return none(query, slots, nearest(query, known, Of::chosen));
   }
-  match_slots(query, slots);
   keep_clearance(query, 0.0);
   return {feet_.data(), static_cast<int>(feet_.size())};
 }
@@ -110,8 +110,8 @@ FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
 FeetRange FaceTracker::feet_of_fast(const Query& query, const ParticleSlots& slots) {
   choose_pieces(query, Of::list, query.list_reach - query.touch_reach);
   find(query, query.list_reach);
-  if (found_.empty()) return none(query, slots, query.list_reach);
   match_slots(query, slots);
+  if (found_.empty()) return none(query, slots, query.list_reach);
   keep_clearance(query, found_[0].distance);
   return {feet_.data(), static_cast<int>(feet_.size())};
 }
@@ -195,6 +195,59 @@ void FaceTracker::find(const Query& query, double reach) {
   for (const brep::Foot& foot : found_) counts_.add_direct(foot);
 }
 
+// Whether the centre is, or may be, inside a body whose skin it pressed on.
+bool FaceTracker::may_be_behind(const Query& query, const ParticleSlots& slots) const {
+  constexpr double kDeep = 0.5;  // of its reach: the plane at where the foot was last is not the surface
+  for (int s = 0; s < slots.used(); ++s) {
+    if (slots.slot(s).empty()) continue;
+    const nurbs::SurfacePoint last = slots.slot(s).foot();
+    const int outward = search_.surface().faces[last.patch].outward;
+    if (outward == 0) continue;
+    const nurbs::SurfaceShape at = brep::shape_on(search_.surface(), last.patch, last.xi);
+    bool is_deep = false;
+    for_each_image(query, Of::chosen, [&](const Vector3& d, const int*, int, const Vector3&) {
+      is_deep |= outward * at.normal.dot(d - at.point) < kDeep * query.touch_reach;
+    });
+    if (is_deep) return true;
+  }
+  return false;
+}
+
+void FaceTracker::add_feet_behind(const Query& query, const ParticleSlots& slots) {
+  if (!search_.has_inside() || !may_be_behind(query, slots)) return;
+  const auto in_front = static_cast<std::ptrdiff_t>(found_.size());
+  for_each_image(query, Of::chosen,
+                 [&](const Vector3& d, const int* pieces, int count, const Vector3& image) {
+                   const std::size_t first = found_.size();
+                   search_.feet_behind(d, query.touch_reach, pieces, count, found_);
+                   for (std::size_t k = first; k < found_.size(); ++k)
+                     found_[k].image = image, found_[k].point += image;
+                 });
+  std::rotate(found_.begin(), found_.begin() + in_front, found_.end());  // the least distances first
+}
+
+// Feet behind skins that no branch has passed; and feet that lie behind a skin that one has: particles do not
+// meet the far side of thin sheet through it.
+void FaceTracker::drop_feet_through_bodies(const Query& query) {
+  const auto is_through = [&](const brep::Foot& foot) {
+    for (const TrackedFoot& deep : feet_) {
+      if (deep.slot < 0 || deep.foot.distance >= 0.0) continue;
+      const Vector3 inward = query.centre - deep.foot.point;
+      if (inward.dot(query.centre - foot.point) > 0.0 && inward.dot(foot.point - deep.foot.point) > 0.0)
+        return true;
+    }
+    return false;
+  };
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < found_.size(); ++k) {
+    if (feet_[k].slot < 0 && (found_[k].distance < 0.0 || is_through(found_[k]))) continue;
+    std::swap(found_[kept], found_[k]);
+    std::swap(feet_[kept++], feet_[k]);
+  }
+  found_.erase(found_.begin() + static_cast<std::ptrdiff_t>(kept), found_.end());
+  feet_.erase(feet_.begin() + static_cast<std::ptrdiff_t>(kept), feet_.end());
+}
+
 // Where the wall goes on with one of its images, across a periodic face of the box, neither knows the other:
 // a foot on the rim of the one is none if it lies in the plane that touches the other at a nearer foot, or in
 // that foot.
@@ -241,14 +294,17 @@ TrackedFoot FaceTracker::tracked(const brep::Foot& foot) const {
 }
 
 void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
+  add_feet_behind(query, slots);
   feet_.clear();
   for (const brep::Foot& foot : found_) feet_.push_back(tracked(foot));
   if (is_last_foot(query, slots))
     feet_[0].slot = 0;
   else if (slots.used() > 0)
     match_nearest(query, slots);
+  if (!found_.empty() && found_[0].distance < 0.0) drop_feet_through_bodies(query);
   State& state = states_[query.candidate];
   state.sheet = found_.size() == 1 ? found_[0].sheet : -1;
+  if (found_.empty()) return;
   state.side = found_[0].side;
   state.last = found_[0].point;
   state.xi = found_[0].xi;

@@ -6,7 +6,8 @@
 // radius, the smaller the slower it is; farther away it looks for the nearest piece alone, and then rests
 // until it can be there.  Most that touch have one contact, inside one face: follow() finds it, and
 // nobody looks at others.  A branch is a foot of one sheet (brep/README.md), wherever it moves on it, over
-// edges and vertices too.
+// edges and vertices too.  Bodies have one side: a branch whose centre has passed their skin stays, with a
+// distance less than 0, until the centre is out again or farther in than the particle reaches.
 #pragma once
 
 #include <vector>
@@ -55,6 +56,9 @@ class FaceTracker final : public FeetTracker {
   void prefetch(const Query& query) const;
   FeetRange feet_of_fast(const Query& query, const ParticleSlots& slots);
   void find(const Query& query, double reach);
+  bool may_be_behind(const Query& query, const ParticleSlots& slots) const;
+  void add_feet_behind(const Query& query, const ParticleSlots& slots);
+  void drop_feet_through_bodies(const Query& query);
   void keep_one_at_seams();
   double squared_way(const Query& query, const nurbs::Vector3& last, const nurbs::Vector3& now) const;
   double squared_way(const Query& query, const ContactSlot& slot, const brep::Foot& foot) const;
@@ -75,7 +79,7 @@ class FaceTracker final : public FeetTracker {
   std::vector<int> pieces_;        // those chosen, of each image at the beginning of its range of elements
   std::vector<int> piece_counts_;  // of these, per image of each candidate
   std::vector<brep::Foot> found_;  // of one candidate, in this step; so are the next two
-  std::vector<TrackedFoot> feet_;
+  std::vector<TrackedFoot> feet_;  // the same
   std::vector<TrackedFoot> steady_ = std::vector<TrackedFoot>(
       kBlock, {{{}, nurbs::Vector3::Zero(), 0.0, search::FootStatus::interior, 0}, 0});  // of a block
   struct Pair {

@@ -98,7 +98,8 @@ Vector3 Wall::leave(Foot& foot, const Vector3& delta, int known_side, double rad
   constexpr double kRoundOff = 1e-5;  // of the resolution
   constexpr double kOff = 1e-9;       // of the radius
   const Vector3 normal = frame_.rotation * shape_->normal_at(foot);
-  double side = normal.dot(delta);
+  double side =
+      foot.distance < 0.0 ? 0.0 : normal.dot(delta);  // less than 0: it stays on the side that it had
   if (std::abs(side) <= kRoundOff * resolution_) side = 0.0;
   if (side == 0.0) side = known_side;
   if (side == 0.0) side = shape_->outward_sign(foot.patch);
@@ -111,7 +112,8 @@ Vector3 Wall::leave(Foot& foot, const Vector3& delta, int known_side, double rad
 double Wall::effective_radius(const Foot& foot, const Vector3& delta, double radius) const {
   constexpr double kLeast = 0.1;  // of 1/r: in a hollow of nearly the particle's radius Hertz' theory ends
   const nurbs::SurfaceShape shape = shape_->shape_near(foot);
-  const double side = shape.normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1.0 : 1.0;
+  const double front = foot.distance < 0.0 ? -1.0 : 1.0;
+  const double side = front * (shape.normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1.0 : 1.0);
   double product = 1.0;
   for (const double curvature : shape.curvature) product *= std::max(1.0 - side * curvature * radius, kLeast);
   return std::max(radius / std::sqrt(product), radius - 0.5 * foot.distance);  // never less than the overlap

@@ -18,7 +18,9 @@ FootSearch::FootSearch(const Surface& surface)
       tree_(surface),
       triangles_(plane_triangles(surface)),
       neighbours_(surface),
-      same_point_(kSamePoint * surface.slack) {
+      same_point_(kSamePoint * surface.slack),
+      has_inside_(std::any_of(surface.faces.begin(), surface.faces.end(),
+                              [](const Face& face) { return face.outward != 0; })) {
   normals_.resize(surface.faces.size());
   for (const PlaneTriangle& triangle : triangles_)
     if (triangle.exists()) normals_[triangle.face()] = triangle.normal();
@@ -61,6 +63,26 @@ void FootSearch::prefetch(const int* pieces, int count) const {
 void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int count,
                       std::vector<Foot>& out) const {
   Minima minima(surface_, same_point_, d, reach, out);
+  add_feet(minima, d, reach, pieces, count);
+}
+
+// What is two-sided is in front, wherever d is.
+void FootSearch::feet_behind(const Vector3& d, double reach, const int* pieces, int count,
+                             std::vector<Foot>& out) const {
+  const auto begin = static_cast<std::ptrdiff_t>(out.size());
+  Minima minima(surface_, same_point_, d, reach, out, Minima::Of::inside);
+  add_feet(minima, d, reach, pieces, count);
+  const auto is_two_sided = [&](const Foot& foot) { return surface_.faces[foot.patch].outward == 0; };
+  out.erase(std::remove_if(out.begin() + begin, out.end(), is_two_sided), out.end());
+  for (auto foot = out.begin() + begin; foot != out.end(); ++foot) {
+    foot->side = surface_.faces[foot->patch].outward;
+    foot->sheet = surface_.sheet(foot->patch, foot->side);
+    foot->distance = -foot->distance;
+  }
+}
+
+void FootSearch::add_feet(Minima& minima, const Vector3& d, double reach, const int* pieces,
+                          int count) const {
   if (count <= kFew) {
     for (int k = 0; k < count; ++k) minima.add_of_piece(pieces[k], triangles_[pieces[k]]);
   } else {

@@ -15,6 +15,8 @@
 
 namespace brep {
 
+class Minima;
+
 class FootSearch {
  public:
   /// Keeps a reference to `surface`, which must outlive it and stay as it is.
@@ -36,6 +38,12 @@ class FootSearch {
   bool outgrows_cache() const { return surface_.pieces.size() > kInCache; }
   /// Appends the feet of d nearer than `reach`, given all pieces that are (more do no harm).
   void feet(const Vector3& d, double reach, const int* pieces, int count, std::vector<Foot>& out) const;
+  /// Appends those of a d inside a body on its skin as that is seen from inside.  Each has the outward side
+  /// and its sheet, and a distance less than 0.
+  void feet_behind(const Vector3& d, double reach, const int* pieces, int count,
+                   std::vector<Foot>& out) const;
+  /// Whether bodies have an inside here (Face::outward).
+  bool has_inside() const { return has_inside_; }
 
   /// Whether d is over these pieces, of one face, so far from its borders that they are not within `reach`,
   /// and it stays over them while it moves by less than `margin`.  If no other piece is within reach either,
@@ -60,6 +68,7 @@ class FootSearch {
   double same_point() const { return same_point_; }
 
  private:
+  void add_feet(Minima& minima, const Vector3& d, double reach, const int* pieces, int count) const;
   bool is_well_inside_patch(const int* pieces, int count, const Vector3& d, double reach) const;
   bool is_well_inside_curved(const Piece& piece, const Vector3& d, double reach) const;
   int foot_inside_trimmed(int face, const Vector3& d, double reach, search::Foot& foot) const;
@@ -74,6 +83,7 @@ class FootSearch {
   std::vector<Vector3> normals_;  // of plane faces, as their triangles have it
   SmoothNeighbours neighbours_;
   double same_point_;
+  bool has_inside_;
 };
 
 }  // namespace brep

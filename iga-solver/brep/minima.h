@@ -20,15 +20,19 @@ constexpr double kSamePoint = 10.0;
 
 class Minima {
  public:
+  /// Which sides of faces that have an outward one are met: that one, or that which is inside of the body.
+  enum class Of { outside = 1, inside = -1 };
   /// Appends feet of d that are nearer than `reach` to `out`.
-  Minima(const Surface& surface, double same_point, const Vector3& d, double reach, std::vector<Foot>& out)
+  Minima(const Surface& surface, double same_point, const Vector3& d, double reach, std::vector<Foot>& out,
+         Of of = Of::outside)
       : surface_(surface),
         d_(d),
         reach_(reach),
         slack_(surface.slack),
         same_point2_(same_point * same_point),
         out_(out),
-        begin_(out.size()) {}
+        begin_(out.size()),
+        of_(static_cast<int>(of)) {}
 
   void add_of_piece(int piece, const PlaneTriangle& triangle) {
     if (!triangle.exists()) return add_of_other(surface_.pieces[piece]);
@@ -92,13 +96,15 @@ class Minima {
   void add_of_corner(const Corner& corner, int side, int vertex);
   void add(int face, int side, FootStatus status, int entity, const EdgePoint& at, int use);
   void keep(const Foot& foot) {
-    if (surface_.faces[foot.patch].outward == -foot.side) return;
+    if (met_side(foot.patch) == -foot.side) return;
     for (size_t k = begin_; k < out_.size(); ++k)
       if (out_[k].status == foot.status && out_[k].entity == foot.entity && out_[k].sheet == foot.sheet &&
           (out_[k].point - foot.point).squaredNorm() <= same_point2_)
         return;
     out_.push_back(foot);
   }
+  // +1, -1; 0: both.
+  int met_side(int face) const { return of_ * surface_.faces[face].outward; }
   void widen(double slack) { same_point2_ = std::max(same_point2_, kSamePoint * kSamePoint * slack * slack); }
   // Pieces of patches, of which all are searched together.
   static std::vector<int>& elements() {
@@ -115,6 +121,7 @@ class Minima {
   double corner_slack_ = 0.0;  // of the vertex that is looked at
   std::vector<Foot>& out_;
   size_t begin_;  // of this point's feet
+  int of_;
 };
 
 }  // namespace brep

@@ -181,6 +181,21 @@ class Contacts(unittest.TestCase):
         for k in (1, 2):
             self.assertLess(np.abs(table[f"wall[{k}]"]).max(), 1e-12 * WEIGHT)
 
+    def test_a_centre_that_passes_a_thin_sheet(self):
+        """A soft ball hits 2 mm so hard that its centre comes out below: Hertz' law, all of its energy, back it goes."""
+        deepest = 1.6 * RADIUS
+        mass, energy = WEIGHT / 9.81, 2 / 5 * hertz(deepest) * deepest
+        speed = np.sqrt(2 * energy / mass)
+        deck = prelude(mu=0.0, e=1.0, timestep=1e-6).text() + balls([(0.1, 0.05, 2e-3 + 1.02 * RADIUS)], (0, 0, -speed))
+        deck += wall("thin_sheet.step surface all") + "variable vz equal vz[1]\nvariable z equal z[1]\n"
+        deck += output(["v_z", "v_vz", "f_wall[3]", "f_wall[7]"], 1)
+        run = decks.good(deck + "run 1500\n", files=parts())
+        z, vz, force, touches = (run.table[c] for c in ("z", "vz", "wall[3]", "wall[7]"))
+        self.assertAlmostEqual(vz[-1] / speed, 1.0, delta=1e-5)
+        self.assertAlmostEqual((2e-3 + RADIUS - z.min()) / deepest, 1.0, delta=1e-4)
+        np.testing.assert_allclose(-force[touches > 0], hertz(2e-3 + RADIUS - z[touches > 0]), rtol=1e-9)
+        self.assertIn("got inside the solid", run.text)
+
     def test_what_is_selected(self):
         """A ball on top of the plate of an assembly, tilted by 5 degrees."""
         tilt, overlap = np.radians(5.0), 2e-5
