@@ -121,7 +121,7 @@ void add_boxes(const Surface& surface, const Piece& piece, std::vector<Bounds>& 
     case Piece::Kind::edge:
       return add_edge(surface, piece, boxes);
     case Piece::Kind::element: {
-      const search::Box& box = surface.patches->box(surface.faces[piece.face].patch, piece.element());
+      const search::Box& box = surface.patches->hull(surface.faces[piece.face].patch, piece.element()).box();
       return boxes.push_back({box.low, box.high});
     }
     case Piece::Kind::vertex: {

@@ -38,11 +38,11 @@ PatchFaces::PatchFaces(const std::vector<nurbs::Surface>& patches, double edge_a
     projectors_.push_back(std::make_unique<search::SurfaceProjector>(patch.space, points));
     constexpr std::array<bool, nurbs::kSideCount> kGoesOn{true, true, true, true};  // edges have their say
     projectors_.back()->second_foot().begin_list(kGoesOn, edge_angle);
-    boxes_.emplace_back();
+    hulls_.emplace_back();
     cones_.emplace_back();
     for (int e = 0; e < patch.space.element_count(); ++e) {
-      boxes_.back().push_back(search::element_box(patch.space, patch.control_points, e));
-      cones_.back().push_back(cone_of(patch, boxes_.back().back(), e));
+      cones_.back().push_back(cone_of(patch, e));
+      hulls_.back().emplace_back(patch, e, cones_.back().back().axis);
     }
   }
 }
@@ -71,10 +71,10 @@ Vector3 PatchFaces::normal(int p, const Parameter<2>& xi) const {
 }
 
 // Normals at some points of it, and as much again: they change little within small elements.
-PatchFaces::NormalCone PatchFaces::cone_of(const nurbs::Surface& patch, const search::Box& box, int element) {
+PatchFaces::NormalCone PatchFaces::cone_of(const nurbs::Surface& patch, int element) {
   constexpr int kPoints = 4;  // steps along each direction
   constexpr double kAsMuchAgain = 2.0, kAny = 2.0;
-  NormalCone cone{0.5 * (box.low + box.high), Vector3::Zero(), 0.5 * (box.high - box.low).norm(), 0.0};
+  NormalCone cone{Vector3::Zero(), 0.0};
   const nurbs::Indices<2> e = patch.space.element_indices(element);
   std::vector<Vector3> normals;
   for (int i = 0; i <= kPoints; ++i)
@@ -86,25 +86,27 @@ PatchFaces::NormalCone PatchFaces::cone_of(const nurbs::Surface& patch, const se
         xi[k] = knot[0] + (knot[1] - knot[0]) * step[k] / kPoints;
       }
       normals.push_back(nurbs::shape_on_element(patch.space, patch.control_points, element, xi).normal);
-      cone.normal += normals.back();
+      cone.axis += normals.back();
     }
-  if (!cone.normal.allFinite() || cone.normal.norm() < 0.5) cone.sine = kAny;  // a pole is there
-  cone.normal.normalize();
+  if (!cone.axis.allFinite() || cone.axis.norm() < 0.5) cone.sine = kAny;  // a pole is there
+  cone.axis.normalize();
   for (const Vector3& normal : normals) {
-    if (!(normal.dot(cone.normal) > 0.5)) cone.sine = kAny;
-    cone.sine = std::max(cone.sine, kAsMuchAgain * normal.cross(cone.normal).norm());
+    if (!(normal.dot(cone.axis) > 0.5)) cone.sine = kAny;
+    cone.sine = std::max(cone.sine, kAsMuchAgain * normal.cross(cone.axis).norm());
   }
   return cone;
 }
 
-// A foot S of d has d - S along a normal, and S is in the ball.
-bool PatchFaces::may_have_foot(int p, int element, const Vector3& d, int side) const {
+// A foot S of d has d - S along a normal, and S is in the hull.
+bool PatchFaces::may_have_foot(int p, int element, const Vector3& d, double reach, int side) const {
+  const ElementHull& hull = hulls_[p][element];
+  if (hull.squared_distance(d) >= reach * reach) return false;
   const NormalCone& cone = cones_[p][element];
   if (!(cone.sine < 1.0)) return true;
-  const Vector3 from = d - cone.centre;
-  const double along = from.dot(cone.normal), most = cone.radius + cone.sine * (from.norm() + cone.radius);
+  const Vector3 from = d - hull.centre();
+  const double along = from.dot(cone.axis), most = hull.radius() + cone.sine * (from.norm() + hull.radius());
   if (side * along < -most) return false;
-  return (from - along * cone.normal).norm() <= most;
+  return (from - along * cone.axis).norm() <= most;
 }
 
 // Where the surface is not curved much, downhill from the nearest element; else by branch and bound, which
@@ -113,8 +115,8 @@ void PatchFaces::minima_on(int p, const std::vector<int>& elements, const Vector
                            std::vector<search::Foot>& feet) const {
   const auto is_calm = [&](int element) { return has_one_foot(p, element, d, reach); };
   const auto away = [&](int element) {
-    const search::Box& box = boxes_[p][element];
-    return box.squared_distance(d) + (0.5 * (box.low + box.high) - d).squaredNorm();
+    const ElementHull& hull = hulls_[p][element];
+    return hull.squared_distance(d) + (hull.centre() - d).squaredNorm();
   };
   const int nearest =
       *std::min_element(elements.begin(), elements.end(), [&](int a, int b) { return away(a) < away(b); });

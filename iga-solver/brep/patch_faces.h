@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "brep/element_hull.h"
 #include "brep/names.h"
 #include "nurbs/curvature.h"
 #include "search/surface_projector.h"
@@ -24,7 +25,8 @@ class PatchFaces {
   const nurbs::Surface& patch(int p) const { return patches_[p]; }
   const search::SurfaceProjector& projector(int p) const { return *projectors_[p]; }
 
-  const search::Box& box(int p, int element) const { return boxes_[p][element]; }
+  /// What encloses an element.
+  const ElementHull& hull(int p, int element) const { return hulls_[p][element]; }
   Vector3 point(int p, const Parameter<2>& xi) const;
   /// Point, normal along dS/dxi0 x dS/dxi1, curvatures; at a pole those of a point beside it.
   nurbs::SurfaceShape shape(int p, const Parameter<2>& xi) const;
@@ -35,8 +37,9 @@ class PatchFaces {
   bool has_one_foot(int p, int element, const Vector3& d, double reach) const {
     return projectors_[p]->second_foot().excluded_until_next_list(d, reach, element);
   }
-  /// Whether the normals of an element lead to where d is, to its side `side` alone unless that is 0.
-  bool may_have_foot(int p, int element, const Vector3& d, int side) const;
+  /// Whether an element is nearer than `reach` and its normals lead to where d is, to its side `side` alone
+  /// unless that is 0.
+  bool may_have_foot(int p, int element, const Vector3& d, double reach, int side) const;
   /// Local minima of the distance from d nearer than `reach`, given all elements that are and may have one;
   /// in place of those in `feet`.
   void minima_on(int p, const std::vector<int>& elements, const Vector3& d, double reach,
@@ -47,16 +50,16 @@ class PatchFaces {
   bool on_border(int p, const Parameter<2>& xi) const;
 
  private:
-  // A ball around an element, and a cone around its normals.
+  // Around the normals of an element.
   struct NormalCone {
-    Vector3 centre, normal;
-    double radius, sine;  // of the angle between normals and the cone's axis, at most; 2: any
+    Vector3 axis;
+    double sine;  // of the angle between normals and the axis, at most; 2: any
   };
-  static NormalCone cone_of(const nurbs::Surface& patch, const search::Box& box, int element);
+  static NormalCone cone_of(const nurbs::Surface& patch, int element);
 
   std::vector<nurbs::Surface> patches_;
   std::vector<std::unique_ptr<search::SurfaceProjector>> projectors_;
-  std::vector<std::vector<search::Box>> boxes_;  // of elements
+  std::vector<std::vector<ElementHull>> hulls_;  // of elements
   std::vector<std::vector<NormalCone>> cones_;
 };
 

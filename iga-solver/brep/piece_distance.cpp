@@ -41,7 +41,7 @@ double distance_of_other(const Surface& surface, const Piece& piece, const Vecto
     case Piece::Kind::trimmed:
       return distance_of_trimmed(face, d);
     case Piece::Kind::element:
-      return std::sqrt(surface.patches->box(face.patch, piece.element()).squared_distance(d));
+      return std::sqrt(surface.patches->hull(face.patch, piece.element()).squared_distance(d));
     case Piece::Kind::edge:
       return distance_of_edge(surface, piece, d);
     case Piece::Kind::vertex:

@@ -45,7 +45,7 @@ void Minima::add_of_elements() {
   of_patch.clear();
   const int face = surface_.pieces[elements().front()].face, patch = surface_.faces[face].patch;
   for (const int piece : elements())
-    if (surface_.patches->may_have_foot(patch, surface_.pieces[piece].element(), d_, met_side(face)))
+    if (surface_.patches->may_have_foot(patch, surface_.pieces[piece].element(), d_, reach_, met_side(face)))
       of_patch.push_back(surface_.pieces[piece].element());
   elements().clear();
   if (of_patch.empty()) return;

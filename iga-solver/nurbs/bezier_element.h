@@ -12,6 +12,11 @@ class BezierElement {
   /// Fetches an element of the surface with these control points (3 x n).
   void fetch(const Space<2>& space, const Eigen::Ref<const NodalVectors>& control_points, int element);
 
+  /// Its Bezier points: it lies in their convex hull, which is far smaller than that of the control points
+  /// that an element of a high degree shares with its neighbours.
+  int point_count() const { return (degree_[0] + 1) * (degree_[1] + 1); }
+  Vector3 bezier_point(int a) const { return bezier_.col(a).head<3>() / bezier_(3, a); }
+
   /// The closed element; a knot between two belongs to both.
   bool holds(const Parameter<2>& xi) const;
 
