@@ -10,6 +10,7 @@
 #include <Interface_InterfaceModel.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepGeom_CartesianPoint.hxx>
+#include <StepGeom_CartesianTransformationOperator3d.hxx>
 #include <StepGeom_Direction.hxx>
 #include <StepShape_EdgeCurve.hxx>
 #include <StepShape_EdgeLoop.hxx>
@@ -27,6 +28,8 @@
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <cmath>
+#include <gp_XYZ.hxx>
 #include <map>
 #include <stdexcept>
 #include <unordered_set>
@@ -58,7 +61,29 @@ std::string named(const Model& model, const Handle(Standard_Transient) & entity)
   return fmt::format("#{} ({})", model->IdentLabel(entity), type);
 }
 
-// OpenCASCADE takes both and then does not end, or makes up something.
+// Of a placement; an axis that is not given is that of space (ISO 10303-42, base_axis).
+gp_XYZ axis_of(const Handle(StepGeom_Direction) & direction, const gp_XYZ& of_space) {
+  if (direction.IsNull() || direction->NbDirectionRatios() != 3) return of_space;
+  return {direction->DirectionRatiosValue(1), direction->DirectionRatiosValue(2),
+          direction->DirectionRatiosValue(3)};
+}
+
+// OpenCASCADE leaves the scale out and turns what is mirrored.
+std::string problem_of(const Handle(StepGeom_CartesianTransformationOperator3d) & placement) {
+  constexpr double kSame = 1e-12;
+  if (placement->HasScale() && std::abs(placement->Scale() - 1.0) > kSame)
+    return fmt::format("a part placed with the scale {}, expected 1: export the part in its own size",
+                       placement->Scale());
+  const gp_XYZ x = axis_of(placement->Axis1(), {1.0, 0.0, 0.0}),
+               y = axis_of(placement->Axis2(), {0.0, 1.0, 0.0}),
+               z = axis_of(placement->Axis3(), {0.0, 0.0, 1.0});
+  if (x.Dot(y.Crossed(z)) < 0.0)
+    return "a part placed as a mirror image, expected right-handed axes: export the mirrored part as one of "
+           "its own";
+  return "";
+}
+
+// OpenCASCADE takes these and then does not end, or makes up something.
 std::string problem_of(const Handle(Standard_Transient) & entity) {
   if (const auto point = Handle(StepGeom_CartesianPoint)::DownCast(entity); !point.IsNull()) {
     for (int i = 1; i <= point->NbCoordinates(); ++i)
@@ -69,6 +94,9 @@ std::string problem_of(const Handle(Standard_Transient) & entity) {
     for (int i = 1; i <= direction->NbDirectionRatios(); ++i)
       square += direction->DirectionRatiosValue(i) * direction->DirectionRatiosValue(i);
     if (!(square > 0.0 && nurbs::is_usable(square))) return "a direction of no length, expected one";
+  } else if (const auto placement = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(entity);
+             !placement.IsNull()) {
+    return problem_of(placement);
   }
   return "";
 }

@@ -160,6 +160,19 @@ def wrong_topology(folder: Path) -> list[Bad]:
     ]
 
 
+def wrong_placements(folder: Path) -> list[Bad]:
+    """A reference to an operator in place of two axes; one that neither scales nor mirrors would do."""
+    good = Good(folder, "nested.step")
+
+    def placed(kind: str, wrong: str, z: int, scale: str) -> Bad:
+        axes = "".join(f"#{ABSENT + i} = DIRECTION('',({axis}));\n" for i, axis in enumerate(("1.,0.,0.", "0.,1.,0.", f"0.,0.,{z}.")))
+        words = f"'','','',#{ABSENT},#{ABSENT + 1},#{good.first('CARTESIAN_POINT')},{scale},#{ABSENT + 2}"
+        operator = rf"{axes}\1CARTESIAN_TRANSFORMATION_OPERATOR_3D({words})"
+        return good.replaced(kind, wrong, r"(#\d+ = )ITEM_DEFINED_TRANSFORMATION\([^)]*\)", operator)
+
+    return [placed("mirrored", "a placement that mirrors", -1, "1."), placed("scaled", "a placement with a scale", 1, "2.")]
+
+
 def wrong_sections(folder: Path) -> list[Bad]:
     box, nested, external = (Good(folder, f"{name}.step") for name in ("box", "nested", "external"))
     start, end = box.text.index("DATA;"), box.text.rindex("ENDSEC;")
@@ -209,7 +222,7 @@ def wrong_iges(folder: Path) -> list[Bad]:
 def bad_files(folder: Path) -> list[Bad]:
     found = [bad for name in ("box", "blend_cone_pipe", "nested") for bad in truncated(Good(folder, f"{name}.step"))]
     found += wrong_references(Good(folder, "box.step"))
-    for section in (wrong_numbers, wrong_splines, wrong_topology, wrong_sections, wrong_iges):
+    for section in (wrong_numbers, wrong_splines, wrong_topology, wrong_placements, wrong_sections, wrong_iges):
         found += section(folder)
     return found
 

@@ -22,6 +22,8 @@ READ = {*bad_files.MENDABLE, "step_inside.igs", "iges_inside.step"}
 SAID = {
     "hole_alone_holes.step": r"#213 \(ADVANCED_FACE\): its borders are holes",
     "hole_alone_spline_plate_hole.step": r"#17 \(ADVANCED_FACE\): its borders are holes",
+    "mirrored_nested.step": r"#\d+ \(CARTESIAN_TRANSFORMATION_OPERATOR_3D\): a part placed as a mirror image",
+    "scaled_nested.step": r"#\d+ \(CARTESIAN_TRANSFORMATION_OPERATOR_3D\): a part placed with the scale 2",
     "garbage_closed_spline.igs": r"entity D5 \(of type 128\): .*export the file again",
 }
 
