@@ -258,6 +258,7 @@ StepDocument read_iges_file(const std::string& bytes) {
   const IFSelect_ReturnStatus status = reader.ReadFile(fmt::format("/proc/self/fd/{}", file).c_str());
   ::close(file);
   if (status != IFSelect_RetDone) throw std::runtime_error("damaged: OpenCASCADE cannot read it as IGES");
+  refuse_broken_entities(reader);
   Handle(TDocStd_Document) document = new_document();
   if (!reader.Transfer(document))
     throw std::runtime_error("no shape in it that OpenCASCADE can make, expected solids, shells or faces");

@@ -3,20 +3,33 @@
 
 #include <fmt/format.h>
 
+#include <IGESData_IGESEntity.hxx>
+#include <IGESData_IGESModel.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_CheckIterator.hxx>
 #include <Interface_InterfaceModel.hxx>
 #include <StepData_StepModel.hxx>
 #include <StepGeom_CartesianPoint.hxx>
+#include <StepGeom_CartesianTransformationOperator3d.hxx>
 #include <StepGeom_Direction.hxx>
+#include <StepShape_EdgeCurve.hxx>
+#include <StepShape_EdgeLoop.hxx>
+#include <StepShape_FaceBound.hxx>
+#include <StepShape_FaceOuterBound.hxx>
 #include <StepShape_FaceSurface.hxx>
+#include <StepShape_OrientedEdge.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedMapOfShape.hxx>
+#include <TopoDS.hxx>
+#include <TopoDS_Face.hxx>
 #include <TransferBRep.hxx>
 #include <Transfer_Binder.hxx>
 #include <Transfer_TransientProcess.hxx>
 #include <XSControl_TransferReader.hxx>
 #include <XSControl_WorkSession.hxx>
+#include <cmath>
+#include <gp_XYZ.hxx>
 #include <map>
 #include <stdexcept>
 #include <unordered_set>
@@ -48,7 +61,29 @@ std::string named(const Model& model, const Handle(Standard_Transient) & entity)
   return fmt::format("#{} ({})", model->IdentLabel(entity), type);
 }
 
-// OpenCASCADE takes both and then does not end, or makes up something.
+// Of a placement; an axis that is not given is that of space (ISO 10303-42, base_axis).
+gp_XYZ axis_of(const Handle(StepGeom_Direction) & direction, const gp_XYZ& of_space) {
+  if (direction.IsNull() || direction->NbDirectionRatios() != 3) return of_space;
+  return {direction->DirectionRatiosValue(1), direction->DirectionRatiosValue(2),
+          direction->DirectionRatiosValue(3)};
+}
+
+// OpenCASCADE leaves the scale out and turns what is mirrored.
+std::string problem_of(const Handle(StepGeom_CartesianTransformationOperator3d) & placement) {
+  constexpr double kSame = 1e-12;
+  if (placement->HasScale() && std::abs(placement->Scale() - 1.0) > kSame)
+    return fmt::format("a part placed with the scale {}, expected 1: export the part in its own size",
+                       placement->Scale());
+  const gp_XYZ x = axis_of(placement->Axis1(), {1.0, 0.0, 0.0}),
+               y = axis_of(placement->Axis2(), {0.0, 1.0, 0.0}),
+               z = axis_of(placement->Axis3(), {0.0, 0.0, 1.0});
+  if (x.Dot(y.Crossed(z)) < 0.0)
+    return "a part placed as a mirror image, expected right-handed axes: export the mirrored part as one of "
+           "its own";
+  return "";
+}
+
+// OpenCASCADE takes these and then does not end, or makes up something.
 std::string problem_of(const Handle(Standard_Transient) & entity) {
   if (const auto point = Handle(StepGeom_CartesianPoint)::DownCast(entity); !point.IsNull()) {
     for (int i = 1; i <= point->NbCoordinates(); ++i)
@@ -59,6 +94,9 @@ std::string problem_of(const Handle(Standard_Transient) & entity) {
     for (int i = 1; i <= direction->NbDirectionRatios(); ++i)
       square += direction->DirectionRatiosValue(i) * direction->DirectionRatiosValue(i);
     if (!(square > 0.0 && nurbs::is_usable(square))) return "a direction of no length, expected one";
+  } else if (const auto placement = Handle(StepGeom_CartesianTransformationOperator3d)::DownCast(entity);
+             !placement.IsNull()) {
+    return problem_of(placement);
   }
   return "";
 }
@@ -67,7 +105,63 @@ std::string first_fail(const Handle(Interface_Check) & check) {
   return check->NbFails() > 0 ? check->CFail(1) : "";
 }
 
+using Process = Handle(Transfer_TransientProcess);
+
+TopoDS_Shape result_of(const Process& process, const Handle(Standard_Transient) & entity) {
+  const Handle(Transfer_Binder) binder = process->Find(entity);
+  return binder.IsNull() ? TopoDS_Shape() : TransferBRep::ShapeResult(binder);
+}
+
+// Edges of what became of a face, as its loops run about the normal of its surface.
+using Edges = std::multimap<int, bool>;  // number in a map of edges; forward
+Edges edges_of(const TopoDS_Shape& faces, TopTools_IndexedMapOfShape& numbers) {
+  Edges edges;
+  for (TopExp_Explorer face(faces, TopAbs_FACE); face.More(); face.Next())
+    for (TopExp_Explorer it(face.Current().Oriented(TopAbs_FORWARD), TopAbs_EDGE); it.More(); it.Next())
+      edges.emplace(numbers.Add(it.Current()), it.Current().Orientation() == TopAbs_FORWARD);
+  return edges;
+}
+
+// OpenCASCADE turns loops round that have the face outside of them all, as if the file meant that.
+bool is_turned_round(const Process& process, const Handle(StepShape_FaceSurface) & face,
+                     const TopoDS_Shape& result) {
+  TopTools_IndexedMapOfShape numbers;
+  const Edges edges = edges_of(result, numbers);
+  int turned = 0;
+  for (int b = 1; b <= face->NbBounds(); ++b) {
+    const Handle(StepShape_FaceBound) bound = face->BoundsValue(b);
+    const auto loop = Handle(StepShape_EdgeLoop)::DownCast(bound->Bound());
+    if (loop.IsNull() || bound->IsKind(STANDARD_TYPE(StepShape_FaceOuterBound))) return false;
+    for (int i = 1; i <= loop->NbEdgeList(); ++i) {
+      const Handle(StepShape_OrientedEdge) use = loop->EdgeListValue(i);
+      const auto curve = Handle(StepShape_EdgeCurve)::DownCast(use->EdgeElement());
+      const int number = curve.IsNull() ? 0 : numbers.FindIndex(result_of(process, curve));
+      if (number == 0 || edges.count(number) != 1) continue;  // a seam, or made anew
+      bool along = use->Orientation() == bound->Orientation();
+      if (!curve->SameSense()) along = !along;
+      if (!face->SameSense()) along = !along;
+      if (edges.find(number)->second == along) return false;
+      ++turned;
+    }
+  }
+  return turned > 0;
+}
+
 }  // namespace
+
+void refuse_broken_entities(const IGESControl_Reader& reader) {
+  const Handle(IGESData_IGESModel) model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
+  for (int i = 1; i <= model->NbEntities(); ++i) {
+    const Handle(Interface_Check) check = model->Check(i, true);
+    const int type = model->Entity(i)->TypeNumber();
+    const bool matters = type < 200 || type / 100 == 5;  // curves and surfaces, shells and solids
+    if (!matters || !check->HasFailed()) continue;
+    std::string fail = check->CFail(1);
+    for (int k = 2; k <= check->NbFails() && fail.find('%') != std::string::npos; ++k) fail = check->CFail(k);
+    throw std::runtime_error(fmt::format(
+        "entity D{} (of type {}): {} Expected a whole entity: export the file again", 2 * i - 1, type, fail));
+  }
+}
 
 void refuse_broken_entities(const STEPControl_Reader& reader) {
   const Model model = model_of(reader);
@@ -90,7 +184,7 @@ void refuse_broken_entities(const STEPControl_Reader& reader) {
 std::vector<std::string> note_entities(const STEPControl_Reader& reader, StepLabels& labels) {
   std::vector<std::string> split;
   const Model model = model_of(reader);
-  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  const Process process = reader.WS()->TransferReader()->TransientProcess();
   for (int i = 1; i <= process->NbMapped(); ++i) {
     const auto face = Handle(StepShape_FaceSurface)::DownCast(process->Mapped(i));
     if (face.IsNull()) continue;
@@ -100,6 +194,11 @@ std::vector<std::string> note_entities(const STEPControl_Reader& reader, StepLab
       throw std::runtime_error(fmt::format(
           "{}: OpenCASCADE can make no face of it{}", named(model, face),
           binder.IsNull() || !binder->Check()->HasFailed() ? "" : ": " + first_fail(binder->Check())));
+    if (is_turned_round(process, face, shape))
+      throw std::runtime_error(
+          named(model, face) +
+          ": its borders are holes, with the face outside of them, expected an outer border that has the "
+          "face at its left: put it back, or export the part again");
     const std::string name = face->Name().IsNull() ? "" : face->Name()->ToCString();
     int count = 0;
     for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next(), ++count)
@@ -111,7 +210,7 @@ std::vector<std::string> note_entities(const STEPControl_Reader& reader, StepLab
 
 std::vector<std::string> messages_of(const XSControl_Reader& reader) {
   std::map<std::string, int> count;
-  const Handle(Transfer_TransientProcess) process = reader.WS()->TransferReader()->TransientProcess();
+  const Process process = reader.WS()->TransferReader()->TransientProcess();
   Interface_CheckIterator checks = process->CheckList(false);
   for (checks.Start(); checks.More(); checks.Next()) {
     const Handle(Interface_Check)& check = checks.Value();

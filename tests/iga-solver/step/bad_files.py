@@ -19,7 +19,7 @@ ABSENT = 987654  # no file has so many entities
 # Made from these.
 GOOD = tuple(
     f"{name}.step"
-    for name in "box cylinder frustum sphere torus holes sphere_cut spline_tip blend_cone_pipe nested external".split()
+    for name in "box cylinder frustum sphere torus holes sphere_cut spline_tip spline_plate_hole blend_cone_pipe nested external".split()
 ) + ("closed_spline.igs",)
 # What is meant can still be told: the order of bounds says nothing, that of edges follows from their ends.
 MENDABLE = {"swapped_loops_holes.step", "crossed_loop_box.step", "twice_an_edge_box.step"}
@@ -136,7 +136,7 @@ def wrong_splines(folder: Path) -> list[Bad]:
 
 
 def wrong_topology(folder: Path) -> list[Bad]:
-    box, holes, cap = (Good(folder, f"{name}.step") for name in ("box", "holes", "sphere_cut"))
+    box, holes, cap, plate = (Good(folder, f"{name}.step") for name in ("box", "holes", "sphere_cut", "spline_plate_hole"))
     first, second = re.findall(r"EDGE_LOOP\('',\(([^)]*)\)", box.text)[:2]
     edges = first.split(",")
     crossed = ",".join([edges[0], edges[2], edges[1], *edges[3:]])
@@ -155,8 +155,22 @@ def wrong_topology(folder: Path) -> list[Bad]:
         box.bad("twice_an_edge", "a loop that runs along one edge twice", box.text.replace(first, ",".join([edges[0], *edges]), 1)),
         holes.bad("swapped_loops", "outer loop and hole have changed places", holes.text.replace(f"{bounds[1]},{bounds[2]}", f"{bounds[2]},{bounds[1]}", 1)),
         holes.bad("hole_alone", "a face with its hole as its only loop", holes.text.replace(f"({bounds[1]},", "(", 1)),
+        plate.replaced("hole_alone", "a sheet with its hole as its only loop", r"(ADVANCED_FACE\('',\()#\d+,", r"\1"),
         cap.replaced("curves_gone", "the curve of an edge is that of another", r"(EDGE_CURVE\('',#\d+,#\d+,)#\d+(.*EDGE_CURVE\('',#\d+,#\d+,)(#\d+)", r"\1\3\2\3"),
     ]
+
+
+def wrong_placements(folder: Path) -> list[Bad]:
+    """A reference to an operator in place of two axes; one that neither scales nor mirrors would do."""
+    good = Good(folder, "nested.step")
+
+    def placed(kind: str, wrong: str, z: int, scale: str) -> Bad:
+        axes = "".join(f"#{ABSENT + i} = DIRECTION('',({axis}));\n" for i, axis in enumerate(("1.,0.,0.", "0.,1.,0.", f"0.,0.,{z}.")))
+        words = f"'','','',#{ABSENT},#{ABSENT + 1},#{good.first('CARTESIAN_POINT')},{scale},#{ABSENT + 2}"
+        operator = rf"{axes}\1CARTESIAN_TRANSFORMATION_OPERATOR_3D({words})"
+        return good.replaced(kind, wrong, r"(#\d+ = )ITEM_DEFINED_TRANSFORMATION\([^)]*\)", operator)
+
+    return [placed("mirrored", "a placement that mirrors", -1, "1."), placed("scaled", "a placement with a scale", 1, "2.")]
 
 
 def wrong_sections(folder: Path) -> list[Bad]:
@@ -208,7 +222,7 @@ def wrong_iges(folder: Path) -> list[Bad]:
 def bad_files(folder: Path) -> list[Bad]:
     found = [bad for name in ("box", "blend_cone_pipe", "nested") for bad in truncated(Good(folder, f"{name}.step"))]
     found += wrong_references(Good(folder, "box.step"))
-    for section in (wrong_numbers, wrong_splines, wrong_topology, wrong_sections, wrong_iges):
+    for section in (wrong_numbers, wrong_splines, wrong_topology, wrong_placements, wrong_sections, wrong_iges):
         found += section(folder)
     return found
 
