@@ -62,12 +62,21 @@ std::unique_ptr<RigidSurface> wall_of_cad(const geometry_io::GeometryFile& file,
   }
 }
 
+// The others have the same, and a file is written once.
+void keep_on_first_rank(MPI_Comm comm, const geometry_io::GeometryFile& file, const std::string& path,
+                        const std::string& keep) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  if (rank == 0) geometry_io::write_geometry_file(file, keep, {path});
+}
+
 OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const std::string& surface,
                                    const RigidOptions& options) {
   const std::optional<geometry_io::Format> format = geometry_io::format_of_path(path);
   const bool takes_units = format == geometry_io::format::stl || format == geometry_io::format::cad;
   const geometry_io::GeometryFile file = geometry_io::read_geometry(
       path, reader_on_all_ranks(comm), takes_units ? options.units : geometry_io::Units::si);
+  if (!options.keep.empty()) keep_on_first_rank(comm, file, path, options.keep);
   if (file.cad) return {wall_of_cad(file, surface, options, path), file.units};
   geometry_io::TriangleMesh triangles = geometry_io::named_triangles(file, surface, path).mesh;
   if (triangles.count() > 0) {

@@ -28,6 +28,7 @@ struct RigidOptions {
   std::optional<geometry_io::Placement> placement;    ///< where it is placed before it moves
   double edge_angle = brep::kEdgeAngle;  ///< edges between faces that turn by less are smooth [rad]
   bool closed_forms = true;              ///< feet on shapes given by words, if all are, without iteration
+  std::string keep;                      ///< where what was read is written, unplaced, if not empty
 };
 
 /// Rigid wall: the named surface of a geometry file, and what moves it.  Collective; throws

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <stdexcept>
 #include <utility>
 
+#include "geometry_io/geometry_io.h"
 #include "keyword_table.h"
 #include "model_words.h"
 #include "motion_words.h"
@@ -99,6 +101,10 @@ constexpr Keyword<void(const Reading&)> kWallKeywords[] = {
      }},
     {"structure", "structure FILE", [](const Reading& in) { read_body(in, WallNurbsOptions::Body::iga); }},
     {"geometry", "geometry FILE", [](const Reading& in) { read_body(in, WallNurbsOptions::Body::rigid); }},
+    {"keep", "keep KEPT.h5",
+     [](const Reading& in) {
+       in.options.keep = in.words.value("the name of the file that is kept, which ends in .h5");
+     }},
     {"surface", "surface NAME",
      [](const Reading& in) { in.options.surface = in.words.value("the name of a surface in the file"); }},
     {"edge_angle", "edge_angle A",
@@ -151,6 +157,19 @@ constexpr Keyword<void(const Reading&)> kWallKeywords[] = {
        ", or a contact model's setting with on or off");
 }
 
+void check_kept(const WallNurbsOptions& options) {
+  if (options.keep.empty()) return;
+  const bool rigid = options.body == WallNurbsOptions::Body::rigid;
+  if (!rigid || geometry_io::format_of_path(options.file) != geometry_io::format::cad)
+    fail(fmt::format(
+        "'keep' is for what is read of a CAD file, given '{} {}', expected 'geometry FILE' with a "
+        "file .step, .stp, .iges or .igs, or no 'keep'",
+        rigid ? "geometry" : "structure", options.file));
+  if (std::filesystem::path(options.keep).extension() != ".h5")
+    fail(fmt::format("keep is '{}', expected a name that ends in .h5, as in 'keep {}'", options.keep,
+                     std::filesystem::path(options.file).filename().replace_extension(".h5").string()));
+}
+
 void check_complete(const WallNurbsOptions& options) {
   if (options.atom_type == 0)
     fail("keyword 'type' is missing, expected 'type T', the atom type of the wall's material");
@@ -178,6 +197,7 @@ void check_complete(const WallNurbsOptions& options) {
     fail(
         "'substeps' are those of a solid with a stable step, given 'body modal', expected one of them: modes "
         "take any timestep");
+  check_kept(options);
   const std::string drive = drive_name(options.drive);
   if (!drive.empty() && options.body != WallNurbsOptions::Body::rigid)
     fail(fmt::format("'{}' drives a rigid wall, given 'structure', expected 'geometry FILE'", drive));

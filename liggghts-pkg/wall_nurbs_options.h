@@ -25,6 +25,7 @@ struct WallNurbsOptions {
   Body body = Body::rigid;
   std::string file;                      ///< model file (iga), geometry file (rigid), a plug-in's model
   std::string plugin;                    ///< its shared library
+  std::string keep;                      ///< what is read of a CAD file is written here, if not empty
   std::string surface;                   ///< name of the surface in that file
   double edge_angle = brep::kEdgeAngle;  ///< below which edges of a rigid wall are smooth [rad]
   coupling::SolidOptions solid;          ///< of a deforming wall

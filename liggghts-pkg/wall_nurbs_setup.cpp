@@ -82,7 +82,7 @@ coupling::OpenedStructure open(MPI_Comm world, const WallNurbsOptions& options, 
   }
   return coupling::open_rigid_surface(world, options.file, options.surface, options.drive,
                                       {units_of_deck(deck_units), options.placement, options.edge_angle,
-                                       options.search == contact::SearchMethod::newton});
+                                       options.search == contact::SearchMethod::newton, options.keep});
 }
 
 /// Of the particles of all ranks; infinite if there are none.

@@ -3,14 +3,12 @@
 #include <fmt/format.h>
 
 #include <cstdio>
-#include <ostream>
 #include <stdexcept>
 #include <vector>
 
 #include "command.h"
 #include "geometry_io/geometry_io.h"
 #include "geometry_io/geometry_summary.h"
-#include "geometry_io/regular_file.h"
 
 namespace {
 
@@ -37,28 +35,6 @@ std::string patches_text(const GeometryFile& geometry) {
   return geometry.cad ? "" : fmt::format(", {} patch{}", count, count == 1 ? "" : "es");
 }
 
-void write(const GeometryFile& geometry, const std::string& path, const std::vector<std::string>& inputs) {
-  const auto format = geometry_io::format_of_path(path);
-  if (!format)
-    throw std::runtime_error(
-        fmt::format("{}: unknown extension, expected {}", path, geometry_io::written_extensions()));
-  std::string bytes;
-  try {
-    bytes = geometry_io::write_geometry(geometry, *format);
-  } catch (const std::exception& error) {
-    throw std::runtime_error(fmt::format("{}: {}", path, error.what()));
-  }
-  for (const std::string& input : inputs)
-    for (const std::string& written : {path, geometry_io::unfinished_name(path)})
-      if (geometry_io::same_file(written, input))
-        throw std::runtime_error(
-            fmt::format("{}: is the file {} that is read and would be overwritten, expected another name",
-                        written, input));
-  const std::string problem = geometry_io::write_file(path, [&](std::ostream& file) { file << bytes; });
-  if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
-  fmt::print("written to {} ({})\n", path, *format);
-}
-
 void run(const Options& options) {
   std::vector<std::string> inputs;
   const auto read_and_note = [&](const std::string& path) {
@@ -71,7 +47,9 @@ void run(const Options& options) {
   if (!options.surface.empty()) geometry = only(geometry, options.surface, options.in);
   fmt::print("{}: units {}{}\n{}", options.in, geometry_io::units_name(geometry.units),
              patches_text(geometry), geometry_io::summary(geometry));
-  if (!options.out.empty()) write(geometry, options.out, inputs);
+  if (!options.out.empty())
+    fmt::print("written to {} ({})\n", options.out,
+               geometry_io::write_geometry_file(geometry, options.out, inputs));
 }
 
 }  // namespace

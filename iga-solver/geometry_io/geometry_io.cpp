@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <ostream>
 #include <stdexcept>
 #include <vector>
 
@@ -122,6 +123,28 @@ std::string write_geometry(const GeometryFile& geometry, Format format) {
                     "'geometry: {{file: NAME.stl}}'",
                     format));
   return known.write(geometry);
+}
+
+Format write_geometry_file(const GeometryFile& geometry, const std::string& path,
+                           const std::vector<std::string>& inputs) {
+  const auto format = format_of_path(path);
+  if (!format)
+    throw std::runtime_error(fmt::format("{}: unknown extension, expected {}", path, written_extensions()));
+  std::string bytes;
+  try {
+    bytes = write_geometry(geometry, *format);
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("{}: {}", path, error.what()));
+  }
+  for (const std::string& input : inputs)
+    for (const std::string& written : {path, unfinished_name(path)})
+      if (same_file(written, input))
+        throw std::runtime_error(
+            fmt::format("{}: is the file {} that is read and would be overwritten, expected another name",
+                        written, input));
+  const std::string problem = write_file(path, [&](std::ostream& file) { file << bytes; });
+  if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
+  return *format;
 }
 
 }  // namespace geometry_io

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "geometry_io/geometry_file.h"
 
@@ -45,5 +46,11 @@ OpenGeometry geometry_opener(ReadFile read);
 /// The file's bytes; reading them gives the same numbers to the last bit.  Throws std::invalid_argument if
 /// the format cannot hold the geometry, or has no writer.
 std::string write_geometry(const GeometryFile& geometry, Format format);
+
+/// Writes the file at `path` in the format of its extension, whole or not at all, in place of an older one,
+/// and gives that format.  Throws std::runtime_error: one line with `path` and what is wrong, also if it is
+/// one of `inputs`, the files that were read.
+Format write_geometry_file(const GeometryFile& geometry, const std::string& path,
+                           const std::vector<std::string>& inputs);
 
 }  // namespace geometry_io

@@ -83,8 +83,10 @@ void Hdf5Output::add_texts(const std::string& path, const std::vector<std::strin
 
 void Hdf5Output::add_data_set(const std::string& path, hid_t file_type, hid_t memory_type, hid_t space,
                               const void* values) {
+  const Hdf5Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+  check(H5Pset_obj_track_times(creation, false), "leave out times");  // the same contents are the same bytes
   const Hdf5Handle data_set(
-      H5Dcreate2(file_, path.c_str(), file_type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+      H5Dcreate2(file_, path.c_str(), file_type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose);
   check<hid_t>(data_set, "make a data set");
   check(H5Dwrite(data_set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values), "write a data set");
 }

@@ -38,6 +38,7 @@ RIGID = f"{MODELS} type 2 geometry flat.yaml surface floor"
 SERVO = "servo com 0 0 0 ctrlPV force axis 0 0 1 target_val 5 vel_max 1"
 HDF5 = f"{MODELS} type 2 geometry wall.h5 surface all"
 XML = f"{MODELS} type 2 geometry wall.xml surface all"
+CAD = f"{MODELS} type 2 geometry part.step surface all"
 PIPE = f"{MODELS} type 2 geometry round.yaml surface wall"
 
 
@@ -175,6 +176,11 @@ DECK_WORDS = {
     "scaled beyond all sense": (RIGID + " scale 1e60 scale 1e60", ["flat.yaml: scaled and moved", r"1e\+100"]),
     "rotate lacks its angle": (RIGID + " rotate axis 0 0 1", ["'1' is the last word", "'angle'"]),
     "rotate about no axis": (RIGID + " rotate axis 0 0 0 angle 5", ["rotate axis is 0 0 0", "direction"]),
+    "keep of a deforming wall": (GOOD + " keep block.h5", ["'keep'", "CAD", "given 'structure block.yaml'"]),
+    "keep of what is no CAD file": (RIGID + " keep flat.h5", ["'keep'", "given 'geometry flat.yaml'", "expected .* .step"]),
+    "kept under a name of another format": (CAD + " keep part.xml", ["keep is 'part.xml'", "ends in .h5, as in 'keep part.h5'"]),
+    "keep without a name": (CAD + " keep", ["'keep' is the last word", "ends in .h5"]),
+    "kept twice": (CAD + " keep a.h5 keep b.h5", ["'keep' is given twice"]),
     "contact area without heat": (RIGID + " contact_area projection", ["'contact_area'", "'temperature T'"]),
     "chord beyond all sense": (PIPE + " stl pipe every 5 chord 1e-12", ["chord 1e-12 takes about", "at most 1000"]),
     "unknown normal model": (GOOD.replace("hertz", "herz"), ["herz", "hertz"]),

@@ -213,6 +213,35 @@ class Contacts(unittest.TestCase):
             np.testing.assert_allclose(found, force, atol=1e-9 * hertz(overlap), err_msg=word)
 
 
+class Kept(unittest.TestCase):
+    """What `keep` leaves of an assembly, on which a ball falls."""
+
+    def table(self, folder: Path, words: str, ranks: int) -> dict[str, np.ndarray]:
+        begin = prelude(**{"processors": "2 1 1"} if ranks == 2 else {}).text() + balls([(0.1, 0.0, 0.1257)], (0.2, 0.1, -0.3))
+        begin += "".join(f"variable {v} equal {v}[1]\n" for v in ("x", "y", "z"))
+        columns = ["v_x", "v_y", "v_z", *(f"f_wall[{k}]" for k in range(1, 8))]
+        placed = f"{words} rotate axis 0 0 1 angle 30 move 0.1 0 0"
+        run = decks.run_in(folder, begin + wall(placed) + output(columns, 5) + "run 300\n", ranks)
+        self.assertEqual(run.code, 0, run.text[-3000:])
+        return run.table
+
+    def test_the_same_run(self):
+        """To the last digit, and the file is that of nurbs-convert."""
+        with TemporaryDirectory() as name:
+            folder = Path(name)
+            (folder / "nested.step").write_bytes(parts()["nested.step"])
+            subprocess.run([os.environ["NURBS_CONVERT"], "nested.step", "converted.h5"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
+            for ranks in (1, 2):
+                (folder / "kept.h5").write_text("an older one")
+                of_step = self.table(folder, "nested.step keep kept.h5 surface all", ranks)
+                self.assertEqual((folder / "kept.h5").read_bytes(), (folder / "converted.h5").read_bytes())
+                self.assertEqual([path.name for path in folder.glob("*.part")], [])
+                self.assertGreater(np.count_nonzero(of_step["wall[3]"]), 5)
+                kept = self.table(folder, "kept.h5 surface all", ranks)
+                for column, values in of_step.items():
+                    np.testing.assert_array_equal(kept[column], values, column)
+
+
 class Errors(unittest.TestCase):
     def test_each_in_one_line_on_ranks(self):
         box = parts()["box.step"]
@@ -223,6 +252,8 @@ class Errors(unittest.TestCase):
             ("nested.step surface lid", 1, ["nested.step", "'lid'", "face:N with N from 1 to 24", "colour:FF8800", "sole, top"]),
             ("cut.step surface all", 3, ["cut.step:", "ends early"]),
             ("astray.step surface all", 1, ["astray.step:", "ADVANCED_FACE"]),
+            ("box.step keep gone/box.h5 surface all", 2, ["gone/box.h5: cannot write here", "No such file or directory"]),
+            ("box.step surface all keep /dev/box.h5/box.h5", 1, ["/dev/box.h5/box.h5: cannot write here"]),
         ):
             with self.subTest(words):
                 deck = prelude().text() + balls([(0.0, 0.0, 0.1)]) + wall(words) + "run 0\n"
