@@ -80,7 +80,7 @@ class FromCad {
       surface_.domains.emplace_back(given.loops);
       face.low = surface_.domains.back().low();
       face.high = surface_.domains.back().high();
-      face.outward = static_cast<std::int8_t>(given.outward);
+      face.outward = given.outward;
       surface_.faces.push_back(face);
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(fmt::format("face {}: {}", given.number, error.what()));

@@ -55,8 +55,7 @@ struct Face {
   int first_piece = 0, piece_count = 0;        ///< of Surface::pieces
   int patch = -1;                              ///< of kind nurbs: its number
   Kind kind = Kind::plane;
-  std::int8_t outward =
-      0;  ///< +1 or -1: only its side + or - is met, the other is inside a body; 0: both are
+  int outward = 0;  ///< +1 or -1: only its side + or - is met, the other is inside a body; 0: both are
 
   Vector3 point(const Parameter<2>& xi) const;
   Vector3 normal(const Parameter<2>& xi) const;
