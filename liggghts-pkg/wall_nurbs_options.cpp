@@ -94,6 +94,16 @@ void read_drive_of_wall(const Reading& in) {
 
 void read_placement_of_wall(const Reading& in) { read_placement(in.keyword, in.words, in.options.placement); }
 
+// Checked here: where the name is forgotten, the keyword after `keep` is taken for it.
+void read_kept(const Reading& in) {
+  std::string& keep = in.options.keep;
+  keep = in.words.value("the name of the file that is kept, which ends in .h5");
+  if (std::filesystem::path(keep).extension() == ".h5") return;
+  const std::filesystem::path file = in.options.file.empty() ? "wall" : in.options.file;
+  fail(fmt::format("keep is '{}', expected a name that ends in .h5, as in 'keep {}'", keep,
+                   file.filename().replace_extension(".h5").string()));
+}
+
 constexpr Keyword<void(const Reading&)> kWallKeywords[] = {
     {"type", "type T",
      [](const Reading& in) {
@@ -101,10 +111,7 @@ constexpr Keyword<void(const Reading&)> kWallKeywords[] = {
      }},
     {"structure", "structure FILE", [](const Reading& in) { read_body(in, WallNurbsOptions::Body::iga); }},
     {"geometry", "geometry FILE", [](const Reading& in) { read_body(in, WallNurbsOptions::Body::rigid); }},
-    {"keep", "keep KEPT.h5",
-     [](const Reading& in) {
-       in.options.keep = in.words.value("the name of the file that is kept, which ends in .h5");
-     }},
+    {"keep", "keep KEPT.h5", read_kept},
     {"surface", "surface NAME",
      [](const Reading& in) { in.options.surface = in.words.value("the name of a surface in the file"); }},
     {"edge_angle", "edge_angle A",
@@ -165,9 +172,6 @@ void check_kept(const WallNurbsOptions& options) {
         "'keep' is for what is read of a CAD file, given '{} {}', expected 'geometry FILE' with a "
         "file .step, .stp, .iges or .igs, or no 'keep'",
         rigid ? "geometry" : "structure", options.file));
-  if (std::filesystem::path(options.keep).extension() != ".h5")
-    fail(fmt::format("keep is '{}', expected a name that ends in .h5, as in 'keep {}'", options.keep,
-                     std::filesystem::path(options.file).filename().replace_extension(".h5").string()));
 }
 
 void check_complete(const WallNurbsOptions& options) {

@@ -180,6 +180,7 @@ DECK_WORDS = {
     "keep of what is no CAD file": (RIGID + " keep flat.h5", ["'keep'", "given 'geometry flat.yaml'", "expected .* .step"]),
     "kept under a name of another format": (CAD + " keep part.xml", ["keep is 'part.xml'", "ends in .h5, as in 'keep part.h5'"]),
     "keep without a name": (CAD + " keep", ["'keep' is the last word", "ends in .h5"]),
+    "keep before another keyword": (CAD + " keep verbose yes", ["keep is 'verbose'", "ends in .h5, as in 'keep part.h5'"]),
     "kept twice": (CAD + " keep a.h5 keep b.h5", ["'keep' is given twice"]),
     "contact area without heat": (RIGID + " contact_area projection", ["'contact_area'", "'temperature T'"]),
     "chord beyond all sense": (PIPE + " stl pipe every 5 chord 1e-12", ["chord 1e-12 takes about", "at most 1000"]),
