@@ -245,7 +245,8 @@ inline void ContactLoop::add_contact(const ParticleView& particles, int i, const
   contact.slot = tracked.slot;
   contact.foot = foot.at();
   contact.touches = foot.distance <= radius;
-  contact.inside = foot.distance < 0.0 || (wall_.has_inside(foot.patch) && wall_.is_inside(foot, delta));
+  contact.inside =
+      foot.distance < 0.0 || (wall_.has_inside(foot.patch) && wall_.is_inside(foot, delta, tracked.side));
   contact.distance = foot.distance;
   contact.overlap = radius - foot.distance;
   contact.effective_radius = options_.curvature_radius ? wall_.effective_radius(foot, delta, radius) : radius;

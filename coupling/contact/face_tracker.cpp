@@ -88,20 +88,20 @@ FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
   if (is_fast(query)) return feet_of_fast(query, slots);
   const double margin = state.reach - query.touch_reach;
   const bool is_near = margin >= 0.0 && has_moved_less(query, state, margin);
+  double distance = 0.0;  // at least, of the nearest piece; a foot takes longer
   if (!is_near) {
-    const double distance = nearest(query, query.list_reach, Of::list);
+    distance = nearest(query, query.list_reach, Of::list);
     if (distance > kNear * query.touch_reach) return none(query, slots, distance);
     choose_pieces(query, Of::list, kMargin * query.touch_reach);
     if (state.alone < 0) choose_pieces(query, Of::chosen, kSmallMargin * query.touch_reach);
-  } else if (++state.looks == kCalm) {
-    choose_fewer_pieces(query);
+  } else {
+    if (slots.used() == 0) distance = nearest_of_chosen(query);
+    if (++state.looks == kCalm) choose_fewer_pieces(query);
   }
+  if (distance >= beyond(query)) return none(query, slots, distance);
   find(query, beyond(query));
   match_slots(query, slots);
-  if (found_.empty()) {
-    const double known = state.reach - (query.centre - state.centre).norm();
-    return none(query, slots, nearest(query, known, Of::chosen));
-  }
+  if (found_.empty()) return none(query, slots, nearest_of_chosen(query));
   keep_clearance(query, 0.0);
   return {feet_.data(), static_cast<int>(feet_.size())};
 }
@@ -154,6 +154,12 @@ double FaceTracker::nearest(const Query& query, double reach, Of of) const {
   return reach;
 }
 
+// As far as those chosen tell.
+double FaceTracker::nearest_of_chosen(const Query& query) const {
+  const State& state = states_[query.candidate];
+  return nearest(query, state.reach - (query.centre - state.centre).norm(), Of::chosen);
+}
+
 void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
   State& state = states_[query.candidate];
   state.centre = query.centre;
@@ -203,10 +209,11 @@ bool FaceTracker::may_be_behind(const Query& query, const ParticleSlots& slots) 
     const nurbs::SurfacePoint last = slots.slot(s).foot();
     const int outward = search_.surface().faces[last.patch].outward;
     if (outward == 0) continue;
-    const nurbs::SurfaceShape at = brep::shape_on(search_.surface(), last.patch, last.xi);
+    const Vector3 point = brep::point_on(search_.surface(), last.patch, last.xi),
+                  out = outward * brep::normal_on(search_.surface(), last.patch, last.xi);
     bool is_deep = false;
     for_each_image(query, Of::chosen, [&](const Vector3& d, const int*, int, const Vector3&) {
-      is_deep |= outward * at.normal.dot(d - at.point) < kDeep * query.touch_reach;
+      is_deep |= out.dot(d - point) < kDeep * query.touch_reach;
     });
     if (is_deep) return true;
   }

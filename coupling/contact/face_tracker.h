@@ -49,6 +49,7 @@ class FaceTracker final : public FeetTracker {
   template <class Function>
   void for_each_image(const Query& query, Of of, Function f) const;
   double nearest(const Query& query, double reach, Of of) const;
+  double nearest_of_chosen(const Query& query) const;
   void choose_fewer_pieces(const Query& query);
   void choose_pieces(const Query& query, Of of, double margin);
   static bool has_moved_less(const Query& query, const State& state, double than);

@@ -87,10 +87,10 @@ int Wall::side_of(const Foot& foot, const Vector3& delta) const {
   return shape_->normal_at(foot).dot(frame_.rotation.transpose() * delta) < 0.0 ? -1 : 1;
 }
 
-bool Wall::is_inside(const Foot& foot, const Vector3& delta) const {
+bool Wall::is_inside(const Foot& foot, const Vector3& delta, int side) const {
   const int sign = shape_->outward_sign(foot.patch);
   if (sign == 0 || foot.status != search::FootStatus::interior) return false;
-  return sign * side_of(foot, delta) < 0;
+  return sign * (side != 0 ? side : side_of(foot, delta)) < 0;
 }
 
 Vector3 Wall::leave(Foot& foot, const Vector3& delta, int known_side, double radius, const Vector3& x,

@@ -82,8 +82,8 @@ class Wall {
   /// +1 where dS/dxi x dS/deta points, -1 on the other side.
   int side_of(const Foot& foot, const Vector3& delta) const;
   bool has_inside(int patch) const { return is_closed_ && shape_->outward_sign(patch) != 0; }
-  /// Whether a centre is inside the body.
-  bool is_inside(const Foot& foot, const Vector3& delta) const;
+  /// Whether a centre is inside the body; `side`: as side_of() has it, 0: nobody has looked.
+  bool is_inside(const Foot& foot, const Vector3& delta, int side) const;
   /// A centre nearer than this is on the surface [length].
   double resolution() const { return resolution_; }
   /// A centre on the surface has no direction of its own: takes it off along the normal, by so little that

@@ -65,7 +65,7 @@ std::unique_ptr<FeetTracker> FaceShape::track(const CandidateList& candidates, S
 }
 
 Vector3 FaceShape::normal_at(const Foot& foot) const {
-  return brep::shape_on(search_.surface(), foot.patch, foot.xi).normal;
+  return brep::normal_on(search_.surface(), foot.patch, foot.xi);
 }
 
 SurfaceShape FaceShape::shape_near(const Foot& foot) const {

@@ -8,6 +8,7 @@
 
 #include "brep/closed_form.h"
 #include "brep/foot_search.h"
+#include "brep/near_cells.h"
 #include "coupling/contact/feet_tracker.h"
 #include "coupling/contact/local_search.h"
 #include "nurbs/curvature.h"
@@ -76,14 +77,17 @@ class ShapeOnFaces : public WallShape {
   void begin_list(bool /*moved*/) final {}
   search::Box bounds() const final { return {search_.surface().low, search_.surface().high}; }
   void near(const nurbs::Vector3& point, double reach, std::vector<int>& elements) const final {
-    search_.near(point, reach, elements);
+    cells_.near(point, reach, elements);
   }
 
  protected:
   /// Keeps a reference.
-  explicit ShapeOnFaces(const brep::Surface& surface) : search_(surface) {}
+  explicit ShapeOnFaces(const brep::Surface& surface) : search_(surface), cells_(search_) {}
 
   brep::FootSearch search_;
+
+ private:
+  mutable brep::NearCells cells_;  // what has been asked before
 };
 
 /// Of nothing else.

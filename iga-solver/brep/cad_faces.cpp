@@ -41,7 +41,9 @@ void add_chunks(const BezierCurve<3>& curve, std::vector<Chunk>& chunks) {
     add_chunks(before, chunks);
     return add_chunks(behind, chunks);
   }
-  Chunk chunk{curve, Vector3::Zero(), curve.at(0.5), 0.0};
+  const auto begin = curve.derivatives(0.0), end = curve.derivatives(1.0);
+  Chunk chunk{
+      curve, Vector3::Zero(), curve.at(0.5), 0.0, {{begin.point, begin.first}, {end.point, end.first}}};
   for (int k = 0; k <= curve.degree(); ++k)
     chunk.radius = std::max(chunk.radius, (curve.point(k) - chunk.centre).norm());
   chunks.push_back(chunk);

@@ -69,23 +69,17 @@ int use_at_wedge_of_ray(const Surface& surface, int ray, const Vector3& w) {
 bool minimum_on(const Chunk& chunk, const Vector3& d, double slack, double& s) {
   constexpr int kMostSteps = 60;
   constexpr double kRoundOff = 1e-15;
-  const auto slope = [&](double at, double& curvature, double& speed) {
-    const auto c = chunk.curve.derivatives(at);
-    const Vector3 from = c.point - d;
-    speed = c.first.norm();
-    curvature = c.first.squaredNorm() + from.dot(c.second);
-    return from.dot(c.first);
-  };
-  double curvature, speed;
-  const double start = slope(0.0, curvature, speed);
-  const bool at_start = std::abs(start) <= slack * speed;
-  const double end = slope(1.0, curvature, speed);
-  const bool at_end = std::abs(end) <= slack * speed;
+  const Chunk::End &first = chunk.ends[0], &last = chunk.ends[1];
+  const double start = (first.point - d).dot(first.first), end = (last.point - d).dot(last.first);
+  const bool at_start = std::abs(start) <= slack * first.first.norm(),
+             at_end = std::abs(end) <= slack * last.first.norm();
   if (start < 0.0 && end > 0.0) {
     double low = 0.0, high = 1.0;
     s = start / (start - end);
     for (int k = 0; k < kMostSteps; ++k) {
-      const double g = slope(s, curvature, speed);
+      const auto c = chunk.curve.derivatives(s);
+      const Vector3 from = c.point - d;
+      const double g = from.dot(c.first), curvature = c.first.squaredNorm() + from.dot(c.second);
       (g < 0.0 ? low : high) = s;
       double next = curvature > 0.0 ? s - g / curvature : 0.5 * (low + high);
       if (!(next > low && next < high)) next = 0.5 * (low + high);
@@ -96,8 +90,7 @@ bool minimum_on(const Chunk& chunk, const Vector3& d, double slack, double& s) {
     return true;
   }
   s = at_start && start >= 0.0 ? 0.0 : 1.0;
-  const bool kink =
-      end <= 0.0 && chunk.way_on.dot(chunk.curve.at(1.0) - d) >= 0.0 && !chunk.way_on.isZero(0.0);
+  const bool kink = end <= 0.0 && chunk.way_on.dot(last.point - d) >= 0.0 && !chunk.way_on.isZero(0.0);
   return (at_start && start >= 0.0) || (at_end && end <= 0.0) || kink;
 }
 

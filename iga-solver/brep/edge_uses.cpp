@@ -77,7 +77,7 @@ Parameter<2> parameters_at(const Surface& surface, int use, const EdgePoint& at)
 Vector3 normal_at(const Surface& surface, int use, const EdgePoint& at) {
   const Face& face = surface.faces[surface.uses[use].face];
   if (face.kind != Kind::nurbs) return face.project(at.point).normal;
-  return surface.patches->shape(face.patch, parameters_at(surface, use, at)).normal;
+  return surface.patches->normal(face.patch, parameters_at(surface, use, at));
 }
 
 Side side_at(const Surface& surface, int use, const EdgePoint& at) {

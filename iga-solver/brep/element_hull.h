@@ -24,6 +24,8 @@ class ElementHull {
   double squared_distance(const Vector3& d) const {
     return ((axes_ * (d - centre_)).cwiseAbs() - half_).cwiseMax(0.0).squaredNorm();
   }
+  /// Of the element from centre(), in a direction of length 1, to either side.
+  double extent(const Vector3& direction) const { return (axes_ * direction).cwiseAbs().dot(half_); }
 
  private:
   search::Box box_;

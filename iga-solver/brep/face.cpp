@@ -164,7 +164,7 @@ double Face::distance_of_whole(const Vector3& d) const {
     case Kind::sphere:
       return std::abs(std::sqrt(at.rho * at.rho + at.z * at.z) - R);
     default:
-      return std::abs(std::hypot(at.rho - R, at.z) - r);
+      return std::abs(std::sqrt((at.rho - R) * (at.rho - R) + at.z * at.z) - r);
   }
 }
 

@@ -13,6 +13,12 @@ inline Vector3 point_on(const Surface& surface, int face, const Parameter<2>& xi
   return shape.kind == Kind::nurbs ? surface.patches->point(shape.patch, xi) : shape.point(xi);
 }
 
+/// Of a patch's pole that of a point beside it.
+inline Vector3 normal_on(const Surface& surface, int face, const Parameter<2>& xi) {
+  const Face& shape = surface.faces[face];
+  return shape.kind == Kind::nurbs ? surface.patches->normal(shape.patch, xi) : shape.normal(xi);
+}
+
 /// Point, normal, and curvatures, positive towards that [1/length]; of a patch's pole those beside it.
 inline nurbs::SurfaceShape shape_on(const Surface& surface, int face, const Parameter<2>& xi) {
   const Face& shape = surface.faces[face];

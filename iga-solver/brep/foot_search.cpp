@@ -39,16 +39,23 @@ void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) 
 }
 
 int FootSearch::activate(const Vector3& d, double reach, const int* pieces, int count, int* active) const {
-  const int maybe = tree_.filter(tree_.query(d, reach), pieces, count, active);
-  const auto far = [&](int p) { return distance_of_piece(surface_, p, d) > reach; };
+  const PieceTree::Query query = tree_.query(d, reach);
+  const int maybe = tree_.filter(query, pieces, count, active);
+  const auto far = [&](int p) {
+    return distance_of_piece(surface_, p, d) > reach || tree_.distance_of_parts(query, p) > reach;
+  };
   return static_cast<int>(std::remove_if(active, active + maybe, far) - active);
 }
 
 double FootSearch::nearest(const Vector3& d, double reach, const int* pieces, int count) const {
   for (int k = 0; k < count; k += kChunk) {
     int kept[kChunk];
-    const int maybe = tree_.filter(tree_.query(d, reach), pieces + k, std::min(kChunk, count - k), kept);
-    for (int i = 0; i < maybe; ++i) reach = std::min(reach, distance_of_piece(surface_, kept[i], d));
+    const PieceTree::Query query = tree_.query(d, reach);
+    const int maybe = tree_.filter(query, pieces + k, std::min(kChunk, count - k), kept);
+    for (int i = 0; i < maybe; ++i) {
+      const double distance = distance_of_piece(surface_, kept[i], d);
+      if (distance < reach) reach = std::clamp(tree_.distance_of_parts(query, kept[i]), distance, reach);
+    }
   }
   return reach;
 }

@@ -26,6 +26,17 @@ nurbs::Surface in_small_elements(nurbs::Surface patch) {
   return patch;
 }
 
+// d S / d xi_i
+std::array<Vector3, 2> tangents_of(const nurbs::Surface& patch, const Parameter<2>& xi) {
+  nurbs::RationalBasis<2> basis;
+  nurbs::evaluate(patch.space, xi, 1, basis);
+  std::array<Vector3, 2> tangents{Vector3::Zero(), Vector3::Zero()};
+  for (int i = 0; i < 2; ++i)
+    for (int a = 0; a < basis.count; ++a)
+      tangents[i] += basis.dR[i][a] * patch.control_points.col(basis.control_point[a]);
+  return tangents;
+}
+
 }  // namespace
 
 PatchFaces::PatchFaces(const std::vector<nurbs::Surface>& patches, double edge_angle) {
@@ -41,8 +52,10 @@ PatchFaces::PatchFaces(const std::vector<nurbs::Surface>& patches, double edge_a
     hulls_.emplace_back();
     cones_.emplace_back();
     for (int e = 0; e < patch.space.element_count(); ++e) {
-      cones_.back().push_back(cone_of(patch, e));
-      hulls_.back().emplace_back(patch, e, cones_.back().back().axis);
+      Cones cones = cones_of(patch, e);
+      const ElementHull& hull = hulls_.back().emplace_back(patch, e, cones.normal.axis);
+      for (int i = 0; i < 2; ++i) cones.extent[i] = hull.extent(cones.tangent[i].axis);
+      cones_.back().push_back(cones);
     }
   }
 }
@@ -56,27 +69,34 @@ nurbs::SurfaceShape PatchFaces::shape(int p, const Parameter<2>& xi) const {
 }
 
 Vector3 PatchFaces::tangent(int p, const Parameter<2>& xi, int i) const {
-  nurbs::RationalBasis<2> basis;
-  nurbs::evaluate(patches_[p].space, xi, 1, basis);
-  Vector3 tangent = Vector3::Zero();
-  for (int a = 0; a < basis.count; ++a)
-    tangent += basis.dR[i][a] * patches_[p].control_points.col(basis.control_point[a]);
-  return tangent;
+  return tangents_of(patches_[p], xi)[i];
 }
 
 Vector3 PatchFaces::normal(int p, const Parameter<2>& xi) const {
-  const Vector3 normal = tangent(p, xi, 0).cross(tangent(p, xi, 1));
+  const auto tangents = tangents_of(patches_[p], xi);
+  const Vector3 normal = tangents[0].cross(tangents[1]);
   const double length = normal.norm();
   return length > 0.0 ? Vector3(normal / length) : shape(p, xi).normal;
 }
 
-// Normals at some points of it, and as much again: they change little within small elements.
-PatchFaces::NormalCone PatchFaces::cone_of(const nurbs::Surface& patch, int element) {
-  constexpr int kPoints = 4;  // steps along each direction
+// Those given are some of an element, so as much again: they change little within small elements.
+PatchFaces::Cone PatchFaces::cone_around(const std::vector<Vector3>& directions) {
   constexpr double kAsMuchAgain = 2.0, kAny = 2.0;
-  NormalCone cone{Vector3::Zero(), 0.0};
+  Cone cone{Vector3::Zero(), 0.0};
+  for (const Vector3& direction : directions) cone.axis += direction;
+  if (!cone.axis.allFinite() || cone.axis.norm() < 0.5) cone.sine = kAny;  // a pole is there
+  cone.axis.normalize();
+  for (const Vector3& direction : directions) {
+    if (!(direction.dot(cone.axis) > 0.5)) cone.sine = kAny;
+    cone.sine = std::max(cone.sine, kAsMuchAgain * direction.cross(cone.axis).norm());
+  }
+  return cone;
+}
+
+PatchFaces::Cones PatchFaces::cones_of(const nurbs::Surface& patch, int element) {
+  constexpr int kPoints = 4;  // steps along each direction
   const nurbs::Indices<2> e = patch.space.element_indices(element);
-  std::vector<Vector3> normals;
+  std::vector<Vector3> normals, tangents[2];
   for (int i = 0; i <= kPoints; ++i)
     for (int j = 0; j <= kPoints; ++j) {
       const int step[2] = {i, j};
@@ -86,25 +106,29 @@ PatchFaces::NormalCone PatchFaces::cone_of(const nurbs::Surface& patch, int elem
         xi[k] = knot[0] + (knot[1] - knot[0]) * step[k] / kPoints;
       }
       normals.push_back(nurbs::shape_on_element(patch.space, patch.control_points, element, xi).normal);
-      cone.axis += normals.back();
+      const auto at = tangents_of(patch, xi);
+      for (int k = 0; k < 2; ++k) tangents[k].push_back(at[k].normalized());
     }
-  if (!cone.axis.allFinite() || cone.axis.norm() < 0.5) cone.sine = kAny;  // a pole is there
-  cone.axis.normalize();
-  for (const Vector3& normal : normals) {
-    if (!(normal.dot(cone.axis) > 0.5)) cone.sine = kAny;
-    cone.sine = std::max(cone.sine, kAsMuchAgain * normal.cross(cone.axis).norm());
-  }
-  return cone;
+  return {cone_around(normals), {cone_around(tangents[0]), cone_around(tangents[1])}, {}};
 }
 
-// A foot S of d has d - S along a normal, and S is in the hull.
+// A foot S of d, nearer than reach, is in the hull; d - S is along a normal, and square to all tangents.
 bool PatchFaces::may_have_foot(int p, int element, const Vector3& d, double reach, int side) const {
   const ElementHull& hull = hulls_[p][element];
   if (hull.squared_distance(d) >= reach * reach) return false;
-  const NormalCone& cone = cones_[p][element];
-  if (!(cone.sine < 1.0)) return true;
+  const Cones& cones = cones_[p][element];
   const Vector3 from = d - hull.centre();
-  const double along = from.dot(cone.axis), most = hull.radius() + cone.sine * (from.norm() + hull.radius());
+  for (int i = 0; i < 2; ++i) {
+    const Cone& cone = cones.tangent[i];
+    if (!(cone.sine < 1.0)) continue;
+    const double beyond = std::abs(from.dot(cone.axis)) - cones.extent[i];
+    if (beyond > 0.0 &&
+        beyond * beyond * (1.0 - cone.sine * cone.sine) > cone.sine * cone.sine * reach * reach)
+      return false;
+  }
+  const Cone& cone = cones.normal;
+  if (!(cone.sine < 1.0)) return true;
+  const double along = from.dot(cone.axis), most = hull.radius() + cone.sine * reach;
   if (side * along < -most) return false;
   return (from - along * cone.axis).norm() <= most;
 }
@@ -113,19 +137,53 @@ bool PatchFaces::may_have_foot(int p, int element, const Vector3& d, double reac
 // takes a hundred times as long on degrees such as those of fillets.
 void PatchFaces::minima_on(int p, const std::vector<int>& elements, const Vector3& d, double reach,
                            std::vector<search::Foot>& feet) const {
+  feet.clear();
+  if (!follow_downhill(p, elements, d, reach, feet))
+    projectors_[p]->all_minima_on(d, reach, elements.data(), static_cast<int>(elements.size()), feet);
+}
+
+// False if the distance may have several minima.  It has one at most where elements hang together and
+// curvatures are half of what would be too much, so that it is convex, up to twice the reach.  (Elements on
+// both sides of a seam do not hang together.)
+bool PatchFaces::follow_downhill(int p, const std::vector<int>& elements, const Vector3& d, double reach,
+                                 std::vector<search::Foot>& feet) const {
   const auto is_calm = [&](int element) { return has_one_foot(p, element, d, reach); };
-  const auto away = [&](int element) {
-    const ElementHull& hull = hulls_[p][element];
-    return hull.squared_distance(d) + (hull.centre() - d).squaredNorm();
-  };
+  if (!std::all_of(elements.begin(), elements.end(), is_calm) || !hang_together(p, elements)) return false;
+  const auto away = [&](int element) { return hulls_[p][element].squared_distance(d); };
   const int nearest =
       *std::min_element(elements.begin(), elements.end(), [&](int a, int b) { return away(a) < away(b); });
-  if (std::all_of(elements.begin(), elements.end(), is_calm)) {
-    feet.assign(1, projectors_[p]->warm(d, patches_[p].space.element_centre(nearest)));
-    // On a border it may have come to a seam, beyond which it would go on.
-    if (feet[0].distance < reach && feet[0].status == FootStatus::interior) return;
+  const Parameter<2> start = below(p, nearest, d);
+  if ((point(p, start) - d).squaredNorm() > 4.0 * reach * reach) return false;
+  const search::Foot foot = projectors_[p]->warm(d, start);
+  if (foot.distance < reach) feet.push_back(foot);
+  return true;
+}
+
+// About where the foot of d would be if the element were plane.
+Parameter<2> PatchFaces::below(int p, int element, const Vector3& d) const {
+  Parameter<2> xi = patches_[p].space.element_centre(element);
+  const nurbs::Indices<2> e = patches_[p].space.element_indices(element);
+  for (int i = 0; i < 2; ++i) {
+    const std::vector<double>& breaks = patches_[p].space.knots(i).breaks();
+    const Cones& cones = cones_[p][element];
+    const double along = cones.tangent[i].axis.dot(d - hulls_[p][element].centre()) / cones.extent[i];
+    if (std::isfinite(along)) xi[i] += 0.5 * (breaks[e[i] + 1] - breaks[e[i]]) * std::clamp(along, -1.0, 1.0);
   }
-  projectors_[p]->all_minima_on(d, reach, elements.data(), static_cast<int>(elements.size()), feet);
+  return xi;
+}
+
+// By sides and corners, one after the other; elements are few.
+bool PatchFaces::hang_together(int p, const std::vector<int>& elements) const {
+  thread_local std::vector<nurbs::Indices<2>> left;
+  left.clear();
+  for (const int element : elements) left.push_back(patches_[p].space.element_indices(element));
+  const auto touch = [](const nurbs::Indices<2>& a, const nurbs::Indices<2>& b) {
+    return std::abs(a[0] - b[0]) <= 1 && std::abs(a[1] - b[1]) <= 1;
+  };
+  auto reached = left.begin() + 1;  // those before it hang together
+  for (auto from = left.begin(); from != reached; ++from)
+    reached = std::partition(reached, left.end(), [&](const auto& e) { return touch(*from, e); });
+  return reached == left.end();
 }
 
 bool PatchFaces::on_border(int p, const Parameter<2>& xi) const {

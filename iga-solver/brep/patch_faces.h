@@ -37,8 +37,8 @@ class PatchFaces {
   bool has_one_foot(int p, int element, const Vector3& d, double reach) const {
     return projectors_[p]->second_foot().excluded_until_next_list(d, reach, element);
   }
-  /// Whether an element is nearer than `reach` and its normals lead to where d is, to its side `side` alone
-  /// unless that is 0.
+  /// Whether an element is nearer than `reach` and its normals and tangents let it have a foot of d, on its
+  /// side `side` alone unless that is 0.
   bool may_have_foot(int p, int element, const Vector3& d, double reach, int side) const;
   /// Local minima of the distance from d nearer than `reach`, given all elements that are and may have one;
   /// in place of those in `feet`.
@@ -50,17 +50,27 @@ class PatchFaces {
   bool on_border(int p, const Parameter<2>& xi) const;
 
  private:
-  // Around the normals of an element.
-  struct NormalCone {
+  // Around directions of length 1.
+  struct Cone {
     Vector3 axis;
-    double sine;  // of the angle between normals and the axis, at most; 2: any
+    double sine;  // of the angle between them and the axis, at most; 2: any
   };
-  static NormalCone cone_of(const nurbs::Surface& patch, int element);
+  static Cone cone_around(const std::vector<Vector3>& directions);
+  // Around the normals of an element and its tangents.
+  struct Cones {
+    Cone normal, tangent[2];
+    double extent[2];  // of the element along its tangents [length]
+  };
+  static Cones cones_of(const nurbs::Surface& patch, int element);
+  bool follow_downhill(int p, const std::vector<int>& elements, const Vector3& d, double reach,
+                       std::vector<search::Foot>& feet) const;
+  Parameter<2> below(int p, int element, const Vector3& d) const;
+  bool hang_together(int p, const std::vector<int>& elements) const;
 
   std::vector<nurbs::Surface> patches_;
   std::vector<std::unique_ptr<search::SurfaceProjector>> projectors_;
   std::vector<std::vector<ElementHull>> hulls_;  // of elements
-  std::vector<std::vector<NormalCone>> cones_;
+  std::vector<std::vector<Cones>> cones_;
 };
 
 }  // namespace brep

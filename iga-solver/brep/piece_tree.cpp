@@ -42,11 +42,46 @@ PieceTree::PieceTree(const Surface& surface) : discs_(surface.pieces.size()) {
     }
   }
   const int count = static_cast<int>(boxes.piece.size());
+  if (count > pieces) keep_parts(boxes, pieces);
   order_.resize(count);
   std::iota(order_.begin(), order_.end(), 0);
   nodes_.reserve(count / 2 + 1);
   if (count > 0) build(boxes, 0, count);
   for (std::int32_t& box : order_) box = boxes.piece[box];
+}
+
+void PieceTree::keep_parts(const Boxes& boxes, int pieces) {
+  const int count = static_cast<int>(boxes.piece.size());
+  std::vector<int> kept;
+  first_part_.assign(1, 0);
+  for (int p = 0, begin = 0; p < pieces; ++p) {
+    int end = begin;
+    while (end < count && boxes.piece[end] == p) ++end;
+    for (int k = begin; end - begin > 1 && k < end; ++k) kept.push_back(k);
+    first_part_.push_back(static_cast<std::int32_t>(kept.size()));
+    begin = end;
+  }
+  for (int i = 0; i < 3; ++i) {
+    part_low_[i].resize(static_cast<Eigen::Index>(kept.size()));
+    part_high_[i].resize(static_cast<Eigen::Index>(kept.size()));
+    for (size_t k = 0; k < kept.size(); ++k) {
+      part_low_[i][static_cast<Eigen::Index>(k)] = boxes.low[kept[k]][i];
+      part_high_[i][static_cast<Eigen::Index>(k)] = boxes.high[kept[k]][i];
+    }
+  }
+}
+
+// What query() adds to a reach is taken off here.
+double PieceTree::distance_of_boxes(const Query& query, int first, int end) const {
+  const auto off2 = [&](int i) {
+    const auto low = part_low_[i].segment(first, end - first),
+               high = part_high_[i].segment(first, end - first);
+    return (low - query.d[i]).max(query.d[i] - high).max(0.0f).square();
+  };
+  const double least = std::sqrt(static_cast<double>((off2(0) + off2(1) + off2(2)).minCoeff()));
+  const double far = std::abs(query.d[0]) + std::abs(query.d[1]) + std::abs(query.d[2]);
+  const double sure = least * (1.0 - kRoundOffOfSquares) - kRoundOff * (1.0 + far);
+  return std::max(0.0, sure) / units_.in_units(1.0);
 }
 
 void PieceTree::set_disc(const Surface& surface, int p, const std::vector<Bounds>& boxes) {

@@ -38,6 +38,13 @@ class PieceTree {
     }
     return number;
   }
+  /// Distance of the boxes of a piece that has several, in parts: such a piece is much less than the surface
+  /// that it is cut from [length], rounded down; else 0.
+  double distance_of_parts(const Query& query, int piece) const {
+    return first_part_.empty() || first_part_[piece] == first_part_[piece + 1]
+               ? 0.0
+               : distance_of_boxes(query, first_part_[piece], first_part_[piece + 1]);
+  }
   /// Has the processor fetch what the filter looks at.
   void prefetch(const int* pieces, int count) const {
     for (int k = 0; k < count; ++k) nurbs::prefetch(discs_[pieces[k]]);
@@ -64,6 +71,8 @@ class PieceTree {
     std::int32_t count;  // 0: not a leaf
   };
   struct Boxes;
+  double distance_of_boxes(const Query& query, int first, int end) const;
+  void keep_parts(const Boxes& boxes, int pieces);
   void set_disc(const Surface& surface, int piece, const std::vector<Bounds>& boxes);
   void build(const Boxes& boxes, int first, int count);
 
@@ -71,6 +80,9 @@ class PieceTree {
   std::vector<Disc> discs_;
   std::vector<Node> nodes_;
   std::vector<std::int32_t> order_;
+  // Boxes of pieces with several, each coordinate in a row; none of others.
+  std::vector<std::int32_t> first_part_;
+  Eigen::ArrayXf part_low_[3], part_high_[3];
 };
 
 }  // namespace brep

@@ -56,6 +56,10 @@ struct Chunk {
   Vector3 way_on;  ///< tangent of what follows, where there is a kink too; zero at the edge's end
   Vector3 centre;
   double radius;  ///< of a ball around it [length]
+  struct End {
+    Vector3 point, first;  ///< and its derivative by the curve's s
+  };
+  End ends[2];
 };
 
 /// One sector of a face at a vertex, between two rays (ends of edges) counterclockwise about the normal.

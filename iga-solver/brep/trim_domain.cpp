@@ -13,6 +13,7 @@ constexpr int kDeepest = 48;     // halvings of a curve until it rises or falls 
 constexpr int kBisections = 60;  // to the last bit
 constexpr int kBoxHalvings = 6;  // of a curve that may meet a box
 constexpr double kFlat = 1e-14;  // of the loops' extent: nothing rises or falls there
+constexpr double kWider = 1.0 + 1e-9;
 
 using Box2 = std::pair<Parameter<2>, Parameter<2>>;
 
@@ -123,7 +124,7 @@ void TrimDomain::add_small_parts(const BezierCurve<2>& curve, int depth) {
 }
 
 void TrimDomain::add_part(const Point& from, const Point& to, const BezierCurve<2>* curve) {
-  Part part{from, to, -1, {}, {}};
+  Part part{from, to, -1, {}, {}, 0.0};
   for (int i = 0; i < 2; ++i) {
     part.low[i] = std::min(from[i], to[i]);
     part.high[i] = std::max(from[i], to[i]);
@@ -132,6 +133,8 @@ void TrimDomain::add_part(const Point& from, const Point& to, const BezierCurve<
     const Box2 box = box_of(*curve);
     part.low[0] = std::min(part.low[0], box.first[0]);
     part.high[0] = std::max(part.high[0], box.second[0]);
+    for (int k = 1; k < curve->degree(); ++k)
+      part.bulge = std::max(part.bulge, kWider * std::abs(part.beyond(curve->point(k))));
     part.curve = static_cast<int>(curves_.size());
     curves_.push_back(*curve);
   }
@@ -174,11 +177,8 @@ bool TrimDomain::is_left_of(const Part& part, const Parameter<2>& xi) const {
   if (xi[0] < part.low[0]) return true;
   if (xi[0] >= part.high[0]) return false;
   const double rise = part.to[1] - part.from[1];
-  if (part.curve < 0) {
-    const double across =
-        (part.to[0] - part.from[0]) * (xi[1] - part.from[1]) - (xi[0] - part.from[0]) * rise;
-    return rise > 0.0 ? across > 0.0 : across < 0.0;
-  }
+  const double across = part.beyond({xi[0], xi[1]});
+  if (part.curve < 0 || std::abs(across) > part.bulge) return rise > 0.0 ? across > 0.0 : across < 0.0;
   double low = 0.0, high = 1.0;
   for (int k = 0; k < kBisections; ++k) {
     const double s = 0.5 * (low + high);

@@ -36,6 +36,11 @@ class TrimDomain {
     Point from, to;
     int curve;  // of curves_; -1: straight
     Parameter<2> low, high;
+    double bulge = 0.0;  // the curve's points are beyond the line by no more
+    // Distance of a point from the straight line, times that one's length; more than 0 to its left.
+    double beyond(const Point& x) const {
+      return (to[0] - from[0]) * (x[1] - from[1]) - (x[0] - from[0]) * (to[1] - from[1]);
+    }
   };
   void add_loop(const Loop& loop);
   void add_line(const Point& from, const Point& to);

@@ -79,7 +79,7 @@ bool Minima::is_lowest_beside(int face, const Parameter<2>& xi, double distance)
 }
 
 void Minima::add_on_patch(int face, const search::Foot& foot) {
-  const Vector3 normal = surface_.patches->shape(surface_.faces[face].patch, foot.xi).normal;
+  const Vector3 normal = surface_.patches->normal(surface_.faces[face].patch, foot.xi);
   const int side = normal.dot(d_ - foot.point) < 0.0 ? -1 : 1;
   Foot on_face{foot, surface_.sheet(face, side), side, face};
   on_face.patch = face;
