@@ -54,7 +54,7 @@ class TriangleTrial final : public Trial {
  public:
   TriangleTrial(unsigned seed, int index, Given given = Given::plainly);
   /// A surface that was made from the wall; `rounded`: by way of a file in single precision.
-  TriangleTrial(const Wall& meant, Surface surface, bool rounded, const std::mt19937& random)
+  TriangleTrial(const Wall& meant, const Surface& surface, bool rounded, const std::mt19937& random)
       : TriangleTrial(meant, surface, surface, rounded, random) {}
   std::string try_sheets() override;
 
