@@ -9,8 +9,9 @@ namespace {
 
 constexpr int kFewPieces = 32;                // beyond that the tree is quicker, and lists would be long
 constexpr std::int64_t kMostCells = 1 << 20;  // of one grid
-constexpr double kShort = 1e-3, kLong = 1.0;  // of the wall's size: cells tell nothing of other reaches
-constexpr double kRoundOff = 1e-12;           // of the wall's size: where a cell ends
+constexpr double kShortReach = 1e-3,
+                 kLongReach = 1.0;    // of the wall's size: cells tell nothing of other reaches
+constexpr double kEndOfCell = 1e-12;  // of the wall's size: where a cell ends
 
 // The least n with reach <= 2^(n / 2).
 int level_of(double reach) {
@@ -24,7 +25,7 @@ int level_of(double reach) {
 
 void NearCells::near(const Vector3& d, double reach, std::vector<int>& pieces) {
   const double size = search_.surface().size;
-  if (!(reach > kShort * size && reach < kLong * size)) return search_.near(d, reach, pieces);
+  if (!(reach > kShortReach * size && reach < kLongReach * size)) return search_.near(d, reach, pieces);
   Grid& grid = grid_for(reach);
   const std::int64_t cell = cell_of(grid, d);
   if (cell < 0) return;
@@ -48,8 +49,8 @@ NearCells::Grid& NearCells::grid_for(double reach) {
   if (level - first_level_ >= static_cast<int>(grids_.size())) grids_.resize(level - first_level_ + 1);
   Grid& grid = grids_[level - first_level_];
   if (!grid.lists.empty()) return grid;
-  grid.reach = std::exp2(0.5 * level) * (1.0 + kRoundOff);
-  const double round_off = kRoundOff * surface.size;
+  grid.reach = std::exp2(0.5 * level) * (1.0 + kEndOfCell);
+  const double round_off = kEndOfCell * surface.size;
   grid.low = surface.low.array() - grid.reach - round_off;
   const Vector3 extent = (surface.high - surface.low).array() + 2.0 * (grid.reach + round_off);
   grid.width = std::max(grid.reach, std::cbrt(extent.prod() / static_cast<double>(kMostCells)));
@@ -76,7 +77,7 @@ std::int32_t NearCells::list_of(Grid& grid, std::int64_t cell) {
                               cell / grid.count[0] / grid.count[1]};
   Vector3 centre;
   for (int i = 0; i < 3; ++i) centre[i] = grid.low[i] + grid.width * (static_cast<double>(at[i]) + 0.5);
-  const double half_diagonal = 0.5 * std::sqrt(3.0) * grid.width + kRoundOff * search_.surface().size;
+  const double half_diagonal = 0.5 * std::sqrt(3.0) * grid.width + kEndOfCell * search_.surface().size;
   found_.clear();
   search_.near(centre, grid.reach + half_diagonal, found_);
   const int count = static_cast<int>(found_.size());
