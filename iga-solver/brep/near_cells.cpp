@@ -9,9 +9,8 @@ namespace {
 
 constexpr int kFewPieces = 32;                // beyond that the tree is quicker, and lists would be long
 constexpr std::int64_t kMostCells = 1 << 20;  // of one grid
-constexpr double kShortReach = 1e-3,
-                 kLongReach = 1.0;    // of the wall's size: cells tell nothing of other reaches
-constexpr double kEndOfCell = 1e-12;  // of the wall's size: where a cell ends
+// Of the wall's size: cells tell nothing of shorter or longer reaches; where a cell ends.
+constexpr double kShortReach = 1e-3, kLongReach = 1.0, kEndOfCell = 1e-12;
 
 // The least n with reach <= 2^(n / 2).
 int level_of(double reach) {

@@ -42,14 +42,14 @@ nurbs::Surface hairpin() {
           points};
 }
 
-struct Case {
+struct PatchCase {
   std::string name;
   nurbs::Surface patch;
 };
 
 class MinimaOnPatch : public testing::TestWithParam<int> {
  public:
-  static Case given(int number) {
+  static PatchCase given(int number) {
     switch (number) {
       case 0:
         return {"fillet", part_of_torus(90.0, 100.0, 170.0, 14)};
@@ -64,7 +64,7 @@ class MinimaOnPatch : public testing::TestWithParam<int> {
 };
 
 TEST_P(MinimaOnPatch, AreThoseOfBranchAndBound) {
-  const Case at = given(GetParam());
+  const PatchCase at = given(GetParam());
   const PatchFaces faces({at.patch}, 0.02);
   const nurbs::Space<2>& space = faces.patch(0).space;
   std::mt19937 random(3);
