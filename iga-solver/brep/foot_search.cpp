@@ -41,10 +41,15 @@ void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) 
 int FootSearch::activate(const Vector3& d, double reach, const int* pieces, int count, int* active) const {
   const PieceTree::Query query = tree_.query(d, reach);
   const int maybe = tree_.filter(query, pieces, count, active);
-  const auto far = [&](int p) {
-    return distance_of_piece(surface_, p, d) > reach || tree_.distance_of_parts(query, p) > reach;
-  };
+  const auto far = [&](int p) { return least_distance(p, d, query, reach) > reach; };
   return static_cast<int>(std::remove_if(active, active + maybe, far) - active);
+}
+
+// Of a piece from d, at least; more than `reach` matters to nobody.
+double FootSearch::least_distance(int piece, const Vector3& d, const PieceTree::Query& query,
+                                  double reach) const {
+  const double whole = distance_of_piece(surface_, piece, d);
+  return whole > reach ? whole : std::max(whole, tree_.distance_of_parts(query, piece));
 }
 
 double FootSearch::nearest(const Vector3& d, double reach, const int* pieces, int count) const {
@@ -52,10 +57,7 @@ double FootSearch::nearest(const Vector3& d, double reach, const int* pieces, in
     int kept[kChunk];
     const PieceTree::Query query = tree_.query(d, reach);
     const int maybe = tree_.filter(query, pieces + k, std::min(kChunk, count - k), kept);
-    for (int i = 0; i < maybe; ++i) {
-      const double distance = distance_of_piece(surface_, kept[i], d);
-      if (distance < reach) reach = std::clamp(tree_.distance_of_parts(query, kept[i]), distance, reach);
-    }
+    for (int i = 0; i < maybe; ++i) reach = std::min(reach, least_distance(kept[i], d, query, reach));
   }
   return reach;
 }

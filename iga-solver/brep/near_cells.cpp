@@ -25,6 +25,7 @@ int level_of(double reach) {
 void NearCells::near(const Vector3& d, double reach, std::vector<int>& pieces) {
   const double size = search_.surface().size;
   if (!(reach > kShortReach * size && reach < kLongReach * size)) return search_.near(d, reach, pieces);
+  if (lists_.size() > most_) forget();
   Grid& grid = grid_for(reach);
   const std::int64_t cell = cell_of(grid, d);
   if (cell < 0) return;
@@ -35,6 +36,11 @@ void NearCells::near(const Vector3& d, double reach, std::vector<int>& pieces) {
   const std::size_t before = pieces.size();
   pieces.resize(before + count);
   pieces.resize(before + search_.activate(d, reach, &lists_[list + 1], count, &pieces[before]));
+}
+
+void NearCells::forget() {
+  grids_.clear();
+  lists_.assign(1, 0);
 }
 
 NearCells::Grid& NearCells::grid_for(double reach) {

@@ -12,8 +12,8 @@ namespace brep {
 
 class NearCells {
  public:
-  /// Keeps a reference.
-  explicit NearCells(const FootSearch& search) : search_(search) {}
+  /// Keeps a reference.  When lists of more pieces than `most` are remembered, all are forgotten.
+  explicit NearCells(const FootSearch& search, std::size_t most = 1 << 24) : search_(search), most_(most) {}
 
   /// As FootSearch::near.
   void near(const Vector3& d, double reach, std::vector<int>& pieces);
@@ -31,7 +31,10 @@ class NearCells {
   static std::int64_t cell_of(const Grid& grid, const Vector3& d);
   std::int32_t list_of(Grid& grid, std::int64_t cell);
 
+  void forget();
+
   const FootSearch& search_;
+  std::size_t most_;
   std::vector<Grid> grids_;       // by level
   int first_level_ = 0;           // of grids_
   std::vector<int> lists_ = {0};  // each begins with its length; the first is empty

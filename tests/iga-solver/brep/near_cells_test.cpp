@@ -72,7 +72,7 @@ TEST(NearCells, HaveTheTrianglesOfTheSearch) {
   for (const trials::Wall& wall : {trials::cube(), trials::l_profile(), trials::field(40, waves)}) {
     const Surface surface = from_triangles(wall.coordinates(), wall.corners());
     const FootSearch search(surface);
-    NearCells cells(search);
+    NearCells cells(search, 500);  // forgets them now and then
     std::vector<int> remembered, found;
     for (int time = 0; time < 2; ++time)
       for_points(surface, 2000, [&](const Vector3& d, double reach) {
