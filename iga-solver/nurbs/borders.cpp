@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <tuple>
+
+#include "nurbs/point_grid.h"
 
 namespace nurbs {
 namespace {
@@ -174,6 +177,35 @@ std::optional<Border> weld(const Edge& a, int side, const Edge& b, int other_pat
   return std::nullopt;
 }
 
+/// Two edges that may be one curve, the second moved.
+struct Candidate {
+  int edge, other, translation;
+  bool operator<(const Candidate& c) const {
+    return std::tie(edge, other, translation) < std::tie(c.edge, c.other, c.translation);
+  }
+};
+
+// Edges of one parametrisation have their middles in common, whatever their directions.
+std::vector<Candidate> candidates(const std::vector<Edge>& edges, const Borders& borders,
+                                  const std::vector<Vector3>& translations, double tolerance) {
+  constexpr double kWide = 100.0;  // what coincides in some points may be apart by more in between
+  std::vector<Candidate> found;
+  if (!(tolerance > 0.0)) return found;
+  PointGrid middles(kWide * tolerance, edges.size());
+  const auto is_pole = [&](int edge) {
+    return borders[edge / kSideCount][edge % kSideCount].kind == Border::pole;
+  };
+  for (int f = static_cast<int>(edges.size()) - 1; f >= 0; --f) {
+    if (is_pole(f)) continue;
+    const Vector3 middle = edges[f].at(0.5, 0.5).S;
+    for (int t = 0; t < static_cast<int>(translations.size()); ++t)
+      middles.for_each_near(middle - translations[t], [&](int later) { found.push_back({f, later, t}); });
+    middles.add(f, middle);
+  }
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 }  // namespace
 
 const char* side_name(int side) {
@@ -203,16 +235,14 @@ Borders find_borders(const std::vector<Surface>& patches, double relative_tolera
     if (edges[e].is_pole(tolerance)) border_of(e).kind = Border::pole;
 
   std::vector<Match> matches;
-  for (int e = 0; e < edge_count; ++e)
-    for (int f = e + 1; f < edge_count; ++f) {
-      if (border_of(e).kind == Border::pole || border_of(f).kind == Border::pole) continue;
-      if (may_weld && !may_weld(e / kSideCount, e % kSideCount, f / kSideCount, f % kSideCount)) continue;
-      for (const Vector3& t : translations) {
-        const auto border =
-            weld(edges[e], e % kSideCount, edges[f], f / kSideCount, f % kSideCount, t, tolerance);
-        if (border) matches.push_back({e / kSideCount, e % kSideCount, *border});
-      }
-    }
+  for (const Candidate& c : candidates(edges, borders, translations, tolerance)) {
+    const int p = c.edge / kSideCount, side = c.edge % kSideCount;
+    const int q = c.other / kSideCount, other_side = c.other % kSideCount;
+    if (may_weld && !may_weld(p, side, q, other_side)) continue;
+    const auto border =
+        weld(edges[c.edge], side, edges[c.other], q, other_side, translations[c.translation], tolerance);
+    if (border) matches.push_back({p, side, *border});
+  }
   std::stable_sort(matches.begin(), matches.end(),
                    [](const Match& a, const Match& b) { return a.border.max_angle < b.border.max_angle; });
   for (const Match& match : matches) {

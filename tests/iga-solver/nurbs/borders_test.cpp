@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <random>
 
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
@@ -165,6 +166,38 @@ TEST(Borders, CutSurfaceIsC1WhateverTheRepresentation) {
   EXPECT_LT(borders[0][1].max_jump, 1e-12);
   EXPECT_EQ(borders[0][0].kind, Border::free);
   EXPECT_EQ(borders[1][1].kind, Border::free);
+}
+
+// A board of squares, each laid down in one of eight ways: so many that to hold each edge against each would
+// take longer than all other tests here.
+TEST(Borders, OfManyPatchesFindTheirNeighbours) {
+  constexpr int kFields = 120;
+  std::mt19937 random(5);
+  std::vector<Surface> board;
+  for (int j = 0; j < kFields; ++j)
+    for (int i = 0; i < kFields; ++i) {
+      const unsigned way = random() % 8;
+      Vector3 u(way & 1 ? -1 : 1, 0, 0), v(0, way & 2 ? -1 : 1, 0);
+      const Vector3 corner(i + (way & 1 ? 1 : 0), j + (way & 2 ? 1 : 0), 0);
+      if (way & 4) std::swap(u, v);
+      board.push_back(square(corner, u, v, 1, 1));
+    }
+  const auto borders = find_borders(board);
+  int welded = 0;
+  for (size_t p = 0; p < board.size(); ++p)
+    for (int side = 0; side < kSideCount; ++side) {
+      const Border& border = borders[p][side];
+      const Vector3 middle = edge_point(board[p], side, 0.5);
+      const auto on_rim = [](double x) { return x == 0.0 || x == kFields; };
+      ASSERT_EQ(border.kind, on_rim(middle[0]) || on_rim(middle[1]) ? Border::free : Border::welded);
+      if (border.kind == Border::free) continue;
+      ++welded;
+      ASSERT_NE(border.patch, static_cast<int>(p));
+      ASSERT_EQ(edge_point(board[border.patch], border.side, 0.5), middle);
+      ASSERT_EQ(edge_point(board[border.patch], border.side, border.reversed ? 1.0 : 0.0),
+                edge_point(board[p], side, 0.0));
+    }
+  EXPECT_EQ(welded, 4 * kFields * (kFields - 1));
 }
 
 // Normals agree along the border; the derivatives across it do not.
