@@ -144,17 +144,28 @@ void SurfaceProjector::examine_element(int element, Search& search) const {
   examine(DistancePolynomial(elements_, e, products_, net, d - elements_.element(e).origin()), search);
 }
 
-// A plane normal to the line from d to the element keeps all its control points out of the search's sphere
-// (the first step of Gilbert, Johnson & Keerthi 1988, "A fast procedure for computing the distance").
+// A plane normal to the line from d to a point amid the element keeps all its control points out of the
+// search's sphere: to the middle one or, if that does not do, to the mean of that and the nearest along it
+// (the first steps of Gilbert, Johnson & Keerthi 1988, "A fast procedure for computing the distance").
 bool SurfaceProjector::beyond(int element, const Search& search) const {
-  int indices[power(kMaxDegree + 1, 2)];
-  space_.element_control_points(element, indices);
-  const int count = space_.functions_per_element();
-  const PatchPoints& points = elements_.control_points();
-  const Vector3 direction = points.col(indices[count / 2]) - search.d;
-  double least = Search::kInfinity;
-  for (int a = 0; a < count; ++a) least = std::min(least, direction.dot(points.col(indices[a]) - search.d));
-  return least > 0.0 && least * least >= (1.0 + Search::kTie) * search.bound2 * direction.squaredNorm();
+  const Indices<2> e = space_.element_indices(element);
+  const ElementNet net = elements_.net(e[0], e[1]);
+  const Vector3 middle = Vector3::Map(net.origin) - search.d;
+  Vector3 direction = middle;
+  for (int step = 0; step < 2; ++step) {
+    double least = Search::kInfinity;
+    const double* nearest = net.points;
+    for (int l = 0; l <= space_.degree(1); ++l)
+      for (int k = 0; k <= space_.degree(0); ++k) {
+        const double* point = net.points + 3 * (k + static_cast<std::ptrdiff_t>(net.stride) * l);
+        const double along = direction.dot(Vector3::Map(point) - search.d);
+        if (along < least) least = along, nearest = point;
+      }
+    if (least > 0.0 && least * least >= (1.0 + Search::kTie) * search.bound2 * direction.squaredNorm())
+      return true;
+    direction = 0.5 * (middle + (Vector3::Map(nearest) - search.d));
+  }
+  return false;
 }
 
 // Homogeneous Bezier points times binomials, as DistancePolynomial takes them.

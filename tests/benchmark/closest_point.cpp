@@ -242,7 +242,7 @@ int main(int argc, char** argv) {
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   std::vector<std::unique_ptr<benchmarks::Case>> cases;
   for (int n : {31, 124})
-    for (const char* name : {"plate", "wavy", "cylinder", "saddle"}) {
+    for (const char* name : {"plate", "wavy", "cylinder", "saddle", "rippled"}) {
       benchmarks::Case& c = *cases.emplace_back(std::make_unique<benchmarks::Case>(name, n));
       benchmarks::add_searches(c);
       benchmarks::add_rebuild(c);

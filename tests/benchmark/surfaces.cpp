@@ -17,6 +17,8 @@ using nurbs::Parameter;
 using nurbs::Surface;
 using nurbs::Vector3;
 
+constexpr double kFarthest = 0.06;  // of the points from the surface, which is as long as 1
+
 template <class Height>
 Surface raised_plane(const Vector3& edge_u, const Vector3& edge_v, int n, Height height) {
   const KnotVector knots = KnotVector::uniform(2, n);
@@ -47,13 +49,21 @@ Surface make_surface(const std::string& name, int n) {
   if (name == "cylinder") return quarter_cylinder(n);
   if (name == "saddle")
     return raised_plane(ex, Vector3(0.6, 0.8, 0.0), n, [](double x, double y) { return x * x - y * y; });
-  throw std::invalid_argument("surface is \"" + name + "\", expected plate, wavy, cylinder or saddle");
+  if (name ==
+      "rippled") {  // two waves on the saddle, whose radii of curvature are four times the farthest point
+    const double k = 4.0 * M_PI, amplitude = 1.0 / (4.0 * kFarthest * k * k);
+    return raised_plane(ex, Vector3(0.6, 0.8, 0.0), n, [=](double x, double y) {
+      return x * x - y * y + amplitude * std::sin(k * x) * std::sin(k * y);
+    });
+  }
+  throw std::invalid_argument("surface is \"" + name +
+                              "\", expected plate, wavy, cylinder, saddle or rippled");
 }
 
 std::vector<Query> make_queries(const Surface& surface, int count) {
   const nurbs::Space<2>& space = surface.space;
   std::mt19937 random(2019);
-  std::uniform_real_distribution<double> anywhere(0.0, 1.0), offset(-0.06, 0.06);
+  std::uniform_real_distribution<double> anywhere(0.0, 1.0), offset(-kFarthest, kFarthest);
   std::bernoulli_distribution up;
   std::vector<Query> queries(count);
   nurbs::RationalBasis<2> basis;
