@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "brep/closed_form.h"
+#include "brep/faced_patches.h"
 #include "nurbs/multi_patch.h"
 
 namespace coupling {
@@ -86,7 +86,7 @@ struct ContactSurface {
   /// In place of patches, of which there are none then: faces, edges and vertices, two-sided.
   std::shared_ptr<const brep::Surface> faces = nullptr;
   /// The patches once more, for feet alone: all else, and the parameters of feet, stay those of the patches.
-  std::shared_ptr<const brep::ClosedForms> closed_forms = nullptr;
+  std::shared_ptr<const brep::FacedPatches> faced = nullptr;
 };
 
 }  // namespace coupling

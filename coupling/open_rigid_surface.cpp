@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "brep/builder.h"
-#include "brep/closed_form.h"
+#include "brep/faced_patches.h"
 #include "coupling/model_text.h"
 #include "coupling/open_structure.h"
 #include "coupling/rigid/rigid_surface.h"
@@ -85,7 +85,7 @@ OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const
   }
   std::vector<nurbs::Surface> patches;
   std::vector<int> outward_sign;
-  bool from_words = options.closed_forms;
+  bool from_words = true;
   for (geometry_io::OrientedSurface& patch : geometry_io::named_surface(file, surface, path)) {
     place(patch.surface.control_points, options, path);
     from_words = from_words && patch.from_words;
@@ -93,12 +93,11 @@ OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const
     outward_sign.push_back(patch.outward_sign);
   }
   expect_room(patches, path);
-  std::shared_ptr<const brep::ClosedForms> closed_forms;
-  if (from_words)
-    if (std::optional<brep::ClosedForms> forms = brep::closed_forms(patches, options.edge_angle))
-      closed_forms = std::make_shared<const brep::ClosedForms>(std::move(*forms));
-  return {std::make_unique<RigidSurface>(patches, std::move(outward_sign), std::move(closed_forms)),
-          file.units};
+  std::shared_ptr<const brep::FacedPatches> faced;
+  if (options.faces)
+    if (auto as_faces = brep::faced_patches(patches, from_words, options.edge_angle))
+      faced = std::make_shared<const brep::FacedPatches>(std::move(*as_faces));
+  return {std::make_unique<RigidSurface>(patches, std::move(outward_sign), std::move(faced)), file.units};
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ struct RigidOptions {
   geometry_io::Units units = geometry_io::Units::si;  ///< of triangles, whose files have none
   std::optional<geometry_io::Placement> placement;    ///< where it is placed before it moves
   double edge_angle = brep::kEdgeAngle;  ///< edges between faces that turn by less are smooth [rad]
-  bool closed_forms = true;              ///< feet on shapes given by words, if all are, without iteration
+  bool faces = true;                     ///< feet on faces where brep::faced_patches has them
   std::string keep;                      ///< where what was read is written, unplaced, if not empty
 };
 

@@ -26,11 +26,6 @@ double beyond(const FeetTracker::Query& query) {
   return query.touch_reach * (1.0 + kRoundOff);
 }
 
-// It may come to the surface within a step from farther than it touches.
-bool is_fast(const FeetTracker::Query& query) {
-  return query.squared_travel > query.touch_reach * query.touch_reach;
-}
-
 }  // namespace
 
 inline bool FaceTracker::has_moved_less(const Query& query, const State& state, double than) {

@@ -19,7 +19,7 @@
 
 namespace contact {
 
-class FaceTracker final : public FeetTracker {
+class FaceTracker : public FeetTracker {
  public:
   /// Keeps references to all.  `charts`: to the parameters that feet are given in; null: the faces' own.
   FaceTracker(const brep::FootSearch& search, const std::vector<brep::Chart>* charts,
@@ -33,6 +33,16 @@ class FaceTracker final : public FeetTracker {
   void list_is_new() override;
   void follow(Query* queries, int count) override;
   FeetRange feet(const Query& query, const ParticleSlots& slots) override;
+
+ protected:
+  const brep::FootSearch& search() const { return search_; }
+  SearchCounts& counts() { return counts_; }
+  /// It may come to the surface within a step from farther than it touches.
+  static bool is_fast(const Query& query) {
+    return query.squared_travel > query.touch_reach * query.touch_reach;
+  }
+  /// What it knows of a candidate; slots stay.
+  void forget(const Query& query) { states_[query.candidate] = State(); }
 
  private:
   struct State {

@@ -15,8 +15,8 @@ namespace {
 std::unique_ptr<WallShape> shape_of(const coupling::ContactSurface& given, const nurbs::MultiPatch& surface,
                                     const nurbs::NodalVectors& control_points, double edge_angle) {
   if (given.faces) return std::make_unique<FaceShape>(*given.faces);
-  if (given.closed_forms)
-    return std::make_unique<ClosedShape>(*given.closed_forms, surface, control_points, given.outward_sign);
+  if (given.faced)
+    return std::make_unique<FacedPatchShape>(*given.faced, surface, control_points, given.outward_sign);
   return std::make_unique<PatchShape>(surface, control_points, given.outward_sign, edge_angle);
 }
 
@@ -38,7 +38,7 @@ Wall::Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange
 
 void Wall::weld_across(const std::vector<Vector3>& periods) {
   const coupling::ContactSurface& surface = structure_.surface();
-  if (surface.faces || surface.closed_forms) return;  // their tracker sees seams itself
+  if (surface.faces || surface.faced) return;  // their tracker sees seams itself
   std::vector<Vector3> in_frame;
   for (const Vector3& period : periods) in_frame.push_back(structure_.frame().rotation.transpose() * period);
   constexpr double kTolerance = 1e-9;

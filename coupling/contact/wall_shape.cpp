@@ -5,7 +5,7 @@
 
 #include "brep/face_shape.h"
 #include "coupling/contact/contact_tracker.h"
-#include "coupling/contact/face_tracker.h"
+#include "coupling/contact/face_follower.h"
 #include "nurbs/surface_normal.h"
 
 namespace contact {
@@ -38,18 +38,19 @@ SurfaceShape PatchShape::shape_near(const Foot& foot) const {
                            surface_.control_points_of(foot.patch, control_points_), foot.xi);
 }
 
-std::unique_ptr<FeetTracker> ClosedShape::track(const CandidateList& candidates, SearchMethod /*method*/,
-                                                SearchCounts& counts) const {
+std::unique_ptr<FeetTracker> FacedPatchShape::track(const CandidateList& candidates, SearchMethod /*method*/,
+                                                    SearchCounts& counts) const {
+  if (charts_.empty()) return std::make_unique<FaceFollower>(search_, candidates, counts);
   return std::make_unique<FaceTracker>(search_, &charts_, candidates, counts);
 }
 
-Vector3 ClosedShape::normal_at(const Foot& foot) const {
-  if (!is_inside_a_face(foot)) return nurbs::normal_at(surface_, control_points_, foot.at());
+Vector3 FacedPatchShape::normal_at(const Foot& foot) const {
+  if (!is_on_closed_form(foot)) return nurbs::normal_at(surface_, control_points_, foot.at());
   return shape_near(foot).normal;
 }
 
-SurfaceShape ClosedShape::shape_near(const Foot& foot) const {
-  if (!is_inside_a_face(foot))
+SurfaceShape FacedPatchShape::shape_near(const Foot& foot) const {
+  if (!is_on_closed_form(foot))
     return nurbs::shape_near(surface_.patch(foot.patch),
                              surface_.control_points_of(foot.patch, control_points_), foot.xi);
   const brep::Chart& chart = charts_[foot.patch];
@@ -61,6 +62,7 @@ SurfaceShape ClosedShape::shape_near(const Foot& foot) const {
 
 std::unique_ptr<FeetTracker> FaceShape::track(const CandidateList& candidates, SearchMethod /*method*/,
                                               SearchCounts& counts) const {
+  if (search_.surface().patches) return std::make_unique<FaceFollower>(search_, candidates, counts);
   return std::make_unique<FaceTracker>(search_, nullptr, candidates, counts);
 }
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "brep/closed_form.h"
+#include "brep/faced_patches.h"
 #include "brep/foot_search.h"
 #include "brep/near_cells.h"
 #include "coupling/contact/feet_tracker.h"
@@ -101,27 +101,29 @@ class FaceShape final : public ShapeOnFaces {
   int outward_sign(int face) const override { return search_.surface().faces[face].outward; }
 };
 
-/// Of patches, which are these faces in closed form.
-class ClosedShape final : public ShapeOnFaces {
+/// Of patches, which are these faces.
+class FacedPatchShape final : public ShapeOnFaces {
  public:
   /// Keeps references.
-  ClosedShape(const brep::ClosedForms& forms, const nurbs::MultiPatch& surface,
-              const nurbs::NodalVectors& control_points, const std::vector<int>& outward_sign)
-      : ShapeOnFaces(forms.surface),
-        charts_(forms.charts),
+  FacedPatchShape(const brep::FacedPatches& faced, const nurbs::MultiPatch& surface,
+                  const nurbs::NodalVectors& control_points, const std::vector<int>& outward_sign)
+      : ShapeOnFaces(faced.surface),
+        charts_(faced.charts),
         surface_(surface),
         control_points_(control_points),
         outward_sign_(outward_sign) {}
   std::unique_ptr<FeetTracker> track(const CandidateList& candidates, SearchMethod method,
                                      SearchCounts& counts) const override;
-  /// In closed form, but on edges and where the centre is on the surface, maybe on an edge as well.
+  /// In closed form if there is one, but on edges and where the centre is on the surface, maybe on an edge as
+  /// well.
   nurbs::Vector3 normal_at(const search::Foot& foot) const override;
   nurbs::SurfaceShape shape_near(const search::Foot& foot) const override;
   int outward_sign(int patch) const override { return outward_sign_[patch]; }
 
  private:
-  bool is_inside_a_face(const search::Foot& foot) const {
-    return foot.status == search::FootStatus::interior && foot.distance > search_.same_point();
+  bool is_on_closed_form(const search::Foot& foot) const {
+    return !charts_.empty() && foot.status == search::FootStatus::interior &&
+           foot.distance > search_.same_point();
   }
 
   const std::vector<brep::Chart>& charts_;

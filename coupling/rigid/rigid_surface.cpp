@@ -13,9 +13,9 @@
 namespace coupling {
 
 RigidSurface::RigidSurface(const std::vector<nurbs::Surface>& patches, std::vector<int> outward_sign,
-                           std::shared_ptr<const brep::ClosedForms> closed_forms)
+                           std::shared_ptr<const brep::FacedPatches> faced)
     : RigidSurface(nurbs::join(patches), std::move(outward_sign)) {
-  surface_.closed_forms = std::move(closed_forms);
+  surface_.faced = std::move(faced);
 }
 
 RigidSurface::RigidSurface(nurbs::PatchedSurface surface, std::vector<int> outward_sign)

@@ -23,9 +23,9 @@ struct RigidDrive {
 class RigidSurface final : public StructureSolver {
  public:
   /// Patches whose edges coincide are welded.  `outward_sign` as in ContactSurface; empty: two-sided.
-  /// `closed_forms`: of the same patches, if they have any.
+  /// `faced`: the same patches as faces, if feet are searched on these.
   explicit RigidSurface(const std::vector<nurbs::Surface>& patches, std::vector<int> outward_sign = {},
-                        std::shared_ptr<const brep::ClosedForms> closed_forms = nullptr);
+                        std::shared_ptr<const brep::FacedPatches> faced = nullptr);
   /// Of faces, edges and vertices, two-sided.
   explicit RigidSurface(std::shared_ptr<const brep::Surface> faces);
   /// Before the first step.  Throws std::invalid_argument if a servo cannot turn the wall.

@@ -9,20 +9,55 @@
 
 namespace brep {
 
+namespace {
+
 template <int Dim>
-typename BezierCurve<Dim>::Derivatives BezierCurve<Dim>::derivatives(double s) const {
-  const int p = degree();
-  Eigen::Matrix<double, Dim + 1, nurbs::kMaxDegree + 1> b;
+struct HomogeneousDerivatives {
+  Eigen::Matrix<double, Dim + 1, 1> point, first, second;
+};
+
+// De Casteljau's algorithm; the last columns say what derivatives are.  P: the degree, or at most that; then
+// `p` is.
+template <int Dim, int P, bool kFixed>
+HomogeneousDerivatives<Dim> casteljau(const Eigen::Matrix<double, Dim + 1, Eigen::Dynamic>& points,
+                                      double s) {
+  const int p = kFixed ? P : static_cast<int>(points.cols()) - 1;
+  Eigen::Matrix<double, Dim + 1, P + 1> b;
   b.leftCols(p + 1) = points;
-  Homogeneous first = Homogeneous::Zero(), second = Homogeneous::Zero();
-  for (int left = p; left > 0; --left) {  // de Casteljau's; the last columns say what derivatives are
-    if (left == 2) second = p * (p - 1) * (b.col(2) - 2.0 * b.col(1) + b.col(0));
-    if (left == 1) first = p * (b.col(1) - b.col(0));
+  HomogeneousDerivatives<Dim> at;
+  at.first.setZero(), at.second.setZero();
+  for (int left = p; left > 0; --left) {
+    if (left == 2) at.second = p * (p - 1) * (b.col(left) - 2.0 * b.col(1) + b.col(0));
+    if (left == 1) at.first = p * (b.col(1) - b.col(0));
     for (int k = 0; k < left; ++k) b.col(k) += s * (b.col(k + 1) - b.col(k));
   }
-  const double w = b(Dim, 0);
+  at.point = b.col(0);
+  return at;
+}
+
+template <int Dim>
+HomogeneousDerivatives<Dim> casteljau(const Eigen::Matrix<double, Dim + 1, Eigen::Dynamic>& points,
+                                      double s) {
+  switch (points.cols()) {
+    case 2:
+      return casteljau<Dim, 1, true>(points, s);
+    case 3:
+      return casteljau<Dim, 2, true>(points, s);
+    case 4:
+      return casteljau<Dim, 3, true>(points, s);
+    default:
+      return casteljau<Dim, nurbs::kMaxDegree, false>(points, s);
+  }
+}
+
+}  // namespace
+
+template <int Dim>
+typename BezierCurve<Dim>::Derivatives BezierCurve<Dim>::derivatives(double s) const {
+  const auto [homogeneous, first, second] = casteljau<Dim>(points, s);
+  const double w = homogeneous[Dim];
   Derivatives at;
-  at.point = b.col(0).template head<Dim>() / w;
+  at.point = homogeneous.template head<Dim>() / w;
   at.first = (first.template head<Dim>() - first[Dim] * at.point) / w;
   at.second = (second.template head<Dim>() - 2.0 * first[Dim] * at.first - second[Dim] * at.point) / w;
   return at;

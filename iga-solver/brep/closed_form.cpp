@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "brep/builder.h"
-
 namespace brep {
 namespace {
 
@@ -195,17 +193,5 @@ class Recognition {
 }  // namespace
 
 std::optional<ClosedForm> closed_form(const nurbs::Surface& patch) { return Recognition(patch).result(); }
-
-std::optional<ClosedForms> closed_forms(const std::vector<nurbs::Surface>& patches, double edge_angle) {
-  std::vector<Face> faces;
-  std::vector<Chart> charts;
-  for (const nurbs::Surface& patch : patches) {
-    const std::optional<ClosedForm> form = closed_form(patch);
-    if (!form) return std::nullopt;
-    faces.push_back(form->face);
-    charts.push_back(form->chart);
-  }
-  return ClosedForms{from_faces(faces, edge_angle), std::move(charts)};
-}
 
 }  // namespace brep

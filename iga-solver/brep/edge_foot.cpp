@@ -68,7 +68,7 @@ int use_at_wedge_of_ray(const Surface& surface, int ray, const Vector3& w) {
 // Newton's method between ends at which the distance falls and rises.
 bool minimum_on(const Chunk& chunk, const Vector3& d, double slack, double& s) {
   constexpr int kMostSteps = 60;
-  constexpr double kRoundOff = 1e-15;
+  constexpr double kLastStep = 1e-8;  // a step that is no longer leaves an error of its square
   const Chunk::End &first = chunk.ends[0], &last = chunk.ends[1];
   const double start = (first.point - d).dot(first.first), end = (last.point - d).dot(last.first);
   const bool at_start = std::abs(start) <= slack * first.first.norm(),
@@ -83,7 +83,7 @@ bool minimum_on(const Chunk& chunk, const Vector3& d, double slack, double& s) {
       (g < 0.0 ? low : high) = s;
       double next = curvature > 0.0 ? s - g / curvature : 0.5 * (low + high);
       if (!(next > low && next < high)) next = 0.5 * (low + high);
-      const bool done = std::abs(next - s) <= kRoundOff;
+      const bool done = std::abs(next - s) <= kLastStep;
       s = next;
       if (done) break;
     }

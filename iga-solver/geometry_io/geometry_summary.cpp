@@ -78,32 +78,8 @@ double measure(const Patch<Dim>& patch) {
   return sum;
 }
 
-// Largest angle between the normals on both sides of the C0 knots of one direction [rad].
-double largest_kink(const Surface& surface, int direction) {
-  const KnotVector &across = surface.space.knots(direction), &along = surface.space.knots(1 - direction);
-  double largest = 0.0;
-  for (size_t c = 1; c + 1 < across.creases().size(); ++c)
-    for (int e = 0; e < along.element_count(); ++e)
-      for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0}) {
-        Vector3 normal[2];
-        bool regular = true;
-        for (const int after : {0, 1}) {
-          nurbs::Parameter<2> xi;
-          nurbs::Indices<2> element;
-          xi[direction] = across.creases()[c];
-          xi[1 - direction] = along.breaks()[e] + t * (along.breaks()[e + 1] - along.breaks()[e]);
-          element[direction] = across.element_at(xi[direction]) - 1 + after;
-          element[1 - direction] = e;
-          const Tangents<2> S = tangents(surface, surface.space.element_index(element), xi);
-          normal[after] = S[0].cross(S[1]);
-          regular &= normal[after].norm() > kNoNormal * S[0].norm() * S[1].norm();
-        }
-        if (!regular) continue;
-        largest = std::max(largest, std::atan2(normal[0].cross(normal[1]).norm(), normal[0].dot(normal[1])));
-      }
-  return largest;
-}
 double largest_kink(const Volume&, int) { return 0.0; }
+using nurbs::largest_kink;
 
 // "3 C0, 2 C1": how many interior knots of each continuity.
 std::string continuity(const KnotVector& knots) {

@@ -219,6 +219,34 @@ bool same_orientation(int side, const Border& border) {
   return (on_the_left(side) == on_the_left(border.side)) == border.reversed;
 }
 
+double largest_kink(const Surface& surface, int direction) {
+  const KnotVector &across = surface.space.knots(direction), &along = surface.space.knots(1 - direction);
+  double largest = 0.0;
+  const auto look_at = [&](double knot, int element, double at) {
+    Vector3 normal[2];
+    for (const int after : {0, 1}) {
+      Parameter<2> xi;
+      Indices<2> e;
+      xi[direction] = knot, xi[1 - direction] = at;
+      e[direction] = across.element_at(knot) - 1 + after, e[1 - direction] = element;
+      RationalBasis<2> basis;
+      evaluate_on_element(surface.space, surface.space.element_index(e), xi, 1, basis);
+      Vector3 S_d[2] = {Vector3::Zero(), Vector3::Zero()};
+      for (int d = 0; d < 2; ++d)
+        for (int a = 0; a < basis.count; ++a)
+          S_d[d] += basis.dR[d][a] * surface.control_points.col(basis.control_point[a]);
+      normal[after] = S_d[0].cross(S_d[1]);
+      if (!(normal[after].norm() > kNoNormal * S_d[0].norm() * S_d[1].norm())) return;
+    }
+    largest = std::max(largest, std::atan2(normal[0].cross(normal[1]).norm(), normal[0].dot(normal[1])));
+  };
+  for (size_t c = 1; c + 1 < across.creases().size(); ++c)
+    for (int e = 0; e < along.element_count(); ++e)
+      for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0})
+        look_at(across.creases()[c], e, along.breaks()[e] + t * (along.breaks()[e + 1] - along.breaks()[e]));
+  return largest;
+}
+
 Borders find_borders(const std::vector<Surface>& patches, double relative_tolerance,
                      const std::vector<Vector3>& periods, const MayWeld& may_weld) {
   std::vector<Vector3> translations = {Vector3::Zero()};

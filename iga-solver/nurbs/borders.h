@@ -40,6 +40,10 @@ using MayWeld = std::function<bool(int patch, int side, int other_patch, int oth
 Borders find_borders(const std::vector<Surface>& patches, double relative_tolerance = 1e-9,
                      const std::vector<Vector3>& periods = {}, const MayWeld& may_weld = {});
 
+/// Largest angle between the normals on both sides of the C0 knots inside a patch, of one direction; poles do
+/// not count [rad].
+double largest_kink(const Surface& surface, int direction);
+
 /// Whether dS/dxi x dS/deta lies on the same side of both patches beyond the border of `side`.  max_angle
 /// counts from the neighbour's normal turned to the same side.
 bool same_orientation(int side, const Border& border);

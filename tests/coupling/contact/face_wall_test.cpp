@@ -7,6 +7,7 @@
 #include "balls.h"
 #include "brep/builder.h"
 #include "coupling/rigid/rigid_surface.h"
+#include "nurbs/primitives.h"
 
 namespace {
 
@@ -32,6 +33,16 @@ RigidSurface bent_sheet(double slope) {
 }
 RigidSurface floor() { return bent_sheet(0.0); }
 
+/// The same of two patches, in no closed form as points are moved within their planes.
+RigidSurface bent_patches(double slope) {
+  const nurbs::KnotVector knots = nurbs::KnotVector::uniform(2, 3);
+  std::vector<nurbs::Surface> patches{nurbs::plane({-4, -4, 0}, {4, 0, 0}, {0, 8, 0}, {knots, knots}),
+                                      nurbs::plane({0, -4, 0}, {4, 0, 4 * slope}, {0, 8, 0}, {knots, knots})};
+  for (nurbs::Surface& patch : patches) patch.control_points(1, 2 + 2 * knots.control_point_count()) += 0.3;
+  auto faced = brep::faced_patches(patches, false, brep::kEdgeAngle);
+  return RigidSurface(patches, {}, std::make_shared<brep::FacedPatches>(std::move(*faced)));
+}
+
 // m x'' = -k x for half a period, on the diagonal of two triangles.
 TEST(FaceWall, ABallBouncesOffAPlane) {
   constexpr double kStiffness = 400.0, kSpeed = 1.0, kStep = 1e-4;
@@ -46,10 +57,10 @@ TEST(FaceWall, ABallBouncesOffAPlane) {
 // Pressed in by 1e-3 r and moved across the edge, without friction: the force changes by no more than the
 // stiffness times what the ball has moved, convex or concave, there is one contact on convex edges, and a
 // contact that goes over a smooth edge keeps its slot, concave too.
-TEST(FaceWall, RollsOverEdgesWithoutAJump) {
+void expect_no_jump(RigidSurface (*sheet)(double), std::initializer_list<double> angles) {
   constexpr double kOverlap = 1e-3, kStep = 1e-5;
-  for (const double degrees : {-30.0, -5.0, -0.5, 0.0, 0.5, 5.0, 30.0}) {
-    RigidSurface wall = bent_sheet(std::tan(degrees * M_PI / 180.0));
+  for (const double degrees : angles) {
+    RigidSurface wall = sheet(std::tan(degrees * M_PI / 180.0));
     for (const double side : {1.0, -1.0}) {
       Balls balls(3, 1);
       balls.add({-0.3, 0.1, side * (kRadius - kOverlap)}, kRadius);
@@ -72,6 +83,13 @@ TEST(FaceWall, RollsOverEdgesWithoutAJump) {
       }
     }
   }
+}
+
+TEST(FaceWall, RollsOverEdgesWithoutAJump) {
+  expect_no_jump(bent_sheet, {-30.0, -5.0, -0.5, 0.0, 0.5, 5.0, 30.0});
+}
+TEST(FaceWall, RollsOverEdgesOfPatchesWithoutAJump) {
+  expect_no_jump(bent_patches, {-30.0, -5.0, -2.0, 2.0, 5.0, 30.0});
 }
 
 // The rim of a floor presses against the centre once that is beyond it: spring times overlap, from the

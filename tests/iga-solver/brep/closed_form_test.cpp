@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Patches as faces in closed form: feet, parameters and sides against the search on NURBS.
 #include "brep/closed_form.h"
+#include "brep/faced_patches.h"
 
 #include <gmock/gmock.h>
 
@@ -64,7 +65,7 @@ class Closed : public testing::TestWithParam<int> {
  protected:
   const Case case_ = cases()[GetParam()];
   const nurbs::Surface& patch_ = case_.patch;
-  const std::optional<ClosedForms> forms_ = closed_forms({patch_}, 0.02);
+  const std::optional<FacedPatches> forms_ = closed_forms({patch_}, 0.02);
 
   Vector3 random_point(std::mt19937& random, double most) const {
     std::uniform_real_distribution<double> uniform(0.0, 1.0);

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "brep/faced_patches.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "brep/builder.h"
+#include "brep/closed_form.h"
+#include "nurbs/borders.h"
+#include "nurbs/point_grid.h"
+
+namespace brep {
+namespace {
+
+using nurbs::Border;
+using nurbs::KnotVector;
+
+constexpr double kMeet = 1e-9;  // of the size: what is nearer is one point, as in find_borders
+
+double size_of(const std::vector<nurbs::Surface>& patches) {
+  Vector3 low = patches.front().control_points.col(0), high = low;
+  for (const nurbs::Surface& patch : patches) {
+    low = low.cwiseMin(patch.control_points.rowwise().minCoeff());
+    high = high.cwiseMax(patch.control_points.rowwise().maxCoeff());
+  }
+  return (high - low).norm();
+}
+
+// A side of a patch as a curve, along the patch's own direction.
+Spline<3> side_of(const nurbs::Surface& patch, int side) {
+  const int across = side / 2, along = 1 - across;
+  const int n = patch.space.control_point_count(0);
+  const int last = side % 2 == 1 ? patch.space.control_point_count(across) - 1 : 0;
+  const KnotVector& knots = patch.space.knots(along);
+  Spline<3> spline{knots.degree(), knots.knots(), {}, {}};
+  spline.points.resize(3, knots.control_point_count());
+  for (int k = 0; k < knots.control_point_count(); ++k) {
+    const int a = along == 0 ? k + n * last : last + n * k;
+    spline.points.col(k) = patch.control_points.col(a);
+    if (patch.space.rational()) spline.weights.push_back(patch.space.weight(a));
+  }
+  return spline;
+}
+
+// From its start to its end, never back.
+bool is_straight(const Spline<3>& curve) {
+  constexpr double kRoundOff = 1e-14;  // of the length
+  const Vector3 start = curve.points.leftCols<1>(), way = curve.points.rightCols<1>() - start;
+  double last = 0.0;
+  for (Eigen::Index k = 0; k < curve.points.cols(); ++k) {
+    const Vector3 from = curve.points.col(k) - start;
+    const double along = from.dot(way);
+    if (along < last || from.cross(way).norm() > kRoundOff * way.squaredNorm()) return false;
+    last = along;
+  }
+  return last > 0.0;
+}
+
+class Modeller {
+ public:
+  Modeller(const std::vector<nurbs::Surface>& patches, const nurbs::Borders& borders)
+      : patches_(patches),
+        borders_(borders),
+        edges_(patches.size(), {kNone, kNone, kNone, kNone}),
+        corners_(kMeet * size_of(patches), 4 * patches.size()) {
+    model_.patches = patches;
+    for (int p = 0; p < static_cast<int>(patches.size()); ++p) add_face(p);
+  }
+  CadModel model() { return std::move(model_); }
+
+ private:
+  static constexpr int kNone = -1;
+
+  // Counterclockwise: along eta-, xi+, and back along eta+ and xi-.
+  void add_face(int p) {
+    CadFace face;
+    face.shape.kind = Kind::nurbs;
+    face.shape.patch = p;
+    face.number = p + 1;
+    const KnotVector &u = patches_[p].space.knots(0), &v = patches_[p].space.knots(1);
+    const Eigen::Vector2d corner[] = {
+        {u.front(), v.front()}, {u.back(), v.front()}, {u.back(), v.back()}, {u.front(), v.back()}};
+    face.loops.emplace_back();
+    constexpr int kSides[] = {2, 1, 3, 0};
+    for (int k = 0; k < 4; ++k) {
+      Trim trim;
+      trim.curve = {1, {0, 0, 1, 1}, (Eigen::Matrix2d() << corner[k], corner[(k + 1) % 4]).finished(), {}};
+      trim.edge = edge_of(p, kSides[k]);
+      trim.forward = (k < 2) == runs_along_[p][kSides[k]];
+      face.loops.back().push_back(std::move(trim));
+    }
+    model_.faces.push_back(std::move(face));
+  }
+
+  // A welded side has the edge that its neighbour has already; a pole has none.
+  int edge_of(int p, int side) {
+    runs_along_.resize(patches_.size(), {true, true, true, true});
+    const Border& border = borders_[p][side];
+    if (border.kind == Border::pole) return kNone;
+    if (border.kind == Border::welded && edges_[border.patch][border.side] != kNone) {
+      runs_along_[p][side] = runs_along_[border.patch][border.side] != border.reversed;
+      return edges_[p][side] = edges_[border.patch][border.side];
+    }
+    model_.edges.push_back(along(side_of(patches_[p], side)));
+    return edges_[p][side] = static_cast<int>(model_.edges.size()) - 1;
+  }
+
+  CadEdge along(Spline<3> curve) {
+    CadEdge edge;
+    const Vector3 start = curve.points.leftCols<1>(), end = curve.points.rightCols<1>();
+    edge.vertex[0] = vertex_at(start), edge.vertex[1] = vertex_at(end);
+    edge.origin = edge.axis = edge.radial = Vector3::Zero();
+    if (is_straight(curve)) {
+      edge.kind = CadEdge::Kind::line;
+      edge.origin = start;
+      edge.axis = (end - start).normalized();
+      edge.length = (end - start).norm();
+      return edge;
+    }
+    edge.kind = CadEdge::Kind::spline;
+    edge.curve = std::move(curve);
+    return edge;
+  }
+
+  int vertex_at(const Vector3& point) {
+    int vertex = kNone;
+    corners_.for_each_near(point, [&](int known) { vertex = vertex < 0 ? known : std::min(vertex, known); });
+    if (vertex >= 0) return vertex;
+    vertex = static_cast<int>(model_.vertices.size());
+    model_.vertices.push_back({point});
+    corners_.add(vertex, point);
+    return vertex;
+  }
+
+  const std::vector<nurbs::Surface>& patches_;
+  const nurbs::Borders& borders_;
+  CadModel model_;
+  std::vector<std::array<int, nurbs::kSideCount>> edges_;
+  std::vector<std::array<bool, nurbs::kSideCount>> runs_along_;  // the edge, the patch's own direction
+  nurbs::PointGrid corners_;
+};
+
+bool any_turn(const nurbs::Borders& borders, double edge_angle) {
+  for (const auto& sides : borders)
+    for (const Border& border : sides)
+      if (border.kind == Border::welded && border.max_angle > edge_angle) return true;
+  return false;
+}
+
+bool turns_inside(const nurbs::Surface& patch, double edge_angle) {
+  return nurbs::largest_kink(patch, 0) > edge_angle || nurbs::largest_kink(patch, 1) > edge_angle;
+}
+
+// Free sides that lie on others, of which two are welded.
+bool more_meet(const std::vector<nurbs::Surface>& patches, const nurbs::Borders& borders) {
+  nurbs::PointGrid middles(kMeet * size_of(patches), 4 * patches.size());
+  const auto middle = [&](size_t p, int side) {
+    const nurbs::Space<2>& space = patches[p].space;
+    nurbs::Parameter<2> xi;
+    for (int i = 0; i < 2; ++i) xi[i] = 0.5 * (space.knots(i).front() + space.knots(i).back());
+    xi[side / 2] = side % 2 == 1 ? space.knots(side / 2).back() : space.knots(side / 2).front();
+    return nurbs::interpolate(space, patches[p].control_points, xi);
+  };
+  bool found = false;
+  for (const bool free : {false, true})
+    for (size_t p = 0; p < patches.size(); ++p)
+      for (int side = 0; side < nurbs::kSideCount; ++side) {
+        const Border::Kind kind = borders[p][side].kind;
+        if (kind == Border::pole || (kind == Border::free) != free) continue;
+        if (free) middles.for_each_near(middle(p, side), [&](int) { found = true; });
+        middles.add(static_cast<int>(p), middle(p, side));
+      }
+  return found;
+}
+
+}  // namespace
+
+std::optional<FacedPatches> closed_forms(const std::vector<nurbs::Surface>& patches, double edge_angle) {
+  std::vector<Face> faces;
+  std::vector<Chart> charts;
+  for (const nurbs::Surface& patch : patches) {
+    const std::optional<ClosedForm> form = closed_form(patch);
+    if (!form) return std::nullopt;
+    faces.push_back(form->face);
+    charts.push_back(form->chart);
+  }
+  return FacedPatches{from_faces(faces, edge_angle), std::move(charts)};
+}
+
+CadModel model_of(const std::vector<nurbs::Surface>& patches, const nurbs::Borders& borders) {
+  return Modeller(patches, borders).model();
+}
+
+std::optional<FacedPatches> faced_patches(const std::vector<nurbs::Surface>& patches, bool from_words,
+                                          double edge_angle) {
+  const nurbs::Borders borders = nurbs::find_borders(patches);
+  const bool turn = any_turn(borders, edge_angle);
+  if (!turn && !from_words) return std::nullopt;
+  if (std::optional<FacedPatches> closed = closed_forms(patches, edge_angle)) return closed;
+  if (!turn || more_meet(patches, borders)) return std::nullopt;
+  for (const nurbs::Surface& patch : patches)
+    if (turns_inside(patch, edge_angle)) return std::nullopt;
+  std::vector<int> all(patches.size());
+  std::iota(all.begin(), all.end(), 0);
+  return FacedPatches{from_cad(model_of(patches, borders), all, edge_angle), {}};
+}
+
+}  // namespace brep
