@@ -58,6 +58,7 @@ struct Uses {
     return *use;
   }
   const EdgeUse& next(const EdgeUse& use) const { return &use + 1 < first + count ? *(&use + 1) : *first; }
+  const EdgeUse& before(const EdgeUse& use) const { return *((&use > first ? &use : first + count) - 1); }
   const EdgeUse* begin() const { return first; }
   const EdgeUse* end() const { return first + count; }
 };

@@ -82,14 +82,16 @@ bool Minima::is_nearest_of_whole(const EdgeUse& use, int number, const EdgePoint
   return distance <= (1.0 + kSame) * shape.distance_of_whole(d_);
 }
 
+// Whether a face does not fall towards d from its edge.
+bool Minima::is_off(const EdgeUse& use, int number, const OnEdge& on) const {
+  const double into = on.q[0] * use.conormal[0] + on.q[1] * use.conormal[1];
+  return into < -on.slack || (into <= on.slack && is_nearest_of_whole(use, number, on.at));
+}
+
 void Minima::add_in_wedge(const Uses& uses, int visiting, const OnEdge& on) {
   const EdgeUse &use = use_at_wedge(uses, on.q), &next = uses.next(use);
-  const auto is_off = [&](const EdgeUse& use_of, int its_number) {
-    const double into = on.q[0] * use_of.conormal[0] + on.q[1] * use_of.conormal[1];
-    return into < -on.slack || (into <= on.slack && is_nearest_of_whole(use_of, its_number, on.at));
-  };
   const int number = uses.number(use), next_number = uses.number(next);
-  const bool off_use = is_off(use, number), off_next = is_off(next, next_number);
+  const bool off_use = is_off(use, number, on), off_next = is_off(next, next_number, on);
   if (on.slack > slack_) widen(on.slack);
   if (visiting == kAll && uses.count > 2) add_square_above(uses, on);
   if (joins(use.wedge)) {
@@ -103,15 +105,17 @@ void Minima::add_in_wedge(const Uses& uses, int visiting, const OnEdge& on) {
 }
 
 // Of a trimmed face, what is inside ends at its border: square above an edge of many faces d is over those,
-// be it in their wedge or not.
+// be it in their wedge or not.  Where its sheet falls on beyond the edge the foot is farther down.
 void Minima::add_square_above(const Uses& uses, const OnEdge& on) {
   for (const EdgeUse& use : uses) {
     const double* m = use.conormal;
     if (std::abs(on.q[0] * m[0] + on.q[1] * m[1]) > on.slack ||
         !is_nearest_of_whole(use, uses.number(use), on.at))
       continue;
-    const int side = m[0] * on.q[1] - m[1] * on.q[0] > 0.0 ? use.side : -use.side;
-    add(use.face, side, FootStatus::edge, use.edge, on.at, uses.number(use));
+    const bool ahead = m[0] * on.q[1] - m[1] * on.q[0] > 0.0;  // in the wedge that begins at the face
+    const EdgeUse& other = ahead ? uses.next(use) : uses.before(use);
+    if (joins((ahead ? use : other).wedge) && !is_off(other, uses.number(other), on)) continue;
+    add(use.face, ahead ? use.side : -use.side, FootStatus::edge, use.edge, on.at, uses.number(use));
   }
 }
 

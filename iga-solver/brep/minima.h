@@ -80,6 +80,7 @@ class Minima {
     const double* q;
     double slack;
   };
+  bool is_off(const EdgeUse& use, int number, const OnEdge& on) const;
   void add_in_wedge(const Uses& uses, int visiting, const OnEdge& on);
   void add_square_above(const Uses& uses, const OnEdge& on);
   void add_of_vertex(int vertex, int face);

@@ -2,6 +2,8 @@
 // Walls of trimmed faces, as CAD files have them, and of patches: the feet of the judges.
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "cad_of_wall.h"
 #include "mixed_trial.h"
 
@@ -31,6 +33,22 @@ TEST_P(CadFaces, InClosedFormHaveTheJudgesFeet) {
   for (int index = 0; index < kMixedFamilies; ++index) {
     MixedTrial trial(5, index, GetParam());
     expect_feet(trial, mixed_family_name(index));
+  }
+}
+
+// Over the edge of three plates, square above one of them whose sheet falls on beyond a slightly concave edge.
+TEST_P(CadFaces, SquareAboveAnEdgeOfThreeTheLowerPlateAlone) {
+  constexpr double kBend = 1e-3, kHeight = 0.3;
+  for (const bool turned : {false, true}) {  // the plate begins the wedge, or ends it
+    const double second = nurbs::kPi - kBend;
+    const Wall wall = plates({0.0, second, 4.5});
+    const Surface surface = given_as(GetParam(), from_triangles(wall.coordinates(), wall.corners()));
+    const double along = turned ? second : 0.0, up = along + (turned ? -0.5 : 0.5) * nurbs::kPi;
+    const Vector3 d(kHeight * std::cos(up), kHeight * std::sin(up), 0.5);
+    const std::vector<Foot> found = feet(surface, d, 2.0 * kHeight);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].status, FootStatus::interior);
+    EXPECT_NEAR(found[0].distance, kHeight * std::cos(kBend), 1e-12);
   }
 }
 
