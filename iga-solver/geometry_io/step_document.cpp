@@ -262,6 +262,7 @@ StepDocument read_iges_file(const std::string& bytes) {
   Handle(TDocStd_Document) document = new_document();
   if (!reader.Transfer(document))
     throw std::runtime_error("no shape in it that OpenCASCADE can make, expected solids, shells or faces");
+  refuse_lost_entities(reader);
   StepDocument out;
   out.iges = true;
   const auto model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
@@ -269,6 +270,7 @@ StepDocument read_iges_file(const std::string& bytes) {
     out.unit = unit_name(clean(model->GlobalSection().UnitName()->ToCString()));
   out.healed = messages_of(reader);
   Collector(out).collect(document);
+  note_entities(reader, out.labels);
   return out;
 }
 

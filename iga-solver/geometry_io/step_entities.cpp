@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <IGESData_IGESEntity.hxx>
-#include <IGESData_IGESModel.hxx>
 #include <Interface_Check.hxx>
 #include <Interface_CheckIterator.hxx>
 #include <Interface_InterfaceModel.hxx>
@@ -17,6 +15,7 @@
 #include <StepShape_FaceBound.hxx>
 #include <StepShape_FaceOuterBound.hxx>
 #include <StepShape_FaceSurface.hxx>
+#include <StepShape_ManifoldSolidBrep.hxx>
 #include <StepShape_OrientedEdge.hxx>
 #include <TCollection_HAsciiString.hxx>
 #include <TopExp_Explorer.hxx>
@@ -149,20 +148,6 @@ bool is_turned_round(const Process& process, const Handle(StepShape_FaceSurface)
 
 }  // namespace
 
-void refuse_broken_entities(const IGESControl_Reader& reader) {
-  const Handle(IGESData_IGESModel) model = Handle(IGESData_IGESModel)::DownCast(reader.Model());
-  for (int i = 1; i <= model->NbEntities(); ++i) {
-    const Handle(Interface_Check) check = model->Check(i, true);
-    const int type = model->Entity(i)->TypeNumber();
-    const bool matters = type < 200 || type / 100 == 5;  // curves and surfaces, shells and solids
-    if (!matters || !check->HasFailed()) continue;
-    std::string fail = check->CFail(1);
-    for (int k = 2; k <= check->NbFails() && fail.find('%') != std::string::npos; ++k) fail = check->CFail(k);
-    throw std::runtime_error(fmt::format(
-        "entity D{} (of type {}): {} Expected a whole entity: export the file again", 2 * i - 1, type, fail));
-  }
-}
-
 void refuse_broken_entities(const STEPControl_Reader& reader) {
   const Model model = model_of(reader);
   if (model.IsNull() || model->NbEntities() == 0)
@@ -181,8 +166,23 @@ void refuse_broken_entities(const STEPControl_Reader& reader) {
   }
 }
 
+namespace {
+
+// OpenCASCADE leaves it at the faces.
+void note_open_solids(const Model& model, const Process& process, std::vector<std::string>& lines) {
+  for (int i = 1; i <= process->NbMapped(); ++i) {
+    const auto solid = Handle(StepShape_ManifoldSolidBrep)::DownCast(process->Mapped(i));
+    if (solid.IsNull()) continue;
+    const TopoDS_Shape shape = result_of(process, solid);
+    if (!shape.IsNull() && !TopExp_Explorer(shape, TopAbs_SOLID).More())
+      lines.push_back(named(model, solid) + " encloses nothing: it is a sheet, not a body");
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> note_entities(const STEPControl_Reader& reader, StepLabels& labels) {
-  std::vector<std::string> split;
+  std::vector<std::string> lines;
   const Model model = model_of(reader);
   const Process process = reader.WS()->TransferReader()->TransientProcess();
   for (int i = 1; i <= process->NbMapped(); ++i) {
@@ -203,9 +203,10 @@ std::vector<std::string> note_entities(const STEPControl_Reader& reader, StepLab
     int count = 0;
     for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next(), ++count)
       labels.Bind(it.Current().Located(TopLoc_Location()), {name, -1, model->IdentLabel(face)});
-    if (count != 1) split.push_back(fmt::format("{} became {} faces", named(model, face), count));
+    if (count != 1) lines.push_back(fmt::format("{} became {} faces", named(model, face), count));
   }
-  return split;
+  note_open_solids(model, process, lines);
+  return lines;
 }
 
 std::vector<std::string> messages_of(const XSControl_Reader& reader) {

@@ -36,7 +36,8 @@ TEST_P(CadFaces, InClosedFormHaveTheJudgesFeet) {
   }
 }
 
-// Over the edge of three plates, square above one of them whose sheet falls on beyond a slightly concave edge.
+// Over the edge of three plates, square above one of them whose sheet falls on beyond a slightly concave
+// edge.
 TEST_P(CadFaces, SquareAboveAnEdgeOfThreeTheLowerPlateAlone) {
   constexpr double kBend = 1e-3, kHeight = 0.3;
   for (const bool turned : {false, true}) {  // the plate begins the wedge, or ends it

@@ -55,6 +55,7 @@ Handle(TDocStd_Document) nested() {
 
 std::vector<Assembly> assemblies() {
   return {{"nested.step", "two levels, one part in several places, turned; names and colours", nested},
+          {"nested.igs", "the same as faces in groups; inches", nested},
           {"hopper.step", "a whole bin with flange and chute, blends of high degree", hopper}};
 }
 

@@ -51,6 +51,7 @@ std::vector<Part> closed_form_parts() {
           {"cylinder_8.step", "the same in eight", cylinder_8},
           {"cone.step", "a degenerate edge at the tip", cone},
           {"frustum.step", "a full conical face with a seam", frustum},
+          {"frustum.igs", "the same as IGES' solid of faces", frustum, "MM", "BREP"},
           {"sphere.step", "one face whose borders are a seam and two poles", sphere},
           {"torus.step", "one face with two seams, closed both ways", torus}};
 }

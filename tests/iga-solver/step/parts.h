@@ -15,7 +15,7 @@ struct Part {
   const char* hard;                ///< what is hard about it
   TopoDS_Shape (*shape)();         ///< mm
   const char* unit = "MM";         ///< of the file: MM, M or INCH
-  const char* schema = "AP214IS";  ///< or AP203, AP242DIS
+  const char* schema = "AP214IS";  ///< or AP203, AP242DIS; of IGES BREP for solids, else faces
 };
 
 /// With names, colours and placements.

@@ -75,6 +75,7 @@ TEST(Parts, VolumesOfTheory) {
       {"cylinder_8.step", cylinder},
       {"cone.step", M_PI * 1600.0 * 60.0 / 3.0},
       {"frustum.step", M_PI * 60.0 / 3.0 * (1600.0 + 600.0 + 225.0)},
+      {"frustum.igs", M_PI * 60.0 / 3.0 * (1600.0 + 600.0 + 225.0)},
       {"sphere.step", 4.0 / 3.0 * M_PI * 64000.0},
       {"torus.step", 2.0 * M_PI * M_PI * 50.0 * 225.0}};
   for (const Part& part : closed_form_parts()) {

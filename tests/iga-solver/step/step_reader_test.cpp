@@ -221,6 +221,21 @@ TEST_F(Reader, IgesIsSewn) {
     }
 }
 
+// Planes and a cone, with outward sides.
+TEST_F(Reader, IgesSolidsAreBodies) {
+  for (const step_parts::Part& part : step_parts::closed_form_parts()) {
+    const std::string name = part.file;
+    if (name.find(".igs") == std::string::npos) continue;
+    SCOPED_TRACE(name);
+    step_parts::write(part, path(""));
+    const CadModel model = geometry_io::read_step(bytes(name));
+    ASSERT_EQ(model.solids.size(), 1u);
+    EXPECT_TRUE(model.solids[0].closed);
+    for (const CadFace& face : model.faces) EXPECT_NE(face.outward, 0);
+    compare(model, step_parts::read_plainly(path(name)));
+  }
+}
+
 TEST_F(Reader, OffsetsAreRefusedOrFitted) {
   for (const step_parts::Part& part : step_parts::spline_parts())
     if (std::string(part.file) == "offset.step") step_parts::write(part, path(""));

@@ -25,6 +25,12 @@ SAID = {
     "mirrored_nested.step": r"#\d+ \(CARTESIAN_TRANSFORMATION_OPERATOR_3D\): a part placed as a mirror image",
     "scaled_nested.step": r"#\d+ \(CARTESIAN_TRANSFORMATION_OPERATOR_3D\): a part placed with the scale 2",
     "garbage_closed_spline.igs": r"entity D5 \(of type 128\): .*export the file again",
+    "mirrored_faces_closed_spline.igs": r"entity D3 \(of type 144\): placed as a mirror image",
+    "mirrored_circles_branch_holes.igs": r"entity D\d+ \(of type 100\): placed as a mirror image",
+    "scaled_faces_closed_spline.igs": r"entity D3 \(of type 144\): placed by a matrix that scales or skews",
+    "skewed_splines_closed_spline.igs": r"entity D5 \(of type 128\): placed by a matrix that scales or skews",
+    "turned_frustum.igs": r"entity D1 \(of type 186\): placed by a matrix, which OpenCASCADE leaves out",
+    "lost_frustum.igs": r"entity D1 \(of type 150\): OpenCASCADE can make no shape of it",
 }
 
 
@@ -79,6 +85,73 @@ class ConvertStep(unittest.TestCase):
         self.assertIn("'frame/leg/left leg/foot': 6 faces, colour:2A9D8F", page)
         self.assertIn("'top' plane, area 12800, colour:FF8800", page)
         self.assertRegex(page, "edges: 42: 2 smooth .* 0 near-tangent .* 40 sharp, 0 free")
+
+    def places(self, name: str) -> tuple:
+        """Points of what was read: vertices, and control points of patches; and the face's areas."""
+        page = self.converted(name, "placed.h5", "--units", "mm-g-ms")
+        found = values(self.folder / "placed.h5")
+        points = [value.reshape(-1, 3) for key, value in found.items() if key == "vertices/point" or key.endswith("control_points") and value.shape[-1] == 3]
+        return numpy.vstack(points), sorted(float(area) for area in re.findall(r"(?m)^  face.*area ([\d.e+]+)", page))
+
+    def test_places_of_iges(self):
+        """Faces, groups of them and what they consist of, turned; and splines and planes that are mirrored."""
+        good = bad_files.GoodIges(self.folder, "closed_spline.igs")
+        points, areas = self.places("closed_spline.igs")
+        self.assertGreater(len(points), 20)
+        for types, matrix in (
+            ((402,), bad_files.TURNED),
+            ((144,), bad_files.TURNED),
+            ((108, 126, 128), bad_files.TURNED),
+            ((108, 126, 128), bad_files.MIRRORED),
+        ):
+            with self.subTest(types=types, matrix=matrix):
+                form = int(matrix is bad_files.MIRRORED)
+                (self.folder / "placed.igs").write_text(good.placed(types, matrix, form))
+                rows = numpy.reshape(matrix, (3, 4))
+                expected = points @ rows[:, :3].T + rows[:, 3]
+                placed, placed_areas = self.places("placed.igs")
+                numpy.testing.assert_allclose(placed_areas, areas, rtol=1e-8)
+                away = numpy.linalg.norm(placed[:, None] - expected[None], axis=2)
+                self.assertLess(max(away.min(axis=0).max(), away.min(axis=1).max()), 1e-6)
+
+    def test_iges_is_the_part_of_its_step_file(self):
+        """Its surfaces of revolution are mirrored, its arcs are not."""
+        matrices = re.findall(r"(?m)^124,(.*)", bad_files.Good(self.folder, "branch_holes.igs").text)
+        self.assertGreater(len(matrices), 5)
+        iges, step = self.places("branch_holes.igs")[1], self.places("branch_holes.step")[1]
+        numpy.testing.assert_allclose(iges, step, rtol=1e-6)
+
+    def test_names_colours_and_units_of_iges(self):
+        """A label of the directory is a name; colours are the file's own, or by one of IGES' numbers."""
+        lines = (self.folder / "nested.igs").read_text().splitlines()
+        faces = [i for i, line in enumerate(lines) if line[72:73] == "D" and line[:8].strip() == "144" and line[64:72].strip() == "00020000"]
+        top, bare = faces[-1] + 1, faces[-2] + 1  # second lines: colour in the third column of 8, label in the eighth
+        lines[top] = f"{lines[top][:56]}{'top':>8}{lines[top][64:]}"
+        lines[bare] = f"{lines[bare][:16]}{2:8d}{lines[bare][24:]}"
+        (self.folder / "named.igs").write_text("\n".join(lines) + "\n")
+        page = self.converted("named.igs", "--units", "mm-g-ms")
+        self.assertIn("CAD file in inch: 0 solids, 1 sheet", page)
+        self.assertIn("sheet 1 'frame': 24 faces", page)
+        for colour, count in (("808080", 6), ("2A9D8F", 12), ("0000FF", 1), ("FF8800", 1), ("FF0000", 1)):
+            self.assertEqual(len(re.findall(f"(?m)^  face.*colour:{colour}", page)), count, colour)
+        self.assertRegex(page, "face:24 'top' plane, area 12800, colour:FF8800")
+        self.assertEqual(self.places("nested.igs")[1], sorted(self.places("nested.step")[1]))
+
+    def test_what_was_healed(self):
+        """A solid that lacks a face; edges of a loop out of turn; faces side by side; angles along an arc."""
+        text = (self.folder / "box.step").read_text()
+        (self.folder / "lid.step").write_text(re.sub(r"(CLOSED_SHELL\('',\(#\d+),#\d+", r"\1", text, count=1))
+        crossed = next(bad for bad in bad_files.wrong_topology(self.folder) if bad.name == "crossed_loop_box.step")
+        (self.folder / crossed.name).write_bytes(crossed.content)
+        for name, said in (
+            ("lid.step", r"#\d+ \(MANIFOLD_SOLID_BREP\) encloses nothing: it is a sheet, not a body"),
+            (crossed.name, "2 x Adjacent edges are not connected"),
+            ("closed_spline.igs", r"sheet '': \d+ edges sewn to \d+ within"),
+            ("branch_holes.igs", r"face 1: \d+ curves of its border fitted within 1e-10 of its parameters"),
+            ("box.step", "nothing"),
+        ):
+            with self.subTest(name):
+                self.assertRegex(self.converted(name), f"(?s)\nhealed:.*{said}.*refused: nothing")
 
     def test_a_broken_style_does_no_harm(self):
         """Colours and lines of drawings are none of a wall's business, whatever is wrong with them."""

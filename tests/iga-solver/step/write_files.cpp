@@ -3,6 +3,7 @@
 
 #include <APIHeaderSection_MakeHeader.hxx>
 #include <BRepMesh_IncrementalMesh.hxx>
+#include <IGESCAFControl_Writer.hxx>
 #include <IGESControl_Controller.hxx>
 #include <IGESControl_Writer.hxx>
 #include <IGESData_IGESModel.hxx>
@@ -48,15 +49,32 @@ void write_step(const Part& part, const TopoDS_Shape& shape, const std::string& 
   if (writer.Write(path.c_str()) != IFSelect_RetDone) fail(path, "cannot be written");
 }
 
-void write_iges(const TopoDS_Shape& shape, const std::string& path) {
-  IGESControl_Controller::Init();
-  IGESControl_Writer writer("MM", 0);
-  if (!writer.AddShape(shape)) fail(path, "cannot be translated");
-  IGESData_GlobalSection global = writer.Model()->GlobalSection();
+void set_header(const Handle(IGESData_IGESModel) & model, const std::string& path) {
+  IGESData_GlobalSection global = model->GlobalSection();
   global.SetDate(text("20260101.000000"));
   global.SetLastChangeDate(text("20260101.000000"));
   global.SetFileName(text(name_of(path).c_str()));
-  writer.Model()->SetGlobalSection(global);
+  model->SetGlobalSection(global);
+}
+
+void write_iges(const Part& part, const TopoDS_Shape& shape, const std::string& path) {
+  IGESControl_Controller::Init();
+  IGESControl_Writer writer("MM", std::string(part.schema) == "BREP" ? 1 : 0);
+  if (!writer.AddShape(shape)) fail(path, "cannot be translated");
+  set_header(writer.Model(), path);
+  if (!writer.Write(path.c_str())) fail(path, "cannot be written");
+}
+
+/// Faces in groups.
+void write_iges_document(const Assembly& assembly, const std::string& path) {
+  silence();
+  IGESControl_Controller::Init();
+  Interface_Static::SetCVal("write.iges.unit", "INCH");
+  IGESCAFControl_Writer writer;
+  writer.SetColorMode(true);
+  writer.SetNameMode(true);
+  if (!writer.Transfer(assembly.document())) fail(path, "cannot be translated");
+  set_header(writer.Model(), path);
   if (!writer.Write(path.c_str())) fail(path, "cannot be written");
 }
 
@@ -77,7 +95,7 @@ void write_document(const Assembly& assembly, const std::string& path, const cha
 
 void write(const Part& part, const TopoDS_Shape& shape, const std::string& path) {
   silence();
-  path.substr(path.rfind('.')) == ".igs" ? write_iges(shape, path) : write_step(part, shape, path);
+  path.substr(path.rfind('.')) == ".igs" ? write_iges(part, shape, path) : write_step(part, shape, path);
 }
 
 void write(const Part& part, const std::string& folder) {
@@ -85,7 +103,9 @@ void write(const Part& part, const std::string& folder) {
 }
 
 void write(const Assembly& assembly, const std::string& folder) {
-  write_document(assembly, folder + "/" + assembly.file, nullptr);
+  const std::string path = folder + "/" + assembly.file;
+  path.substr(path.rfind('.')) == ".igs" ? write_iges_document(assembly, path)
+                                         : write_document(assembly, path, nullptr);
 }
 
 void write_by_reference(const Assembly& assembly, const std::string& path) {
