@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Across a smooth edge that is slightly concave there can be two feet, nearly the same: the nearer alone
 // counts.
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -9,29 +10,50 @@
 namespace brep {
 namespace {
 
+// The face beside this one on the sheet that its side belongs to at this edge; -1: the sheet ends there.
+int face_beside(const Surface& surface, const Edge& edge, int face, int side) {
+  const Uses uses = uses_of(surface, edge);
+  for (const EdgeUse& use : uses) {
+    if (use.face != face) continue;
+    const EdgeUse& other = use.side == side ? uses.next(use) : uses.before(use);
+    if (joins((use.side == side ? use : other).wedge)) return other.face;
+  }
+  return -1;
+}
+
+// Faces of its sheet that meet in a foot.
 void faces_at(const Surface& surface, const Foot& foot, std::vector<int>& faces) {
   faces.assign(1, foot.patch);
   if (foot.status == FootStatus::edge) {
-    const Edge& edge = surface.edges[foot.entity];
-    for (int k = 0; k < edge.use_count; ++k) faces.push_back(surface.uses[edge.first_use + k].face);
+    const int beside = face_beside(surface, surface.edges[foot.entity], foot.patch, foot.side);
+    if (beside >= 0) faces.push_back(beside);
   }
   if (foot.status == FootStatus::corner) {
     const Vertex& vertex = surface.vertices[foot.entity];
-    for (int k = 0; k < vertex.corner_count; ++k)
-      faces.push_back(surface.corners[vertex.first_corner + k].face);
+    const Corner* corners = surface.corners.data() + vertex.first_corner;
+    const auto of_foot = [&](const Corner& corner) { return corner.face == foot.patch; };
+    const Corner* own = std::find_if(corners, corners + vertex.corner_count, of_foot);
+    if (own == corners + vertex.corner_count) return;
+    const int group = own->group[foot.side < 0];
+    for (int c = 0; c < vertex.corner_count; ++c)
+      if (corners[c].group[0] == group || corners[c].group[1] == group) faces.push_back(corners[c].face);
   }
 }
 
 }  // namespace
 
+// Where the concave edge between them bends by much less than they are apart, as round-off in a plane does,
+// it is not the reason that there are two.
 bool Minima::gives_way(const Foot& foot, const Foot& nearer, const SmoothNeighbours& neighbours) const {
+  constexpr double kLeastBend = 0.01;  // of the angle between the feet
   if (foot.sheet != nearer.sheet) return false;
   const Vector3 a = d_ - foot.point, b = d_ - nearer.point;
   if (a.dot(b) < std::cos(surface_.edge_angle) * foot.distance * nearer.distance) return false;
+  const double angle = a.cross(b).norm() / (foot.distance * nearer.distance);
   thread_local std::vector<int> from, to;
   faces_at(surface_, foot, from);
   faces_at(surface_, nearer, to);
-  return neighbours.joined(from, to);
+  return neighbours.joined(from, to, kLeastBend * angle);
 }
 
 bool Minima::repeats(const Foot& foot, const Foot& other) const {

@@ -29,6 +29,16 @@ TEST_P(CadFaces, OfTrianglesHaveTheJudgesFeet) {
   }
 }
 
+// Faces of another sheet, which met where feet are, made one of two feet of this sheet give way.
+TEST_P(CadFaces, OfTrianglesOfSeveralSheetsHaveTheJudgesFeet) {
+  for (const auto& [seed, index] : {std::pair{3u, 7}, {16u, 10}, {21u, 82}, {22u, 34}}) {
+    TriangleTrial trial(seed, index, GetParam());
+    long feet = 0;
+    EXPECT_EQ(trial.try_sheets(), "");
+    for (int k = 0; k < 170; ++k) EXPECT_EQ(trial.try_point(k, feet), "") << seed << " " << k;
+  }
+}
+
 TEST_P(CadFaces, InClosedFormHaveTheJudgesFeet) {
   for (int index = 0; index < kMixedFamilies; ++index) {
     MixedTrial trial(5, index, GetParam());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Feet on random walls against the judges (judge.h, mixed_judge.h).  A miss is printed with what repeats it:
-// --seed S --only WALL [--mixed | --stl].  Exit code 1 if there is any.
+// --seed S --only WALL [--mixed | --stl] [--as KIND].  Exit code 1 if there is any.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -41,10 +41,13 @@ int main(int argc, char** argv) {
       else
         trial = std::make_unique<TriangleTrial>(seed, index, given);
       const std::string what = fmt::format(
-          "miss: {}--seed {} --only {} ({})",
+          "miss: {}{}--seed {} --only {} ({})",
           mixed ? "--mixed "
           : stl ? "--stl "
                 : "",
+          given == Given::as_cad       ? "--as cad "
+          : given == Given::as_patches ? "--as patches "
+                                       : "",
           seed, index, mixed ? mixed_family_name(index % kMixedFamilies) : family_name(index % kFamilies));
       std::string wrong = trial->try_sheets();
       for (int k = 0; k < points && wrong.empty(); ++k, ++trials) {

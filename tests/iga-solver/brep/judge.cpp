@@ -157,14 +157,16 @@ void Judge::add_at(const Vector3& p, const std::vector<int>& triangles, const Ve
                    double tolerance, std::vector<Minimum>& found) const {
   const double distance = (d - p).norm();
   if (distance >= reach) return;
-  for (const int side : minima_at(p, triangles, d, tolerance))
-    found.push_back({sheets_[side], p, distance, triangles});
+  for (const std::vector<int>& sides : minima_at(p, triangles, d, tolerance)) {
+    found.push_back({sheets_[sides.front()], p, distance, {}});
+    for (const int side : sides) found.back().triangles.push_back(side / 2);
+  }
 }
 
-std::vector<int> Judge::minima_at(const Vector3& p, const std::vector<int>& triangles, const Vector3& d,
-                                  double tolerance) const {
+std::vector<std::vector<int>> Judge::minima_at(const Vector3& p, const std::vector<int>& triangles,
+                                               const Vector3& d, double tolerance) const {
   const Vector3 w = d - p;
-  std::vector<int> found;
+  std::vector<std::vector<int>> found;
   const int count = static_cast<int>(triangles.size());
   const auto place = [&](int t) {
     return static_cast<int>(std::find(triangles.begin(), triangles.end(), t) - triangles.begin());
@@ -216,7 +218,9 @@ std::vector<int> Judge::minima_at(const Vector3& p, const std::vector<int>& tria
           for (const Vector3& direction : into[k / 2].directions)
             steepest = std::max(steepest, w.dot(direction));
       if (steepest > tolerance) continue;
-      found.push_back(2 * triangles[g / 2] + g % 2);
+      found.emplace_back();
+      for (int k = g; k < 2 * count; ++k)
+        if (groups.label[k] == g) found.back().push_back(2 * triangles[k / 2] + k % 2);
     }
   }
   return found;
@@ -257,16 +261,19 @@ std::vector<Minimum> Judge::minima(const Vector3& d, double reach, double tolera
     bool alone = true;
     for (size_t j = 0; j < i; ++j) {
       const Vector3 x = (d - once[i].point).normalized(), y = (d - once[j].point).normalized();
-      if (once[i].sheet == once[j].sheet && std::acos(std::min(1.0, x.dot(y))) < edge_angle_)
-        alone = alone && !over_smooth_edges(once[i], once[j]);
+      const double apart = std::asin(std::min(1.0, x.cross(y).norm()));
+      if (once[i].sheet == once[j].sheet && x.dot(y) > 0.0 && apart < edge_angle_)
+        alone = alone && !over_smooth_edges(once[i], once[j], apart);
     }
     if (alone) kept.push_back(once[i]);
   }
   return kept;
 }
 
-// By a way with a slightly concave edge in it; two feet on parts of one plane are two.
-bool Judge::over_smooth_edges(const Minimum& a, const Minimum& b) const {
+// By a way with a slightly concave edge in it, by 0.01 of the angle between the two at least; two feet on
+// parts of one plane are two.
+bool Judge::over_smooth_edges(const Minimum& a, const Minimum& b, double apart) const {
+  const double bend = std::max(1e-7, 0.01 * apart);
   std::set<int> seen[2], goal;  // without and with such an edge behind
   for (const int t : a.triangles) seen[0].insert(planes_[t]);
   for (const int t : b.triangles) goal.insert(planes_[t]);
@@ -278,7 +285,7 @@ bool Judge::over_smooth_edges(const Minimum& a, const Minimum& b) const {
       for (const Wedge& w : wedges)
         for (int behind = 0; behind < 2 && std::abs(w.angle - nurbs::kPi) <= edge_angle_; ++behind) {
           const int x = planes_[w.from / 2], y = planes_[w.to / 2],
-                    after = w.angle < nurbs::kPi - 1e-7 ? 1 : behind;
+                    after = w.angle < nurbs::kPi - bend ? 1 : behind;
           if (seen[behind].count(x) > 0) seen[after].insert(y);
           if (seen[behind].count(y) > 0) seen[after].insert(x);
         }

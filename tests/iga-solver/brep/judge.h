@@ -14,7 +14,7 @@ struct Minimum {
   int sheet;
   Vector3 point;
   double distance;
-  std::vector<int> triangles;  ///< round it
+  std::vector<int> triangles;  ///< of its sheet, round it
 };
 
 /// Who says what is a minimum.
@@ -45,10 +45,10 @@ class Judge final : public AnyJudge {
   };
   /// Of all edges through p.
   std::vector<Wedge> wedges_at(const Vector3& p) const;
-  /// At p, on the edges or points of these triangles: of each group of sides that has a minimum there
-  /// 2 * triangle + side of one.
-  std::vector<int> minima_at(const Vector3& p, const std::vector<int>& triangles, const Vector3& d,
-                             double tolerance) const;
+  /// At p, on the edges or points of these triangles: each group of sides that has a minimum there, as
+  /// 2 * triangle + side.
+  std::vector<std::vector<int>> minima_at(const Vector3& p, const std::vector<int>& triangles,
+                                          const Vector3& d, double tolerance) const;
 
  private:
   Vector3 point(int triangle, int i) const { return wall_.points[wall_.triangles[triangle][i % 3]]; }
@@ -56,7 +56,7 @@ class Judge final : public AnyJudge {
   void add_at(const Vector3& p, const std::vector<int>& triangles, const Vector3& d, double reach,
               double tolerance, std::vector<Minimum>& found) const;
   std::vector<int> edges_through(const Vector3& p, const std::vector<int>& triangles) const;
-  bool over_smooth_edges(const Minimum& a, const Minimum& b) const;
+  bool over_smooth_edges(const Minimum& a, const Minimum& b, double apart) const;
 
   const Wall wall_;
   double edge_angle_;

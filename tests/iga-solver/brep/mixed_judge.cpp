@@ -95,8 +95,8 @@ void MixedJudge::add_at(const Vector3& p, const Vector3& d, double angle, std::v
   std::iota(all.begin(), all.end(), 0);
   constexpr double kNear = 0.01;  // of triangles of size 1
   const Judge planes(here.wall, edge_angle_);
-  for (const int side : planes.minima_at(p, all, p + kNear * w.normalized(), kNear * angle))
-    found.push_back({sheet(here.face[side / 2], side % 2), p, w.norm(), {}});
+  for (const auto& sides : planes.minima_at(p, all, p + kNear * w.normalized(), kNear * angle))
+    found.push_back({sheet(here.face[sides.front() / 2], sides.front() % 2), p, w.norm(), {}});
 }
 
 std::vector<Minimum> MixedJudge::minima(const Vector3& d, double reach, double tolerance,

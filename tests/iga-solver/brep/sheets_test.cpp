@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "brep/builder.h"
@@ -53,6 +55,21 @@ TEST(Sheets, TwoPlatesThatCrossHaveASheetForEachSideOfEachWing) {
   EXPECT_EQ(plates.sheet_count, 4);  // the wings' sides joined over their rims
   EXPECT_EQ(feet(plates, {0.1, 0.2, 0.5}, 0.3).size(), 2u);
   EXPECT_EQ(feet(plates, {-0.1, 0.2, 0.5}, 0.3).size(), 2u);
+}
+
+// Over a slit between two of three plates of an edge.  What bends by round-off is one plane, and has two feet
+// however near to each other.
+TEST(Sheets, FeetOnBothRimsOfASlitAreOneOnlyWherePlatesBend) {
+  for (const auto& [bend, count] : {std::pair{0.0, 2}, {1e-8, 2}, {1e-7, 2}, {3e-4, 1}, {1e-3, 1}}) {
+    const Vector3 low(0, 0, 0), high(0, 0, 1), right(std::cos(bend), std::sin(bend), -20);
+    Wall plates;
+    plates.add_triangle(low, high, {-1, 0, -20});
+    plates.add_triangle(low, right, high);
+    plates.add_triangle(low, high, {0.1, -1, 0.5});
+    const auto found = feet(built(plates), {1e-4, 1, -0.1}, 1.5);
+    const auto on_rim = [](const Foot& foot) { return foot.status == FootStatus::edge; };
+    EXPECT_EQ(std::count_if(found.begin(), found.end(), on_rim), count) << bend;
+  }
 }
 
 TEST(Sheets, TrianglesThatCoverEachOtherCountTwiceUnlessTheyAreOfOneSheet) {

@@ -40,6 +40,8 @@ class Trial {
  private:
   bool lies_on_an_axis() const;
   bool found_beside(const Vector3& d, double reach, const Minimum& minimum) const;
+  bool gives_way_beside(const Vector3& d, double reach, const Minimum& minimum,
+                        const std::vector<Foot>& feet) const;
   bool twice_beside(const Vector3& d, double reach, const Foot& foot) const;
   bool minimum_beside(const Vector3& d, double reach, const Foot& foot) const;
   std::string compare(const Vector3& d, double reach, const std::vector<Foot>& feet) const;
