@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contacts for LIGGGHTS' `compute wall/gran/local`: kept from the step in which they were found until it
-// asks.
+// Contacts for LIGGGHTS' `compute wall/gran/local`.
 #ifndef LMP_CONTACT_REPORT_H
 #define LMP_CONTACT_REPORT_H
 
@@ -13,26 +12,6 @@ class ComputePairGranLocal;
 }
 
 namespace liggghts_pkg {
-
-/// Keeps the contacts of a step, and hands them on.
-class ContactKeeper final : public contact::ContactObserver {
- public:
-  /// `next` may be null.  Returns this.
-  contact::ContactObserver* begin_step(contact::ContactObserver* next) {
-    contacts_.clear();
-    next_ = next;
-    return this;
-  }
-  void see(const contact::Contact& contact) override {
-    contacts_.push_back(contact);
-    if (next_) next_->see(contact);
-  }
-  const std::vector<contact::Contact>& contacts() const { return contacts_; }
-
- private:
-  std::vector<contact::Contact> contacts_;
-  contact::ContactObserver* next_ = nullptr;
-};
 
 /// Writes contacts into the compute's rows, as LIGGGHTS' walls do with those of meshes: what they call mesh
 /// and triangle are the number of the wall and the patch.

@@ -194,8 +194,7 @@ void FixWallNurbs::createMulticontactData() {
 void FixWallNurbs::setup(int vflag) {
   structure_.begin_run();  // not in init: LIGGGHTS knows only now which computes its variables need
   loop_.wall().import();
-  keeps_contacts_ = false;
-  for (const FixWallNurbs* wall : walls_of_deck()) keeps_contacts_ |= wall->cwl_ != nullptr;
+  is_read_locally_ = may_be_read_locally();
   {
     const liggghts_pkg::Setting<int> as_primitive(meshwall_, 0);
     FixWallGran::setup(vflag);  // pre_neighbor, pre_force, post_force, heat transfer
@@ -245,8 +244,8 @@ void FixWallNurbs::post_force(int vflag) {
   if (output_) output_->begin_step(update->setupflag, update->get_cur_time());
   FixWallGran::post_force(vflag);  // calls post_force_primitive
   columns_.contacts_are_new();
-  size_local_rows = columns_.local_row_count();
-  array_local = columns_.local_rows();
+  size_local_rows = 0;
+  if (is_read_locally_) show_local_rows();
   nodal_forces_ = &no_forces_;
   if (structure_.needs_forces())
     in_step([&] {
@@ -265,9 +264,8 @@ void FixWallNurbs::post_force_primitive(int) {
   try {
     const bool setup = update->setupflag != 0;
     model_.begin_step();
-    contact::ContactObserver* observer = observer_.get();
-    if (keeps_contacts_) observer = keeper_.begin_step(observer);
-    loop_.step(view, {update->ntimestep, dt_, neighbor->contactDistanceFactor, setup}, model_, observer);
+    loop_.step(view, {update->ntimestep, dt_, neighbor->contactDistanceFactor, setup}, model_,
+               observer_.get());
     model_.end_step(setup);
   } catch (const contact::TooManyContacts& problem) {
     messages_.fail_on_this_rank(fmt::format("{}; use 'contacts N' with a larger N", problem.what()));
@@ -312,6 +310,7 @@ void FixWallNurbs::post_run() {
   if (searches.not_converged() > 0)
     messages_.warn(fmt::format("{} closest-point projections did not converge", searches.not_converged()));
   for (const std::string& alarm : liggghts_pkg::alarms_of_run(loop_, world)) messages_.warn(alarm);
+  show_local_rows();  // for write_dump
   loop_.forget_reports();
 }
 

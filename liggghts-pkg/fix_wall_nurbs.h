@@ -74,6 +74,8 @@ class FixWallNurbs : public WallNurbsSetup, public FixWallGran {
   void build_list();
   contact::ParticleView particles();
   bool may_pose_as_mesh() const;
+  bool may_be_read_locally() const;
+  void show_local_rows();
   std::vector<FixWallNurbs*> walls_of_deck() const;
   void report(liggghts_pkg::ContactReport& rows, int number, ComputePairGranLocal* compute);
   void describe();
@@ -92,12 +94,11 @@ class FixWallNurbs : public WallNurbsSetup, public FixWallGran {
   std::unique_ptr<liggghts_pkg::WallOutput> output_;        // null: none asked for
   std::unique_ptr<liggghts_pkg::OutputObserver> observer_;  // likewise
   std::unique_ptr<liggghts_pkg::StlOutput> stl_;            // likewise
-  liggghts_pkg::ContactKeeper keeper_;
   liggghts_pkg::TriangleTwin twin_;
   const coupling::NodalForces* nodal_forces_ = nullptr;
   coupling::NodalForces no_forces_;
   bool rebuild_list_ = true, warned_of_gravity_ = false;
-  bool keeps_contacts_ = false;  // a compute wall/gran/local may ask for them
+  bool is_read_locally_ = false;  // may be, in this run
 };
 
 }  // namespace LAMMPS_NS

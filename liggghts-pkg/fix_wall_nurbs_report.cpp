@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// compute wall/gran/local of LIGGGHTS, which knows walls of triangles, and how it comes to know ours.
+// Who reads contacts one by one: those who take the local array; compute wall/gran/local of LIGGGHTS, which
+// knows walls of triangles, and how it comes to know ours.
 #include <cstddef>
 
 #include "atom.h"
 #include "compute_pair_gran_local.h"
+#include "compute_reduce.h"
+#include "dump_local.h"
+#include "fix_ave_histo.h"
 #include "fix_wall_nurbs.h"
 #include "modify.h"
+#include "output.h"
 #include "setting.h"
 
 using namespace LAMMPS_NS;
@@ -27,11 +32,27 @@ bool FixWallNurbs::may_pose_as_mesh() const {
   return true;
 }
 
+// These read a fix's local array without asking it for one; whatever else they read, it is made for them.
+bool FixWallNurbs::may_be_read_locally() const {
+  for (int k = 0; k < output->ndump; ++k)
+    if (dynamic_cast<DumpLocal*>(output->dump[k])) return true;
+  for (int k = 0; k < modify->ncompute; ++k)
+    if (dynamic_cast<ComputeReduce*>(modify->compute[k])) return true;
+  for (int k = 0; k < modify->nfix; ++k)
+    if (dynamic_cast<FixAveHisto*>(modify->fix[k])) return true;
+  return false;
+}
+
+void FixWallNurbs::show_local_rows() {
+  array_local = columns_.local_rows();
+  size_local_rows = static_cast<int>(loop_.contacts().size());
+}
+
 // It knows one wall, and takes the contacts of all.
 void FixWallNurbs::post_force_pgl() {
   const std::vector<FixWallNurbs*> walls = walls_of_deck();
   std::size_t count = 0;
-  for (const FixWallNurbs* wall : walls) count += wall->keeper_.contacts().size();
+  for (const FixWallNurbs* wall : walls) count += wall->loop_.contacts().size();
   liggghts_pkg::ContactReport rows(*cwl_, static_cast<int>(count), dnum_);
   for (std::size_t k = 0; k < walls.size(); ++k) walls[k]->report(rows, static_cast<int>(k), cwl_);
   cwl_->pair_finalize();
@@ -45,7 +66,7 @@ void FixWallNurbs::report(liggghts_pkg::ContactReport& rows, int number, Compute
   const liggghts_pkg::Setting<bool> no_heat(heattransfer_flag_, false), no_storage(store_force_, false);
   const liggghts_pkg::Setting<FixPropertyAtom*> no_sums(fix_sum_normal_force_, nullptr);
   const contact::ContactMemory memory = memory_.rows();
-  for (contact::Contact contact : keeper_.contacts()) {
+  for (contact::Contact contact : loop_.contacts()) {
     const int i = contact.particle;
     contact.history = memory.slot(i, contact.slot).history();
     model_.evaluate(&contact, 1);

@@ -2,35 +2,32 @@
 #include "liggghts_contact_model.h"
 
 #include "atom.h"
+#include "setting.h"
 
 namespace liggghts_pkg {
 
 using contact::Contact;
 using nurbs::Vector3;
 
-// The models add to the particle's force; a force of zero before shows what they add.  One `data` serves all,
-// as in LIGGGHTS' own walls.
+// The models add to the particle's force.  Meanwhile the rows of that are the contact's, so it gets what they
+// add and nothing else.  One `data` serves all, as in LIGGGHTS' own walls.
 void LiggghtsContactModel::evaluate(Contact* contacts, int count) {
   LCM::SurfacesIntersectData data;
   data.is_wall = true;
   for (Contact* contact = contacts; contact < contacts + count; ++contact) {
-    Eigen::Map<Vector3> f(atom_.f[contact->particle]), torque(atom_.torque[contact->particle]);
-    const Vector3 f_before = f, torque_before = torque;
-    f.setZero();
-    torque.setZero();
+    contact->force.setZero();
+    contact->torque.setZero();
+    const Setting<double*> force(atom_.f[contact->particle], contact->force.data()),
+        torque(atom_.torque[contact->particle], contact->torque.data());
     compute_with_spring(*contact, data);
-    contact->force = f;
-    contact->torque = torque;
-    f = f_before;
-    torque = torque_before;
   }
 }
 
 inline void LiggghtsContactModel::compute_with_spring(Contact& contact, LCM::SurfacesIntersectData& data) {
   if (!springs_.exist() || !contact.touches) return compute(contact, data);
-  const Vector3 before = springs_.stretch(contact.history);
+  const double before = springs_.squared_stretch(contact.history);
   compute(contact, data);
-  springs_.add(data.kt, before, springs_.stretch(contact.history));
+  springs_.add(data.kt, before, springs_.squared_stretch(contact.history));
 }
 
 inline void LiggghtsContactModel::compute(Contact& contact, LCM::SurfacesIntersectData& data) {

@@ -27,13 +27,15 @@ class TangentialSprings {
   explicit TangentialSprings(int place) : place_(place) {}
 
   bool exist() const { return place_ >= 0; }
-  nurbs::Vector3 stretch(const double* history) const { return nurbs::Vector3::Map(history + place_); }
+  double squared_stretch(const double* history) const {
+    return nurbs::Vector3::Map(history + place_).squaredNorm();
+  }
 
   void begin_step() { before_ = now_ = 0.0; }
-  /// Of one contact: stiffness [force/length], xi before and after the models had it [length].
-  void add(double stiffness, const nurbs::Vector3& before, const nurbs::Vector3& now) {
-    before_ += 0.5 * stiffness * before.squaredNorm();
-    now_ += 0.5 * stiffness * now.squaredNorm();
+  /// Of one contact: stiffness [force/length], |xi|^2 before and after the models had it [length^2].
+  void add(double stiffness, double before, double now) {
+    before_ += 0.5 * stiffness * before;
+    now_ += 0.5 * stiffness * now;
   }
   /// `setup`: a run begins, and with it the sum.
   void end_step(bool setup) {

@@ -41,7 +41,7 @@ double WallColumns::operator[](int column) {
 }
 
 const ContactTotals& WallColumns::totals() {
-  if (!totals_are_summed_) totals_ = sums_.over_ranks(loop_.contacts(), comm_);
+  if (!totals_are_summed_) totals_ = sums_.over_ranks(loop_.rows(), comm_);
   totals_are_summed_ = true;
   return totals_;
 }
@@ -62,15 +62,10 @@ double WallColumns::gained_by_springs() const {
   return gained;
 }
 
-// dump local reads the array without asking for it.
-void WallColumns::contacts_are_new() {
-  totals_are_summed_ = false;
-  const std::vector<WallContact>& contacts = loop_.contacts();
-  const auto row = [&](size_t k) { return const_cast<double*>(&contacts[k].tag); };
-  const bool moved = !local_rows_.empty() && !contacts.empty() && local_rows_[0] != row(0);
-  if (!moved && local_rows_.size() >= contacts.size()) return;
-  local_rows_.resize(contacts.size());
-  for (size_t k = 0; k < contacts.size(); ++k) local_rows_[k] = row(k);
+double** WallColumns::local_rows() {
+  local_rows_.clear();
+  for (const WallContact& row : loop_.rows()) local_rows_.push_back(const_cast<double*>(&row.tag));
+  return local_rows_.data();
 }
 
 }  // namespace liggghts_pkg

@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "coupling/contact/contact_loop.h"
 #include "coupling/contact/contact_totals.h"
 #include "coupling/structure_solver.h"
 #include "tangential_spring.h"
@@ -31,11 +32,9 @@ class WallColumns {
   /// From 0; collective.
   double operator[](int column);
   /// After each evaluation of the contacts.
-  void contacts_are_new();
-
-  /// A row for each of this rank's contacts.
-  int local_row_count() const { return static_cast<int>(loop_.contacts().size()); }
-  double** local_rows() { return local_rows_.data(); }
+  void contacts_are_new() { totals_are_summed_ = false; }
+  /// A row for each of this rank's contacts(); until they are new.
+  double** local_rows();
 
  private:
   const contact::ContactTotals& totals();

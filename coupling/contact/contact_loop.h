@@ -18,6 +18,7 @@
 
 #include "coupling/contact/candidate_list.h"
 #include "coupling/contact/contact_model.h"
+#include "coupling/contact/contact_rows.h"
 #include "coupling/contact/feet_tracker.h"
 #include "coupling/contact/particle_view.h"
 #include "coupling/contact/periodic_images.h"
@@ -25,18 +26,6 @@
 #include "coupling/contact/wall.h"
 
 namespace contact {
-
-/// One contact as the wall feels it: doubles throughout, so that a particle code may hand it on as a row.
-struct WallContact {
-  WallContact() {}  // not set to zero first
-  double tag, patch, xi[2];
-  double point[3];   ///< foot [length]
-  double force[3];   ///< on the wall [force]
-  double overlap;    ///< [length]
-  double torque[3];  ///< on the wall, about the origin [force length]
-  double power;      ///< that the wall gives to the particle [energy/time]
-  double slot;
-};
 
 /// How far the list of candidates reaches: from where the particles' code built its own lists a particle
 /// moves by half a skin to either side (what it grows counts as motion) before they are built anew, and the
@@ -93,8 +82,10 @@ class ContactLoop {
   void step(const ParticleView& particles, const StepInfo& step, ContactModel& model,
             ContactObserver* observer = nullptr);
 
-  /// Of the last step, those that touch or have a force; this rank's.
-  const std::vector<WallContact>& contacts() const { return contacts_; }
+  /// Of the last step, those that touch or have a force; this rank's.  Their `history` is gone with the step.
+  const std::vector<Contact>& contacts() const { return contacts_; }
+  /// The same as the wall feels them, made when asked for.
+  const std::vector<WallContact>& rows() const { return rows_.of(contacts_); }
   /// The same for SurfaceExchange::export_add, in the wall's frame; empty if the structure needs no forces.
   const std::vector<coupling::ContactForce>& forces_on_body() const { return forces_on_body_; }
 
@@ -112,32 +103,35 @@ class ContactLoop {
  private:
   void expect_images_to_stay(const std::vector<Vector3>& images) const;
   void forget_lost_contacts(const ParticleView& particles);
-  int next_block(const ParticleView& particles, const StepInfo& step, int& candidate,
-                 FeetTracker::Query* queries);
-  bool go_on(const ParticleView& particles, const StepInfo& step, const FeetTracker::Query& query);
+  int next_block(const ParticleView& particles, const StepInfo& step, int candidate,
+                 FeetTracker::Query* queries, int& count);
+  FeetTracker::Query query_of(const ParticleView& particles, const StepInfo& step, int candidate) const;
+  double squared_travel(const ParticleView& particles, int particle) const;
+  void go_on(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady,
+             FeetTracker::Query* queries, int& count);
+  bool go_on(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady, const SteadyFoot& foot);
   void find_contacts(const ParticleView& particles, const StepInfo& step, const FeetTracker::Query& query);
   bool may_cross(const ParticleView& particles, const StepInfo& step, int particle, double distance) const;
-  void check_crossing(const ParticleView& particles, const StepInfo& step, const FeetTracker::Query& query,
-                      double distance, const Vector3& delta, const Vector3& v_wall);
+  void check_crossing(const ParticleView& particles, const StepInfo& step, int particle,
+                      double squared_travel, double distance, const Vector3& delta, const Vector3& v_wall);
   ParticleSlots slots_of(const ParticleView& particles, int particle) {
     return particles.memory.of(particle, used_slots_[particle]);
   }
   int take_slot(const ParticleView& particles, const StepInfo& step, int particle, const TrackedFoot& tracked,
                 const ParticleSlots& slots, const Vector3& delta) const;
-  void add_contact(const ParticleView& particles, int particle, const TrackedFoot& tracked, double* history,
-                   const Vector3& delta, const Vector3& v_wall);
-  void apply(const ParticleView& particles, const StepInfo& step, const Contact& contact);
-  void add_row(const ParticleView& particles, const Contact& contact);
-  double power_of(const Contact& contact, const WallContact& row) const;
+  Contact& add_contact(const ParticleView& particles, int particle, const nurbs::SurfacePoint& foot, int slot,
+                       double distance, const Vector3& delta, const Vector3& v_wall);
   void push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact);
   void answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,
-              ContactObserver* observer);
+              ContactObserver* observer, std::size_t first);
+  void look_at(const ParticleView& particles, const StepInfo& step, ContactObserver* observer,
+               std::size_t first);
   void expect_stable(const ParticleView& particles, const StepInfo& step, const Contact& contact);
   /// `squared_frequency` of the particle on the spring of the contact; `speed` along the normal.
   void expect_long(const ParticleView& particles, const StepInfo& step, const Contact& contact,
                    double squared_frequency, double speed);
   [[noreturn]] static void fail_as_not_finite(const ParticleView& particles, const StepInfo& step,
-                                              const Contact& contact);
+                                              const Contact* contacts, const Contact* end);
 
   Options options_;
   Wall wall_;
@@ -151,11 +145,12 @@ class ContactLoop {
   std::vector<bool> is_candidate_;
   std::vector<int> used_slots_;  // per particle (ParticleSlots)
 
-  std::vector<Contact> batch_;
-  std::vector<WallContact> contacts_;
+  std::vector<Contact> contacts_;
+  mutable ContactRows rows_;
   std::vector<coupling::ContactForce> forces_on_body_;
   RunAlarm inside_, crossing_, stiff_, brief_;
-  double body_squared_frequency_ = 0.0;  // in this step [1/time^2]
+  double body_squared_frequency_ = 0.0;            // in this step [1/time^2]
+  double squared_time_ = 0.0, squared_way_ = 0.0;  // in this step: see squared_travel()
 };
 
 }  // namespace contact

@@ -10,8 +10,9 @@ using nurbs::Vector3;
 
 /// One contact in one step, in space.
 struct Contact {
-  Contact() {}  // not set to zero first
-  int particle;
+  Contact() {}               // not set to zero first
+  int particle;              ///< of this rank, in this step
+  int tag;                   ///< of the particle
   int slot;                  ///< of the particle's memory
   nurbs::SurfacePoint foot;  ///< on the wall
   bool touches;              ///< overlap >= 0; else a gap, within the reach of models with cohesion
@@ -19,9 +20,10 @@ struct Contact {
   double distance;           ///< from the foot to the centre; < 0: behind a skin that has one side [length]
   double overlap;            ///< the particle's radius less the distance [length]
   double effective_radius;   ///< of the pair; the particle's own unless the wall's curvature counts [length]
+  Vector3 centre;            ///< of the particle [length]
   Vector3 delta;             ///< from the foot to the centre [length]
   Vector3 wall_velocity;     ///< at the foot [length/time]
-  double* history;           ///< what the model keeps of this contact; null if it keeps nothing
+  double* history;           ///< what the model keeps of this contact, in this step; null if it keeps nothing
 
   // The model's answer:
   Vector3 force;   ///< on the particle [force]

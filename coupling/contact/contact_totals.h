@@ -6,7 +6,7 @@
 
 #include <vector>
 
-#include "coupling/contact/contact_loop.h"
+#include "coupling/contact/contact_rows.h"
 
 namespace contact {
 

@@ -24,7 +24,7 @@ void FaceFollower::follow(Query* queries, int count) {
       ways_.push_back({&followed_[branches.first + k].foot, &query->centre});
   }
   advance();
-  for (Query* query = queries; query < queries + count; ++query)
+  for (const Query* query = queries; query < queries + count; ++query)
     if (Branches& branches = branches_[query->candidate]; branches.followed) settle(*query, branches);
   FaceTracker::follow(queries, count);
 }
@@ -54,19 +54,14 @@ bool FaceFollower::keeps_side(const Query& query, const TrackedFoot& tracked) co
 }
 
 // What was not to be expected is left to the search for all.
-void FaceFollower::settle(Query& query, Branches& branches) {
+void FaceFollower::settle(const Query& query, Branches& branches) {
   TrackedFoot* const first = followed_.data() + branches.first;
   const auto is_sound = [&](const TrackedFoot& tracked) {
     return tracked.foot.status == search::FootStatus::interior && keeps_side(query, tracked);
   };
-  if (is_fast(query) || !std::all_of(first, first + branches.count, is_sound)) {
-    branches.followed = false;
-    branches.count = 0;
-    return;
-  }
-  if (branches.count == 1 && first->slot == 0 && query.contacts == 1 &&
-      first->foot.distance < query.touch_reach)
-    query.steady = first;
+  if (!query.is_fast() && std::all_of(first, first + branches.count, is_sound)) return;
+  branches.followed = false;
+  branches.count = 0;
 }
 
 FeetRange FaceFollower::feet(const Query& query, const ParticleSlots& slots) {
@@ -101,7 +96,7 @@ void FaceFollower::begin(const Query& query, const ParticleSlots& slots, Branche
 }
 
 bool FaceFollower::may_be_followed(const Query& query) {
-  if (is_fast(query)) return false;
+  if (query.is_fast()) return false;
   const brep::Surface& surface = search().surface();
   const Candidate& candidate = candidates_.candidates()[query.candidate];
   const ImageElements* images = candidates_.image_elements(candidate);

@@ -35,7 +35,7 @@ class FaceFollower final : public FaceTracker {
   bool may_be_followed(const Query& query);
   void begin(const Query& query, const ParticleSlots& slots, Branches& branches);
   void advance();
-  void settle(Query& query, Branches& branches);
+  void settle(const Query& query, Branches& branches);
   bool keeps_side(const Query& query, const TrackedFoot& tracked) const;
 
   std::vector<Branches> branches_;     // per candidate

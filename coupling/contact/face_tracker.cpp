@@ -35,39 +35,14 @@ inline bool FaceTracker::has_moved_less(const Query& query, const State& state, 
 void FaceTracker::list_is_new() {
   FeetTracker::list_is_new();
   states_.assign(candidates_.candidates().size(), State());
+  steady_.forget_all(states_.size());
   pieces_.resize(candidates_.all_elements().size());
   piece_counts_.resize(candidates_.image_element_count());
 }
 
-// Of a candidate that had this contact alone in the step before.
-inline bool FaceTracker::find_steady(const Query& query, TrackedFoot& steady) {
-  State& state = states_[query.candidate];
-  if (state.alone < 0 || state.sheet < 0 || query.contacts != 1) return false;
-  if (is_fast(query)) return false;
-  const double margin =
-      std::min(state.reach - query.touch_reach, state.margin);  // it may have grown or shrunk
-  if (!(margin >= 0.0 && has_moved_less(query, state, margin))) return false;
-  search::Foot& foot = steady.foot;
-  if (follows_) foot.xi = state.xi;
-  const int side = search_.foot_inside(state.alone, query.centre, beyond(query), charts_, foot);
-  if (side != state.side) return false;
-  state.last = foot.point;
-  if (follows_) state.xi = foot.xi;
-  steady.slot = 0;
-  steady.side = of_patch(foot.patch, side);
-  return true;
-}
-
 void FaceTracker::follow(Query* queries, int count) {
-  NURBS_ASSERT(states_.size() == candidates_.candidates().size() && count <= kBlock, states_.size(), count);
-  const bool waits_for_memory = search_.outgrows_cache();
-  TrackedFoot* steady = steady_.data();
-  for (Query* query = queries; query < queries + count; ++query)
-    if (find_steady(*query, *steady))
-      query->steady = steady++;
-    else if (waits_for_memory)
-      prefetch(*query);
-  counts_.add_interior(static_cast<int>(steady - steady_.data()));
+  if (!search_.outgrows_cache()) return;
+  for (const Query* query = queries; query < queries + count; ++query) prefetch(*query);
 }
 
 // What it looks at first is on its way while others are looked at: memory takes longer than all the rest.
@@ -80,7 +55,7 @@ void FaceTracker::prefetch(const Query& query) const {
 
 FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
   State& state = states_[query.candidate];
-  if (is_fast(query)) return feet_of_fast(query, slots);
+  if (query.is_fast()) return feet_of_fast(query, slots);
   const double margin = state.reach - query.touch_reach;
   const bool is_near = margin >= 0.0 && has_moved_less(query, state, margin);
   double distance = 0.0;  // at least, of the nearest piece; a foot takes longer
@@ -123,6 +98,7 @@ void FaceTracker::choose_fewer_pieces(const Query& query) {
 FeetRange FaceTracker::none(const Query& query, const ParticleSlots& slots, double clearance) {
   keep_clearance(query, clearance);
   states_[query.candidate].sheet = -1;
+  steady_.forget(query.candidate);
   slots.clear();
   return {feet_.data(), 0};
 }
@@ -307,9 +283,13 @@ void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
   State& state = states_[query.candidate];
   state.sheet = found_.size() == 1 ? found_[0].sheet : -1;
   if (found_.empty()) return;
-  state.side = found_[0].side;
-  state.last = found_[0].point;
-  state.xi = found_[0].xi;
+  const brep::Foot& foot = found_[0];
+  state.last = foot.point;
+  if (state.sheet >= 0 && state.alone >= 0)
+    steady_.keep(query.candidate, state.alone, foot.patch, foot.side, state.centre, state.reach, state.margin,
+                 foot.xi);
+  else
+    steady_.forget(query.candidate);
 }
 
 // Most have one contact, and had it before: then nobody asks the slot where that was.

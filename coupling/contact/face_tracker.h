@@ -4,7 +4,7 @@
 // A foot costs little here, so none is followed: all are found anew in each step that may have one.  Near
 // the wall a candidate looks only at the pieces that it can reach before it has moved by a small part of its
 // radius, the smaller the slower it is; farther away it looks for the nearest piece alone, and then rests
-// until it can be there.  Most that touch have one contact, inside one face: follow() finds it, and
+// until it can be there.  Most that touch have one contact, inside one face: steady_feet.h finds it, and
 // nobody looks at others.  A branch is a foot of one sheet (brep/README.md), wherever it moves on it, over
 // edges and vertices too.  Bodies have one side: a branch whose centre has passed their skin stays, with a
 // distance less than 0, until the centre is out again or farther in than the particle reaches.
@@ -24,33 +24,28 @@ class FaceTracker : public FeetTracker {
   /// Keeps references to all.  `charts`: to the parameters that feet are given in; null: the faces' own.
   FaceTracker(const brep::FootSearch& search, const std::vector<brep::Chart>* charts,
               const CandidateList& candidates, SearchCounts& counts)
-      : FeetTracker(candidates),
-        search_(search),
-        charts_(charts),
-        counts_(counts),
-        follows_(search.surface().patches != nullptr) {}
+      : FeetTracker(candidates), search_(search), charts_(charts), counts_(counts), steady_(search, charts) {}
 
   void list_is_new() override;
+  SteadyFeet* steady() override { return &steady_; }
   void follow(Query* queries, int count) override;
   FeetRange feet(const Query& query, const ParticleSlots& slots) override;
 
  protected:
   const brep::FootSearch& search() const { return search_; }
   SearchCounts& counts() { return counts_; }
-  /// It may come to the surface within a step from farther than it touches.
-  static bool is_fast(const Query& query) {
-    return query.squared_travel > query.touch_reach * query.touch_reach;
-  }
   /// What it knows of a candidate; slots stay.
-  void forget(const Query& query) { states_[query.candidate] = State(); }
+  void forget(const Query& query) {
+    states_[query.candidate] = State();
+    steady_.forget(query.candidate);
+  }
 
  private:
   struct State {
     nurbs::Vector3 centre = nurbs::Vector3::Zero();  // when its pieces were chosen
     double reach = 0.0;                              // then; 0: not yet [length]
-    nurbs::Vector3 last = nurbs::Vector3::Zero();    // its foot in the last step, if it had one alone
-    nurbs::Parameter<2> xi{};                        // of that, where it is followed (brep::FootSearch)
-    int sheet = -1, side = 0;                        // of that and its face; -1: none, or its list is new
+    nurbs::Vector3 last = nurbs::Vector3::Zero();    // its foot when it was found last, if it had one alone
+    int sheet = -1;                                  // of that; -1: none, or its list is new
     int looks = 0;                                   // at these pieces
     int alone = -1;       // one of these, if all are of one face, which the candidate is well inside of ...
     double margin = 0.0;  // ... as long as it has not moved by more
@@ -63,7 +58,6 @@ class FaceTracker : public FeetTracker {
   void choose_fewer_pieces(const Query& query);
   void choose_pieces(const Query& query, Of of, double margin);
   static bool has_moved_less(const Query& query, const State& state, double than);
-  bool find_steady(const Query& query, TrackedFoot& steady);
   void prefetch(const Query& query) const;
   FeetRange feet_of_fast(const Query& query, const ParticleSlots& slots);
   void find(const Query& query, double reach);
@@ -85,14 +79,12 @@ class FaceTracker : public FeetTracker {
   const brep::FootSearch& search_;
   const std::vector<brep::Chart>* charts_;
   SearchCounts& counts_;
-  bool follows_;                   // patches, on which feet are followed from where they were
+  SteadyFeet steady_;
   std::vector<State> states_;      // per candidate
   std::vector<int> pieces_;        // those chosen, of each image at the beginning of its range of elements
   std::vector<int> piece_counts_;  // of these, per image of each candidate
   std::vector<brep::Foot> found_;  // of one candidate, in this step; so are the next two
   std::vector<TrackedFoot> feet_;  // the same
-  std::vector<TrackedFoot> steady_ = std::vector<TrackedFoot>(
-      kBlock, {{{}, nurbs::Vector3::Zero(), 0.0, search::FootStatus::interior, 0}, 0});  // of a block
   struct Pair {
     double way2;
     int slot, foot;

@@ -10,6 +10,7 @@
 
 #include "coupling/contact/candidate_list.h"
 #include "coupling/contact/contact_memory.h"
+#include "coupling/contact/steady_feet.h"
 #include "search/foot.h"
 
 namespace contact {
@@ -39,17 +40,16 @@ class FeetTracker {
 
   /// A candidate of this step: where it is, and how far its contacts and its list reach [length].
   struct Query {
-    int candidate;                ///< its number in the list
-    nurbs::Vector3 centre;        ///< in the wall's frame
-    double touch_reach;           ///< feet nearer than this may touch
-    double list_reach;            ///< feet nearer than this may do so before the next rebuild
-    double squared_travel = 0.0;  ///< how far it and the wall move in a step, at most, squared [length^2]
-    int particle = 0;
-    int contacts = 0;  ///< slots of its memory that may be filled
-    TrackedFoot* steady =
-        nullptr;  ///< set by follow(): its only foot, that of slot 0, so feet() knows no more
+    int candidate, particle;  ///< numbers in their lists
+    nurbs::Vector3 centre;    ///< in the wall's frame
+    double touch_reach;       ///< feet nearer than this may touch
+    double list_reach;        ///< feet nearer than this may do so before the next rebuild
+    double squared_travel;    ///< how far it and the wall move in a step, at most, squared [length^2]
+
+    /// It may come to the surface within a step from farther than it touches.
+    bool is_fast() const { return squared_travel > touch_reach * touch_reach; }
   };
-  static constexpr int kBlock = 64;  ///< queries that are followed together, at most
+  static constexpr int kBlock = SteadyFeet::kBlock;  ///< queries that are followed together, at most
   /// Whether nothing within `touch_reach` can touch a candidate: too little has moved or grown since its feet
   /// were found last.
   bool is_quiet(int candidate, const nurbs::Vector3& centre, double touch_reach) const {
@@ -57,9 +57,11 @@ class FeetTracker {
     const double allowance = quiet.clearance - touch_reach - (surface_motion_ + quiet.surface_motion);
     return allowance > 0.0 && (centre - quiet.centre).squaredNorm() < allowance * allowance;
   }
+  /// Candidates that have one foot, which needs no search: ask these before anything else; null: none ever.
+  virtual SteadyFeet* steady() { return nullptr; }
   /// Takes the branches of these candidates to where they are now, as far as they are followed.
   virtual void follow(Query* queries, int count) = 0;
-  /// The feet of a candidate that is not steady, after follow(); those nearer than touch_reach are complete.
+  /// The feet of a candidate, after follow(); those nearer than touch_reach are complete.
   /// `slots` whose branches are gone are cleared.  Valid until the next call.
   virtual FeetRange feet(const Query& query, const ParticleSlots& slots) = 0;
 

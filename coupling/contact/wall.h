@@ -56,6 +56,7 @@ class Wall {
 
   bool deforms() const { return deforms_; }
   bool stands() const { return stands_; }  ///< nothing of it moves in this step
+  bool is_turned() const { return is_turned_; }
   bool needs_forces() const { return needs_forces_; }
 
   Vector3 to_frame(const Vector3& x) const {
@@ -68,20 +69,25 @@ class Wall {
   /// At a foot, which is at `point` in space.
   Vector3 velocity(const Foot& foot, const Vector3& point, const Vector3& delta) const {
     if (stands_) return Vector3::Zero();
-    if (deforms_) return velocity_of_deforming(foot);
-    Vector3 v = frame_.velocity_at(point);
-    if (slides_) v += structure_.surface_velocity(point, delta.normalized());
-    return v;
+    return deforms_ ? velocity_of_deforming(foot) : velocity_of_rigid(point, delta);
   }
 
   /// The same with the place of the centre.
   Vector3 velocity_below(const Foot& foot, const Vector3& centre, const Vector3& delta) const {
     return stands_ ? Vector3(Vector3::Zero()) : velocity(foot, centre - delta, delta);
   }
+  /// The same of a wall that is rigid and does not stand.
+  Vector3 velocity_of_rigid(const Vector3& point, const Vector3& delta) const {
+    Vector3 v = frame_.velocity_at(point);
+    if (slides_) v += structure_.surface_velocity(point, delta.normalized());
+    return v;
+  }
 
   /// +1 where dS/dxi x dS/deta points, -1 on the other side.
   int side_of(const Foot& foot, const Vector3& delta) const;
   bool has_inside(int patch) const { return is_closed_ && shape_->outward_sign(patch) != 0; }
+  /// Whether a centre on this side of a patch, above a foot inside it, is inside the body.
+  bool is_inside(int patch, int side) const { return is_closed_ && shape_->outward_sign(patch) * side < 0; }
   /// Whether a centre is inside the body; `side`: as side_of() has it, 0: nobody has looked.
   bool is_inside(const Foot& foot, const Vector3& delta, int side) const;
   /// A centre nearer than this is on the surface [length].

@@ -23,6 +23,9 @@ class ChartLine {
     const double s = std::min(std::max((on_face - face_[0]) * part_, 0.0), 1.0);
     return patch_[0] + (arcs_ == 0 ? s : of_arcs(s)) * (patch_[1] - patch_[0]);
   }
+  /// Inside, of a line without arcs: on the patch = scale() * on the face + shift(), to round-off.
+  double scale() const { return scale_; }
+  double shift() const { return shift_; }
   double to_face(double on_patch) const;
   /// to_patch of a length, and of the angle that has this cosine and sine; false if that is outside of the
   /// range.
@@ -45,13 +48,18 @@ class ChartLine {
     on_patch = patch_[0] + (arc + t) * arc_on_patch_;
     return t >= 0.0 && t <= 1.0;
   }
+  /// The same of many, to the last bit; `inside`: how far they are from both ends of the range, less than 0
+  /// outside of it.
+  void place_lengths(int count, const double* length, double* on_patch, double* inside) const;
+  void place_angles(int count, const double* cos, const double* sin, double* on_patch, double* inside) const;
 
  private:
   static constexpr int kMostArcs = 4;
   double of_arcs(double s) const;
 
   std::array<double, 2> face_, patch_;
-  double part_;  // of the whole, per unit on the face
+  double part_;           // of the whole, per unit on the face
+  double scale_, shift_;  // without arcs
   int arcs_;
   double middle_[kMostArcs][2] = {};  // of arcs: cosine, sine
   double arc_on_patch_ = 0.0;         // length

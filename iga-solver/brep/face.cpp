@@ -8,8 +8,6 @@
 namespace brep {
 namespace {
 
-constexpr double kOnAxis = 1e-12;  // of the radius: no direction is better than another
-
 // A point in cylindrical coordinates of a frame.
 struct Cylindrical {
   double x, y, z, rho;

@@ -29,6 +29,8 @@ struct Frame {
 /// or they are parallel.
 Frame frame_at(const Vector3& origin, const Vector3& z, const Vector3& x);
 
+constexpr double kOnAxis = 1e-12;  ///< of the radius: there no direction is better than another
+
 /// Foot of a point on the surface that a face is cut from.
 struct Projection {
   Parameter<2> xi;  ///< inside the face's range where a whole turn more or less leads there

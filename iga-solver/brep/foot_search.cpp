@@ -20,11 +20,7 @@ FootSearch::FootSearch(const Surface& surface)
       neighbours_(surface),
       same_point_(kSamePoint * surface.slack),
       has_inside_(std::any_of(surface.faces.begin(), surface.faces.end(),
-                              [](const Face& face) { return face.outward != 0; })) {
-  normals_.resize(surface.faces.size());
-  for (const PlaneTriangle& triangle : triangles_)
-    if (triangle.exists()) normals_[triangle.face()] = triangle.normal();
-}
+                              [](const Face& face) { return face.outward != 0; })) {}
 
 void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) const {
   const size_t begin = pieces.size();
@@ -134,7 +130,7 @@ bool FootSearch::is_well_inside_patch(const int* pieces, int count, const Vector
 }
 
 bool FootSearch::is_well_inside_curved(const Piece& piece, const Vector3& d, double reach) const {
-  if (piece.kind == Piece::Kind::trimmed) return true;  // foot_inside() sees to the rest
+  if (piece.kind == Piece::Kind::trimmed) return true;  // foot_inside_curved() sees to the rest
   if (!piece.rectangle()) return false;
   const Borders& borders = surface_.borders[piece.borders()];
   for (int i = 0; i < 4; ++i) {

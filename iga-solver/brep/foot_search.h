@@ -3,7 +3,6 @@
 // every sheet (README.md).
 #pragma once
 
-#include <cmath>
 #include <vector>
 
 #include "brep/chart.h"
@@ -49,20 +48,14 @@ class FootSearch {
   /// and it stays over them while it moves by less than `margin`.  If no other piece is within reach either,
   /// d has one foot at most, as long as it moves by less than that.
   bool is_well_inside(const int* pieces, int count, const Vector3& d, double reach, double margin) const;
-  /// That foot, given any of these pieces, if it is nearer than `reach`: sets its parameters (of the patch if
-  /// there is a chart; on a face that is a patch it goes on from those that stand there), point, distance and
-  /// patch.  The result is the side of the face that looks to d; 0: there is none for certain, ask feet().
-  int foot_inside(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
-                  search::Foot& foot) const {
-    const PlaneTriangle& triangle = triangles_[piece];
-    if (!triangle.exists()) return foot_inside_curved(piece, d, reach, charts, foot);
-    foot.patch = triangle.face();
-    const OverTriangle at = triangle.over(d, normals_[foot.patch]);
-    foot.xi = charts ? (*charts)[foot.patch].to_patch(at.xi) : at.xi;
-    foot.point = d - at.height * at.normal;
-    foot.distance = std::abs(at.height);
-    return foot.distance < reach ? (at.height < 0.0 ? -1 : 1) : 0;
-  }
+  /// That foot on a plane face: given any of these pieces, where its triangle says that d is.
+  const PlaneTriangle& triangle(int piece) const { return triangles_[piece]; }
+  /// The same on a curved one, whose pieces are no triangles, if it is nearer than `reach`: sets its
+  /// parameters (of the patch if there is a chart; on a face that is a patch it goes on from those that stand
+  /// there), point, distance and patch.  The result is the side of the face that looks to d; 0: there is none
+  /// for certain, ask feet().
+  int foot_inside_curved(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
+                         search::Foot& foot) const;
 
   /// Distance below which two points of a wall are the same [length].
   double same_point() const { return same_point_; }
@@ -73,15 +66,12 @@ class FootSearch {
   bool is_well_inside_patch(const int* pieces, int count, const Vector3& d, double reach) const;
   bool is_well_inside_curved(const Piece& piece, const Vector3& d, double reach) const;
   int foot_inside_trimmed(int face, const Vector3& d, double reach, search::Foot& foot) const;
-  int foot_inside_curved(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
-                         search::Foot& foot) const;
 
   static constexpr size_t kInCache = 500;  // pieces
 
   const Surface& surface_;
   PieceTree tree_;
   std::vector<PlaneTriangle> triangles_;
-  std::vector<Vector3> normals_;  // of plane faces, as their triangles have it
   SmoothNeighbours neighbours_;
   double same_point_;
   bool has_inside_;

@@ -29,14 +29,16 @@ class alignas(64) PlaneTriangle {
   bool exists() const { return face_ >= 0; }
   int face() const { return face_; }
 
-  /// Of the face; worked out.
+  /// Of the face's frame; the last is worked out.
+  const Vector3& origin() const { return origin_; }
+  const Vector3& x() const { return x_; }
+  const Vector3& y() const { return y_; }
   Vector3 normal() const { return x_.cross(y_); }
-  /// `place` where that is over the triangle for certain; `normal` as normal() has it.
-  OverTriangle over(const Vector3& d, const Vector3& normal) const {
-    const Vector3 from = d - origin_;
-    return {OverTriangle::Where::over, normal, normal.dot(from), {x_.dot(from), y_.dot(from)}};
+  /// `place` where that is over the triangle for certain.
+  OverTriangle over(const Vector3& d) const {
+    const Vector3 from = d - origin_, n = normal();
+    return {OverTriangle::Where::over, n, n.dot(from), {x_.dot(from), y_.dot(from)}};
   }
-  OverTriangle over(const Vector3& d) const { return over(d, normal()); }
   /// Least distance of a point's foot on the plane from those sides of this piece where the face ends;
   /// infinite if none does [length].
   double from_border(const Vector3& d, const Piece& piece) const;

@@ -3,12 +3,16 @@
 
 import math
 import re
+import tempfile
 import unittest
+from pathlib import Path
 
 import ball_on_block as bob
 import decks
 import numpy as np
-from branch_decks import FLOOR, L, OUTPUT, R, SIDE, model_file, nurbs, prelude, quad, run
+from branch_decks import FLOOR, GRAVITY, L, OUTPUT, R, SIDE, model_file, nurbs, prelude, quad, run, settings
+from prelude import INTEGRATION
+from test_wall_local import entries
 
 
 class Reports(unittest.TestCase):
@@ -82,6 +86,47 @@ class Reports(unittest.TestCase):
         self.assertAlmostEqual(rows[0][3] * L - L / 2, 1e-3, delta=1e-12)
         self.assertAlmostEqual(rows[0][9], -result.table["fz"][0], delta=1e-12)
         self.assertAlmostEqual(rows[1][7], -result.table["fx"][0], delta=1e-12)
+
+    def read(self, folder: Path, ranks: int, every: int, dumps: str) -> tuple[dict, dict[str, np.ndarray]]:
+        """Two balls that slide over a floor: thermo table every so many steps, and rows of dumps by their files."""
+        for name, text in model_file(quad((-L / 2, -L / 2, 0), (L, 0, 0), (0, L, 0))).items():
+            (folder / name).write_text(text)
+        balls = bob.thrown([(-3e-3, 1e-3, 0.999 * R), (4e-3, -2e-3, 0.998 * R)], (0.1, 0.2, 0.0))
+        values = "".join(f"variable c{k} equal f_wall[{k}]\n" for k in range(1, 9))
+        deck = settings(processors="* 1 1" if ranks == 1 else f"{ranks} 1 1").text() + balls + INTEGRATION + GRAVITY + nurbs()
+        columns = " v_c".join(map(str, range(1, 9)))
+        deck += f"{values}thermo_style custom step v_c{columns}\nthermo_modify format float %.17g\nthermo {every}\n{dumps}"
+        table = decks.run_in(folder, deck, ranks).table
+        return table, {f.name: np.sort(entries(f, 11), axis=0) for f in folder.glob("rows.*")}
+
+    def test_rows_and_sums_are_made_for_whoever_reads(self):
+        """Of steps in between, what is read in every step; write_dump has the last step's; on 1 and 2 ranks alike."""
+        fields = " ".join(f"f_wall[{k}]" for k in range(1, 12))
+        form = 'dump_modify d format "' + " ".join(["%.17g"] * 11) + '"\n'
+        write = f"write_dump all local rows.end {fields} modify format \"{' '.join(['%.17g'] * 11)}\"\n"
+        decks_of = {
+            "all": (1, f"dump d all local 1 rows.* {fields}\n{form}run 60\n"),
+            "few": (20, f"dump d all local 15 rows.* {fields}\n{form}run 60\n"),
+            "none": (30, f"run 60\n{write}"),
+        }
+        found = {}
+        for ranks in (1, 2):
+            for name, (every, dumps) in decks_of.items():
+                with tempfile.TemporaryDirectory() as folder:
+                    found[name, ranks] = self.read(Path(folder), ranks, every, dumps)
+        table, rows = found["all", 1]
+        self.assertEqual(table["c7"].min(), 2, "both touch")
+        self.assertGreater(np.ptp(rows["rows.60"][:, 4] - rows["rows.0"][:, 4]), 0.0, "and move")
+        for row in rows["rows.60"]:
+            np.testing.assert_allclose(row[2:4], row[4:6] / L + 0.5, atol=1e-12)  # xi runs along x, eta along y
+        for (name, ranks), (other, of_other) in found.items():
+            with self.subTest(name, ranks=ranks):
+                at = np.isin(table["Step"], other["Step"])
+                for column, values in other.items():
+                    np.testing.assert_array_equal(values, table[column][at], column)
+                self.assertEqual(len(of_other), {"all": 61, "few": 5, "none": 1}[name])
+                for file, those in of_other.items():
+                    np.testing.assert_array_equal(those, rows[file.replace("end", "60")])
 
     def test_effective_radius_on_round_walls(self):
         """Force on a sphere at rest, rstar curvature: Hertz with 1/r* = 1/r +- 1/R; on a cylinder the geometric mean."""

@@ -232,7 +232,7 @@ TEST(ContactLoop, ForceTorqueAndPowerOfTheWall) {
   BallsOnWall scene(wall, balls, 10.0, 1e-16);
   scene.step();
   contact::ContactSums sums;
-  const contact::ContactTotals totals = sums.over_ranks(scene.loop.contacts(), MPI_COMM_SELF);
+  const contact::ContactTotals totals = sums.over_ranks(scene.loop.rows(), MPI_COMM_SELF);
   const Vector3 F_0(1.0, 0, 0.5), F_1(0, 0, 2.0);
   const Vector3 torque = Vector3(0, 1.0, 0.45).cross(Vector3(-1, 0, 0)) +
                          Vector3(0.4, 1.0, 0).cross(Vector3(0, 0, -0.5)) +

@@ -61,7 +61,8 @@ class Scene {
     ASSERT_EQ(all.size(), centres_.size());
     std::vector<ContactTracker::Query> queries;
     for (size_t c = 0; c < all.size(); ++c) {
-      queries.push_back({static_cast<int>(c), centres_[all[c].particle], touch_, list_});
+      queries.push_back(
+          {static_cast<int>(c), all[c].particle, centres_[all[c].particle], touch_, list_, 0.0});
       if (queries.size() < static_cast<size_t>(block) && c + 1 < all.size()) continue;
       tracker_->follow(queries.data(), static_cast<int>(queries.size()));
       for (const ContactTracker::Query& query : queries) resolve(query, take);

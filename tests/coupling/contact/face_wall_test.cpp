@@ -6,6 +6,7 @@
 
 #include "balls.h"
 #include "brep/builder.h"
+#include "brep/face_shape.h"
 #include "coupling/rigid/rigid_surface.h"
 #include "nurbs/primitives.h"
 
@@ -195,6 +196,66 @@ TEST(FaceWall, GoesOnAcrossAPeriodicFace) {
     ASSERT_EQ(scene.spring.seen.size(), 1u) << x;
     EXPECT_NEAR(scene.balls.force(0)[2], kOverlap, 1e-12) << x;
     EXPECT_EQ(scene.spring.seen[0].history[0], step) << x;
+  }
+}
+
+// Rows are made when they are asked for, from what was so in the step: the wall feels the opposite of the
+// spring at the foot, and gives the power of its motion there, whatever has moved since.
+TEST(FaceWall, RowsReadLaterAreThoseOfTheStep) {
+  constexpr double kStep = 1e-3;
+  const Vector3 velocity(0.2, -0.1, 0.05), axis(0.6, 0, 0.8);
+  RigidSurface wall = floor();
+  wall.set_motions({coupling::linear(velocity), coupling::rotate({0, 0, 0}, axis, 40.0)});
+  Balls balls;
+  balls.add({0.7, -0.4, 0.9 * kRadius}, kRadius);
+  balls.add({-2.1, 1.3, 0.95 * kRadius}, kRadius);
+  BallsOnWall scene(wall, balls, 10.0, kStep);
+  for (int step = 0; step < 20; ++step) scene.step();
+  const coupling::RigidFrame frame = wall.frame();
+  const std::vector<Vector3> centres = {scene.balls.centre(0), scene.balls.centre(1)},
+                             forces = {scene.balls.force(0), scene.balls.force(1)};
+  // A part of the next step.
+  for (double& x : scene.balls.x) x += 0.3;
+  wall.begin_step();
+  scene.loop.wall().import();
+  const std::vector<contact::WallContact>& rows = scene.loop.rows();
+  ASSERT_EQ(rows.size(), 2u);
+  for (int k = 0; k < 2; ++k) {
+    const contact::WallContact& row = rows[k];
+    const Vector3 point = Vector3::Map(row.point), F = Vector3::Map(row.force);
+    EXPECT_EQ(row.tag, k + 1);
+    EXPECT_EQ(row.slot, 0.0);
+    const Vector3 n = frame.rotation.col(2);
+    const double height = n.dot(centres[k] - frame.origin);
+    EXPECT_LT((point - (centres[k] - height * n)).norm(), 1e-13);
+    EXPECT_NEAR(row.overlap, kRadius - height, 1e-13);
+    EXPECT_GT(std::abs(n[1]), 1e-3);
+    EXPECT_EQ(F, -forces[k]);
+    EXPECT_LT((Vector3::Map(row.torque) + centres[k].cross(forces[k])).norm(), 1e-13);
+    const Vector3 v = frame.velocity + frame.angular_velocity.cross(point - frame.origin);
+    EXPECT_NEAR(row.power, -F.dot(v), 1e-12);
+    EXPECT_GT(std::abs(row.power), 1e-2);
+  }
+}
+
+// Steady contacts have the parameters of their foot, in the contact and in the slot that keeps them.
+TEST(FaceWall, SteadyContactsKnowWhereTheyAre) {
+  RigidSurface wall = floor();
+  Balls balls;
+  balls.add({-2.0, 0.3, 0.99 * kRadius}, kRadius);
+  BallsOnWall scene(wall, balls, 1.0, 1.0);
+  for (int step = 0; step < 10; ++step) {
+    scene.balls.centre(0) += Vector3(0.002, 0.001, 0.0);
+    scene.evaluate();
+    ASSERT_EQ(scene.loop.contacts().size(), 1u);
+    const contact::Contact& contact = scene.loop.contacts()[0];
+    const Vector3 point = scene.balls.centre(0) - Vector3(0, 0, 0.99 * kRadius);
+    const nurbs::SurfacePoint kept = scene.balls.view().memory.slot(0, contact.slot).foot();
+    EXPECT_EQ(kept.patch, contact.foot.patch);
+    for (const nurbs::SurfacePoint& foot : {contact.foot, kept})
+      EXPECT_LT((brep::point_on(*wall.surface().faces, foot.patch, foot.xi) - point).norm(), 1e-14) << step;
+    EXPECT_LT((contact.centre - contact.delta - point).norm(), 1e-14);
+    EXPECT_EQ(contact.effective_radius, kRadius);
   }
 }
 

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What becomes of the model's answers: forces on particles and on the body, alarms.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/contact/contact_loop.h"
+#include "coupling/force_distribution.h"
+
+namespace contact {
+
+// All contacts of a block, of which those are kept that touch or have a force.
+void ContactLoop::answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,
+                         ContactObserver* observer, std::size_t first) {
+  if (first == contacts_.size()) return;
+  Contact *const begin = &contacts_[first], *const end = contacts_.data() + contacts_.size();
+  model.evaluate(begin, static_cast<int>(end - begin));
+  bool are_plain = !wall_.needs_forces() && !observer;
+  Vector3 not_finite = Vector3::Zero();
+  for (const Contact* contact = begin; contact < end; ++contact) {
+    const std::ptrdiff_t row = 3 * static_cast<std::ptrdiff_t>(contact->particle);
+    const Vector3 &F = contact->force, &T = contact->torque;
+    Eigen::Map<Vector3>(particles.f + row) += F;
+    Eigen::Map<Vector3>(particles.torque + row) += T;
+    not_finite += 0.0 * (F + T);
+    are_plain &= !contact->inside & contact->touches;
+  }
+  if (!not_finite.isZero(0.0)) fail_as_not_finite(particles, step, begin, end);
+  if (!are_plain) look_at(particles, step, observer, first);
+}
+
+// What is neither touch nor force is none; who else has to know of the others.
+void ContactLoop::look_at(const ParticleView& particles, const StepInfo& step, ContactObserver* observer,
+                          std::size_t first) {
+  const auto is_none = [](const Contact& contact) { return !contact.touches && contact.force.isZero(0.0); };
+  contacts_.erase(
+      std::remove_if(contacts_.begin() + static_cast<std::ptrdiff_t>(first), contacts_.end(), is_none),
+      contacts_.end());
+  for (std::size_t k = first; k < contacts_.size(); ++k) {
+    const Contact& contact = contacts_[k];
+    const int i = contact.particle;
+    if (wall_.needs_forces()) push_body(particles, step, contact);
+    if (contact.inside) inside_.raise(contact.tag, particles.radius[i], particles.velocity(i).norm());
+    if (observer) observer->see(contact);
+  }
+}
+
+void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
+  expect_stable(particles, step, contact);
+  const Vector3 on_body = -(wall_.frame().rotation.transpose() * contact.force);
+  forces_on_body_.push_back({particles.tag[contact.particle],
+                             contact.slot,
+                             contact.foot.patch,
+                             {contact.foot.xi[0], contact.foot.xi[1]},
+                             {on_body[0], on_body[1], on_body[2]}});
+}
+
+// A spring k between a particle and the surface has the squared frequency k (sum R_A^2 / m_A + 1 / m), and
+// the body's own stiffness only adds to the largest (Rayleigh's quotient), at most its own largest (Weyl):
+// beyond 4 / dt^2 the run blows up whatever the body, and below it together with the body's it does not.  k
+// is the secant of the law, no more than its tangent as overlaps grow; in the first step of a touch it is
+// that over the way of a step.
+void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
+  const nurbs::NodalVectors& inverse_masses = wall_.inverse_masses();
+  if (inverse_masses.cols() == 0) return;
+  const int i = contact.particle;
+  const Vector3 n = contact.delta / contact.distance, v = particles.velocity(i) - contact.wall_velocity;
+  const double depth = std::max(contact.overlap, step.dt * std::abs(n.dot(v)));
+  const double stiffness = n.dot(contact.force) / depth, limit = 4.0 / (step.dt * step.dt);
+  const double of_particle = particles.mass ? 1.0 / particles.mass[i] : 0.0;
+  expect_long(particles, step, contact, stiffness * of_particle, n.dot(v));
+  const double of_body = body_squared_frequency_;
+  if (!(stiffness * (wall_.largest_inverse_mass() + of_particle) + of_body > limit)) return;
+  const double of_wall = coupling::FootBasis(wall_.surface(), contact.foot).sum_of_squares(n, inverse_masses);
+  const double squared_frequency = stiffness * (of_wall + of_particle);
+  if (!(squared_frequency + of_body > limit)) return;
+  if (!(squared_frequency > limit))
+    return stiff_.raise(particles.tag[i], particles.radius[i], std::sqrt(squared_frequency + of_body));
+  const double stable = 2.0 / std::sqrt(squared_frequency);
+  throw std::runtime_error(
+      fmt::format("the contact of particle {} is too stiff for the timestep {:.6g} at step {}: stiffness "
+                  "{:.4g} between a particle of "
+                  "mass {:.4g} and a surface that gives way there like a mass of {:.4g} is stable below "
+                  "{:.4g}; use a timestep of "
+                  "at most {:.2g}",
+                  particles.tag[i], step.dt, step.number, stiffness, 1.0 / of_particle, 1.0 / of_wall, stable,
+                  0.5 * stable));
+}
+
+// Where a contact is deepest its damping is out of it.  A sphere's after Hertz lasts 2.943 delta / V, and the
+// secant there has sqrt(k/m) = sqrt(5/4) V / delta (Johnson 1985, sec. 11.4).
+inline void ContactLoop::expect_long(const ParticleView& particles, const StepInfo& step,
+                                     const Contact& contact, double squared_frequency, double speed) {
+  constexpr double kDeep = 10.0, kTurn = 2.943 * 1.118;
+  const double shortest = wall_.shortest_contact(), turn = kTurn / shortest;
+  if (!(squared_frequency > turn * turn) || contact.overlap < kDeep * step.dt * std::abs(speed)) return;
+  const int i = contact.particle;
+  brief_.raise(particles.tag[i], particles.radius[i], std::sqrt(squared_frequency) / kTurn);
+}
+
+void ContactLoop::fail_as_not_finite(const ParticleView& particles, const StepInfo& step,
+                                     const Contact* contacts, const Contact* end) {
+  const Contact& contact = *std::find_if(
+      contacts, end, [](const Contact& c) { return !std::isfinite(c.force.sum() + c.torque.sum()); });
+  const int i = contact.particle;
+  const Vector3 x = particles.centre(i), v = particles.velocity(i);
+  const Vector3& F = contact.force;
+  throw std::runtime_error(fmt::format(
+      "the contact of particle {} is not finite at step {}: centre ({:.6g}, {:.6g}, {:.6g}), {:.6g} from the "
+      "wall, radius {:.6g}, velocity ({:.6g}, {:.6g}, {:.6g}), force ({:.6g}, {:.6g}, {:.6g}); use a smaller "
+      "timestep, or look at the material and at what has changed the particle",
+      particles.tag[i], step.number, x[0], x[1], x[2], contact.distance, particles.radius[i], v[0], v[1],
+      v[2], F[0], F[1], F[2]));
+}
+
+}  // namespace contact
