@@ -3,11 +3,13 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "coupling/mesh_compliance.h"
 #include "coupling/structure_solver.h"
 #include "nurbs/boundary.h"
 #include "parallel/shared_fields.h"
@@ -26,6 +28,8 @@ class IgaStructure final : public StructureSolver {
                bool in_parts = false);
   /// Supports whose reactions are asked for.
   void watch(std::vector<structure::NamedSupport> supports);
+  /// From now on contacts are corrected by what its mesh gives way.
+  void correct_contacts(std::unique_ptr<MeshCompliance> compliance) { compliance_ = std::move(compliance); }
   /// From now on writes histories; before the first run.
   void write_history(parallel::SharedHistory history) { history_.emplace(std::move(history)); }
   /// The same for fields.
@@ -56,6 +60,7 @@ class IgaStructure final : public StructureSolver {
   double stable_time_step() const override { return solver_.stable_time_step(); }
   double stable_time_step_with_contacts() const override { return solver_.stable_time_step_now(); }
   std::string take_warning() override { return solver_.take_warning(); }
+  LocalCompliance* local_compliance() const override { return compliance_.get(); }
 
   bool moves() const override { return true; }
   NodalVectors inverse_node_mass() const override { return solver_.inverse_mass(); }
@@ -88,6 +93,7 @@ class IgaStructure final : public StructureSolver {
   bool in_parts_;
   FingerprintPart supports_;
   ContactSurface surface_;
+  std::unique_ptr<MeshCompliance> compliance_;
   std::vector<structure::Probe> probes_;
   std::vector<structure::NamedSupport> named_supports_;
   std::optional<Vector3> gravity_;

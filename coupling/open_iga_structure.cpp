@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include <fmt/format.h>
 
+#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "coupling/modal_setup.h"
 #include "coupling/model_text.h"
@@ -43,6 +46,22 @@ std::optional<ModalDamping> expect_no_modal_damping(const io::ModelFile& model) 
                   model.file));
 }
 
+/// Copies the patches, which the solver takes out of the model.
+std::unique_ptr<MeshCompliance> compliance_of(const io::ModelFile& model,
+                                              const std::vector<structure::SkinPiece>& skin) {
+  std::vector<nurbs::Volume> patches;
+  for (int p = 0; p < model.patch_count(); ++p) patches.push_back(model.volume(p));
+  try {
+    return std::make_unique<MeshCompliance>(
+        structure::ReferenceBody{std::move(patches), model.materials, model.nodes,
+                                 model.integration.quadrature},
+        skin);
+  } catch (const std::invalid_argument& problem) {
+    throw geometry_io::InputError(
+        fmt::format("{}: {}; expected such a solid, or 'compliance none'", model.file, problem.what()));
+  }
+}
+
 OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface,
                                    const SolidOptions& options) {
   io::ModelFile model = io::read_model_file(path, reader_on_all_ranks(comm));
@@ -60,10 +79,13 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
   const io::Cut cut = parallel::cut_among(comm);
   std::optional<io::ModelFile> whole;
   if (damping && cut.parts > 1 && cut.part == 0) whole = model;
+  std::unique_ptr<MeshCompliance> compliance =
+      options.corrects_contacts ? compliance_of(model, skin) : nullptr;
   structure::ExplicitSolver body = io::build_solver(model, cut);
   if (!damping) body.stable_time_step();  // kept; the most memory of a run, so before there is anything else
   auto solver = std::make_unique<IgaStructure>(std::move(body), std::move(skin), model.probes,
                                                gravity_of(model), cut.parts > 1);
+  solver->correct_contacts(std::move(compliance));
   if (model.loads.gravity && model.loads.gravity->of_the_deck) solver->take_gravity_of_deck();
   solver->watch(model.named_supports());
   if (model.output)

@@ -14,6 +14,8 @@ struct SolidOptions {
   std::string state = {};
   /// A modal body of so many modes (modal_structure.h); nothing: all degrees of freedom.
   std::optional<int> modes = {};
+  /// Whether contacts are corrected by what its mesh gives way under them (mesh_compliance.h).
+  bool corrects_contacts = false;
 };
 
 }  // namespace coupling

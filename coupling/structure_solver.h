@@ -15,6 +15,7 @@
 
 #include "coupling/contact_surface.h"
 #include "coupling/fingerprint.h"
+#include "coupling/local_compliance.h"
 #include "coupling/nodal_forces.h"
 #include "coupling/rigid_frame.h"
 
@@ -102,6 +103,9 @@ class StructureSolver {
   virtual double stable_time_step_with_contacts() const { return std::numeric_limits<double>::infinity(); }
   /// Contacts that last less than that [time] are felt otherwise than by the whole body.
   virtual double shortest_contact() const { return 0.0; }
+  /// What its mesh gives way under contacts beyond what it does itself; null unless contact shall take that
+  /// off.
+  virtual LocalCompliance* local_compliance() const { return nullptr; }
   /// For the log, after set_time_step: how it takes the step, if not as one.
   virtual std::string describe_step() const { return ""; }
   /// For the log: how it takes steps from now on, if the last one has changed that; asked for once.

@@ -14,6 +14,7 @@
 #include "brep/triangle_mesh.h"
 #include "domain.h"
 #include "geometry_io/geometry_summary.h"
+#include "model_words.h"
 #include "modify.h"
 #include "neighbor.h"
 #include "primitive_wall.h"
@@ -170,6 +171,8 @@ void FixWallNurbs::init() {
     meshwall_ = may_pose_as_mesh();
     if (!options_.material_independent)
       liggghts_pkg::check_wall_material(*modify, atom_type_wall_, structure_.material(), options_.file);
+    if (options_.solid.corrects_contacts)
+      model_.read_constants(lmp, liggghts_pkg::model_of(options_.model_words).normal, atom_type_wall_);
     if (observer_) observer_->begin_run(style);
   });
   reset_dt();

@@ -3,8 +3,10 @@
 #ifndef LMP_LIGGGHTS_CONTACT_MODEL_H
 #define LMP_LIGGGHTS_CONTACT_MODEL_H
 
+#include "atom.h"
 #include "coupling/contact/contact_model.h"
 #include "fix_wall_gran.h"
+#include "hertz_constants.h"
 #include "tangential_spring.h"
 
 namespace liggghts_pkg {
@@ -19,6 +21,15 @@ class LiggghtsContactModel final : public contact::ContactModel {
 
   void begin_step() { springs_.begin_step(); }
   void evaluate(contact::Contact* contacts, int count) override;
+  /// Of a normal model whose constants were read, with a wall of this type.
+  double hertz_constant(int particle) const override {
+    return constants_.of_types(atom_.type[particle], wall_type_);
+  }
+  /// Before each run.
+  void read_constants(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model, int wall_type) {
+    constants_.read(lmp, normal_model, wall_type);
+    wall_type_ = wall_type;
+  }
   void end_step(bool setup) { springs_.end_step(setup); }
 
   const TangentialSprings& springs() const { return springs_; }
@@ -32,6 +43,8 @@ class LiggghtsContactModel final : public contact::ContactModel {
   LIGGGHTS::Walls::IGranularWall& models_;
   LAMMPS_NS::Atom& atom_;
   TangentialSprings springs_;
+  HertzConstants constants_;
+  int wall_type_ = 1;
   bool curvature_radius_;
 };
 

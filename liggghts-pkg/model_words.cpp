@@ -165,6 +165,19 @@ std::string why_refused(const ModelChoice& models, bool is_wall) {
   return "";
 }
 
+bool is_hertzian(const std::string& normal_model) {
+  return normal_model == "hertz" || normal_model == HertzLaw::word;
+}
+
+ModelChoice model_of(const std::vector<std::string>& words) {
+  ModelChoice models;
+  for (const ModelKeyword& keyword : kModelKeywords) {
+    const auto found = std::find(words.begin(), words.end(), keyword.word);
+    if (found != words.end() && found + 1 != words.end()) models.*keyword.choice = found[1];
+  }
+  return models;
+}
+
 std::vector<std::string> model_syntax() { return syntax_of(kModelKeywords); }
 
 std::size_t check_contact_models(const std::vector<std::string>& words) {

@@ -32,6 +32,12 @@ ModelChoice model_choice(std::int64_t hash);
 /// else particle pairs.
 std::string why_refused(const ModelChoice& models, bool is_wall);
 
+/// Whether a normal model's elastic force is K x^(3/2).
+bool is_hertzian(const std::string& normal_model);
+
+/// The choice that these words make, which check_contact_models has let pass.
+ModelChoice model_of(const std::vector<std::string>& words);
+
 /// Checks the model words of a wall, which stand first in `words`; returns how many of them they are.  Throws
 /// std::invalid_argument for an unknown, missing or refused model.
 std::size_t check_contact_models(const std::vector<std::string>& words);

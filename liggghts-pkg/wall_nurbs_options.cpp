@@ -139,6 +139,11 @@ constexpr Keyword<void(const Reading&)> kWallKeywords[] = {
        in.options.temperature = fmt::format("{}", in.words.number_at_least_zero(in.keyword));
      }},
     {"contact_area", "contact_area overlap|projection|constant A", read_contact_area},
+    {"compliance", "compliance corrected|none",
+     [](const Reading& in) {
+       in.options.solid.corrects_contacts =
+           in.words.value_of(in.keyword, {"corrected", "none"}) == "corrected";
+     }},
     {"substeps", "substeps [particles|structure] N|auto", read_substeps},
     {"motion", "motion VERB ...", read_drive_of_wall},
     {"servo", "servo ...", read_drive_of_wall},
@@ -174,6 +179,32 @@ void check_kept(const WallNurbsOptions& options) {
         rigid ? "geometry" : "structure", options.file));
 }
 
+// Said at once: what is not shown to be right is refused.
+void check_compliance(const WallNurbsOptions& options) {
+  if (!options.solid.corrects_contacts) return;
+  const ModelChoice models = model_of(options.model_words);
+  if (options.body != WallNurbsOptions::Body::iga)
+    fail(
+        fmt::format("'compliance corrected' is for a solid of ours, given '{}', expected 'structure FILE' or "
+                    "'compliance none'",
+                    options.body == WallNurbsOptions::Body::rigid ? "geometry" : "structure plugin"));
+  if (!is_hertzian(models.normal))
+    fail(fmt::format(
+        "'compliance corrected' is for the laws hertz and penalty/hertz, given 'model {}', expected "
+        "one of them or 'compliance none'",
+        models.normal));
+  if (models.cohesion != "off")
+    fail(
+        fmt::format("'compliance corrected' is for contacts without cohesion, given 'cohesion {}', expected "
+                    "'compliance none'",
+                    models.cohesion));
+  if (options.solid.modes)
+    fail(
+        "'compliance corrected' is for a whole mesh, given 'body modal', whose modes hardly give way under a "
+        "contact, expected one of them");
+  if (options.substeps) fail("'compliance corrected' is not for 'substeps', expected one of them");
+}
+
 void check_complete(const WallNurbsOptions& options) {
   if (options.atom_type == 0)
     fail("keyword 'type' is missing, expected 'type T', the atom type of the wall's material");
@@ -202,6 +233,7 @@ void check_complete(const WallNurbsOptions& options) {
         "'substeps' are those of a solid with a stable step, given 'body modal', expected one of them: modes "
         "take any timestep");
   check_kept(options);
+  check_compliance(options);
   const std::string drive = drive_name(options.drive);
   if (!drive.empty() && options.body != WallNurbsOptions::Body::rigid)
     fail(fmt::format("'{}' drives a rigid wall, given 'structure', expected 'geometry FILE'", drive));

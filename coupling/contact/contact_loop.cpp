@@ -16,7 +16,10 @@ ContactLoop::ContactLoop(const coupling::StructureSolver& structure, coupling::S
                          const Options& options)
     : options_(options),
       wall_(structure, exchange, options.edge_angle),
-      tracker_(wall_.shape().track(candidates_, options.search, searches_)) {}
+      tracker_(wall_.shape().track(candidates_, options.search, searches_)) {
+  if (coupling::LocalCompliance* const compliance = structure.local_compliance())
+    correction_ = std::make_unique<ComplianceCorrection>(*compliance, wall_);
+}
 
 void ContactLoop::forget_reports() {
   searches_ = SearchCounts();
@@ -291,6 +294,7 @@ inline Contact& ContactLoop::add_contact(const ParticleView& particles, int i,
   contact.centre = particles.centre(i);
   contact.delta = delta;
   contact.wall_velocity = v_wall;
+  contact.tangent = 0.0;
   return contact;
 }
 

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "coupling/contact/candidate_list.h"
+#include "coupling/contact/compliance.h"
 #include "coupling/contact/contact_model.h"
 #include "coupling/contact/contact_rows.h"
 #include "coupling/contact/feet_tracker.h"
@@ -138,10 +139,11 @@ class ContactLoop {
   CandidateList candidates_;
   SearchCounts searches_;
   std::unique_ptr<FeetTracker> tracker_;
-  double surface_motion_ = 0.0;       // of a deforming wall since the list was built
-  double wall_travel_ = 0.0;          // in a step, when the list was built [length]
-  std::vector<double> list_reach_;    // per particle, when the list was built
-  std::vector<double> radius_limit_;  // likewise: what the list is good for
+  std::unique_ptr<ComplianceCorrection> correction_;  // null: none asked for
+  double surface_motion_ = 0.0;                       // of a deforming wall since the list was built
+  double wall_travel_ = 0.0;                          // in a step, when the list was built [length]
+  std::vector<double> list_reach_;                    // per particle, when the list was built
+  std::vector<double> radius_limit_;                  // likewise: what the list is good for
   std::vector<bool> is_candidate_;
   std::vector<int> used_slots_;  // per particle (ParticleSlots)
 

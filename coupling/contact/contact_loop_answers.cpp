@@ -15,7 +15,9 @@ void ContactLoop::answer(const ParticleView& particles, const StepInfo& step, Co
                          ContactObserver* observer, std::size_t first) {
   if (first == contacts_.size()) return;
   Contact *const begin = &contacts_[first], *const end = contacts_.data() + contacts_.size();
+  if (correction_) correction_->before(particles, step.number, model, begin, end);
   model.evaluate(begin, static_cast<int>(end - begin));
+  if (correction_) correction_->after(begin, end);
   bool are_plain = !wall_.needs_forces() && !observer;
   Vector3 not_finite = Vector3::Zero();
   for (const Contact* contact = begin; contact < end; ++contact) {
@@ -67,7 +69,8 @@ void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& s
   const int i = contact.particle;
   const Vector3 n = contact.delta / contact.distance, v = particles.velocity(i) - contact.wall_velocity;
   const double depth = std::max(contact.overlap, step.dt * std::abs(n.dot(v)));
-  const double stiffness = n.dot(contact.force) / depth, limit = 4.0 / (step.dt * step.dt);
+  const double stiffness = std::max(n.dot(contact.force) / depth, contact.tangent),
+               limit = 4.0 / (step.dt * step.dt);
   const double of_particle = particles.mass ? 1.0 / particles.mass[i] : 0.0;
   expect_long(particles, step, contact, stiffness * of_particle, n.dot(v));
   const double of_body = body_squared_frequency_;

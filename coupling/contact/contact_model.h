@@ -2,6 +2,8 @@
 // What a contact model is asked, and who else hears of contacts.
 #pragma once
 
+#include <limits>
+
 #include "nurbs/multi_patch.h"
 
 namespace contact {
@@ -24,6 +26,7 @@ struct Contact {
   Vector3 delta;             ///< from the foot to the centre [length]
   Vector3 wall_velocity;     ///< at the foot [length/time]
   double* history;           ///< what the model keeps of this contact, in this step; null if it keeps nothing
+  double tangent;            ///< d(force)/d(overlap), if it is known beside the answer; else 0 [force/length]
 
   // The model's answer:
   Vector3 force;   ///< on the particle [force]
@@ -36,6 +39,9 @@ class ContactModel {
   virtual ~ContactModel() = default;
   /// Answers all of a batch, in this order; a particle may be there more than once.
   virtual void evaluate(Contact* contacts, int count) = 0;
+  /// K / sqrt(r*) [pressure] of a particle whose elastic force is K x^(3/2), as Hertz' 4/3 E*; not a number
+  /// of other laws.
+  virtual double hertz_constant(int /*particle*/) const { return std::numeric_limits<double>::quiet_NaN(); }
 };
 
 /// Hears of contacts that touch or have a force, after they have it.

@@ -29,6 +29,10 @@ geometry:
 surfaces: {wall: all}
 """
 THREAD = re.sub(r"\[\d, \d, 0\]", "[0, 0, 1]", FLAT)  # all control points in one place, on the z axis
+NINE = ", ".join([
+    "law: orthotropic_elastic", *(f"E_{i}: 5e9" for i in (1, 2, 3)), *(f"nu_{i}: 0.3" for i in (12, 13, 23)),
+    *(f"G_{i}: 2e9" for i in (12, 13, 23)),
+])  # fmt: skip
 # Loads that no solid bears.
 SOFT = BLOCK.replace("linear_elastic", "saint_venant_kirchhoff") + "loads: {tractions: [{face: zeta+, value: [0, 0, 1e15]}]}\n"
 STEP = "ISO-10303-21;\nHEADER;\n"
@@ -39,6 +43,8 @@ SERVO = "servo com 0 0 0 ctrlPV force axis 0 0 1 target_val 5 vel_max 1"
 HDF5 = f"{MODELS} type 2 geometry wall.h5 surface all"
 XML = f"{MODELS} type 2 geometry wall.xml surface all"
 CAD = f"{MODELS} type 2 geometry part.step surface all"
+PLUGIN = f"{MODELS} type 2 structure plugin ./net.so net.txt surface top"
+CORRECTED = " compliance corrected"
 PIPE = f"{MODELS} type 2 geometry round.yaml surface wall"
 
 
@@ -137,6 +143,16 @@ MODEL_FILES = {
     "surface patch as a solid": (f"{MODELS} type 2 structure flat.yaml surface floor", {}, ["flat.yaml"]),
     "units differ from the deck's": (GOOD, in_block("units: si", "units: cgs"), ["cgs", "si"]),
     "wall material E differs": (GOOD, in_block("5000000000.0", "6e9"), ["youngsModulus", "5000000000", "6000000000"]),
+    "compliance of nine constants": (
+        GOOD + CORRECTED, in_block("law: linear_elastic, youngs_modulus: 5000000000.0, poissons_ratio: 0.3", NINE),
+        ["block.yaml: local compliances are known of isotropic", "given 'orthotropic_elastic'", "or 'compliance none'"]),
+    "compliance of a viscous solid": (
+        GOOD + CORRECTED, {"block.yaml": BLOCK + "damping: {stiffness: 1e-9}\n"}, ["block.yaml: local compliances", "without memory"]),
+    "compliance of a high degree": (
+        GOOD + CORRECTED, in_block("elements: [4, 4, 2], degree: 2", "elements: [4, 4, 4], degree: 4"),
+        ["block.yaml: .*degrees 2 and 3, given 4, 4, 4"]),
+    "compliance with few points": (
+        GOOD + CORRECTED, {"block.yaml": BLOCK + "integration: {quadrature: zou}\n"}, ["block.yaml: .*given 'zou'"]),
     "wall material nu differs": (GOOD, in_block("poissons_ratio: 0.3", "poissons_ratio: 0.31"), ["poissonsRatio", "0.31"]),
 }
 
@@ -182,6 +198,14 @@ DECK_WORDS = {
     "keep without a name": (CAD + " keep", ["'keep' is the last word", "ends in .h5"]),
     "keep before another keyword": (CAD + " keep verbose yes", ["keep is 'verbose'", "ends in .h5, as in 'keep part.h5'"]),
     "kept twice": (CAD + " keep a.h5 keep b.h5", ["'keep' is given twice"]),
+    "compliance of another word": (GOOD + " compliance yes", ["'yes'", "'corrected' or 'none'"]),
+    "compliance of a rigid wall": (RIGID + CORRECTED, [CORRECTED[1:], "given 'geometry'", "or 'compliance none'"]),
+    "compliance of a plug-in": (PLUGIN + CORRECTED, [CORRECTED[1:], "given 'structure plugin'"]),
+    "compliance with another law": (GOOD.replace("hertz", "hooke") + CORRECTED, ["laws hertz and penalty/hertz, given 'model hooke'"]),
+    "compliance with yielding": (GOOD.replace("hertz", "plastic/thornton") + CORRECTED, ["given 'model plastic/thornton'"]),
+    "compliance with cohesion": (GOOD.replace("no_history", "no_history cohesion sjkr") + CORRECTED, ["given 'cohesion sjkr'"]),
+    "compliance of modes": (GOOD.replace("block.yaml", "block.yaml body modal 4") + CORRECTED, ["given 'body modal'"]),
+    "compliance with sub-steps": (GOOD + " substeps auto" + CORRECTED, ["not for 'substeps'"]),
     "contact area without heat": (RIGID + " contact_area projection", ["'contact_area'", "'temperature T'"]),
     "chord beyond all sense": (PIPE + " stl pipe every 5 chord 1e-12", ["chord 1e-12 takes about", "at most 1000"]),
     "unknown normal model": (GOOD.replace("hertz", "herz"), ["herz", "hertz"]),
@@ -203,6 +227,10 @@ DECKS = {
         f"fix w2 all wall/nurbs {GOOD.replace('block', 'soft')}\n", "run 100\n",
         ["id w2", "'soft.yaml': step 1:", "blown up at time", "control node .* undeformed at", "likely cause: .*loads.*time step"],
     ),
+    "compliance of contacts that lose much": (
+        "unfix m3\nfix m3 all property/global coefficientRestitution peratomtypepair 2 1 0.5 0.5 1\n"
+        f"fix w2 all wall/nurbs {GOOD.replace('block', 'soft')}{CORRECTED}\n", "run 1\n",
+        ["id w2", "given coefficientRestitution 0.5 of atom types 1 and 2, expected 0.9 or more"]),
     "minimize": ("", "minimize 1e-4 1e-6 10 10\n", ["id plate", "minimize"]),
     "respa": ("run_style respa 2 2\n", "run 1\n", ["respa"]),
     "id in use": ("", f"fix plate all wall/nurbs {GOOD}\nrun 1\n", ["plate|style"]),

@@ -38,6 +38,7 @@ class RisingSheet final : public coupling::StructureSolver {
   double stable_time_step() const override { return 1.0; }
   coupling::NodalVectors inverse_node_mass() const override { return inverse_mass; }
   double stable_time_step_with_contacts() const override { return stable_step; }
+  coupling::LocalCompliance* local_compliance() const override { return compliance; }
   Eigen::VectorXd control_node_mass() const override { return {}; }
   double kinetic_energy() const override { return 0.0; }
   double strain_energy() const override { return 0.0; }
@@ -51,6 +52,7 @@ class RisingSheet final : public coupling::StructureSolver {
 
   coupling::NodalVectors inverse_mass;
   double stable_step = std::numeric_limits<double>::infinity();
+  coupling::LocalCompliance* compliance = nullptr;
 
  private:
   coupling::ContactSurface surface_;

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Contacts after Hertz with a meshed body whose mesh gives way under them (coupling/local_compliance.h).  The
+// law's own overlap x is what is left of the geometric one when the mesh's part is taken off,
+//
+//   x - c F = overlap,   F = K x^(3/2),
+//
+// so the two in series are stiffer than the law, by 1 / (1 - s), s = c dF/dx.  Their potential,
+// 2/5 K x^(5/2) - 1/2 c F^2, changes with the foot, too: a force -1/2 F^2 grad c along the surface belongs to
+// it, without which a contact that slides over elements is not conservative.
+#pragma once
+
+#include <vector>
+
+#include "coupling/contact/contact_model.h"
+#include "coupling/contact/particle_view.h"
+#include "coupling/contact/wall.h"
+#include "coupling/local_compliance.h"
+
+namespace contact {
+
+/// Overlap of a law F = K x^(3/2) behind a compliance c [length/force], and s = 3/2 c K x^(1/2) there.
+struct CorrectedOverlap {
+  double x, s;
+};
+/// Newton's method from x = overlap > 0, monotone for either sign of c; where s comes to `limit` on the way,
+/// it is left there, and at the solution it is no smaller.
+CorrectedOverlap corrected_overlap(double overlap, double c, double K, double limit);
+
+class ComplianceCorrection {
+ public:
+  /// Beyond this s a point force is not the contact any more, and near 1 there is no equilibrium.
+  static constexpr double kLargest = 0.7;
+
+  /// Keeps references to both.
+  ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall)
+      : compliance_(compliance), wall_(wall) {}
+
+  /// Gives contacts the overlaps, and the rates of overlap, that the model shall see.  Throws
+  /// std::runtime_error: particle, place, step, if s is too large.
+  void before(const ParticleView& particles, long step, const ContactModel& model, Contact* begin,
+              Contact* end);
+  /// Takes the model's answers: contacts are what they were, forces have their part along the surface, and
+  /// Contact::tangent is known.
+  void after(Contact* begin, Contact* end);
+
+ private:
+  struct Before {
+    double overlap, distance;
+    Vector3 delta, wall_velocity;
+    Vector3 along;   // force [force]
+    double tangent;  // [force/length]
+  };
+  void correct(const ParticleView& particles, long step, double K, Contact& contact, Before& before);
+  Vector3 gradient(const Contact& contact, const std::array<double, 2>& change) const;
+
+  coupling::LocalCompliance& compliance_;
+  const Wall& wall_;
+  std::vector<Before> before_;
+};
+
+}  // namespace contact

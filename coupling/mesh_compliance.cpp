@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/mesh_compliance.h"
+
+#include <utility>
+
+#include "nurbs/boundary.h"
+
+namespace coupling {
+
+namespace {
+
+std::vector<nurbs::Space<2>> spaces_of(const structure::ReferenceBody& body,
+                                       const std::vector<structure::SkinPiece>& skin) {
+  std::vector<nurbs::Space<2>> spaces;
+  for (const structure::SkinPiece& piece : skin)
+    spaces.push_back(nurbs::boundary_surface(body.patches[piece.patch].space, piece.face).space);
+  return spaces;
+}
+
+}  // namespace
+
+MeshCompliance::MeshCompliance(structure::ReferenceBody body, const std::vector<structure::SkinPiece>& skin)
+    : spaces_(spaces_of(body, skin)), tables_(std::move(body), skin) {}
+
+LocalCompliance::Value MeshCompliance::at(const nurbs::SurfacePoint& foot) {
+  const nurbs::Space<2>& space = spaces_[foot.patch];
+  const nurbs::Indices<2> span = {space.knots(0).element_at(foot.xi[0]),
+                                  space.knots(1).element_at(foot.xi[1])};
+  nurbs::Parameter<2> low, high;
+  for (int d = 0; d < 2; ++d) {
+    low[d] = space.knots(d).breaks()[span[d]];
+    high[d] = space.knots(d).breaks()[span[d] + 1];
+  }
+  const structure::ComplianceTable& table = tables_.of(foot.patch, space.element_index(span));
+  const auto [c, change] = table.at(structure::ComplianceTable::normal, low, high, foot.xi);
+  return {c, change};
+}
+
+}  // namespace coupling

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/compliance/local_patch.h"
+
+#include <utility>
+
+namespace structure {
+
+LocalPatch::LocalPatch(const ReferenceBody& body, const NearElements& near, const BodyElement& hit,
+                       const LocalExtent& extent)
+    : body_(body), hit_(hit), elements_(near.around(hit, extent.layers, extent.reach)) {
+  number_nodes(near);
+  take_free_faces(near);
+}
+
+void LocalPatch::number_nodes(const NearElements& near) {
+  std::map<Id, int> elements_inside;
+  for (const BodyElement& element : elements_) {
+    const nurbs::Space<3>& space = body_.patches[element.patch].space;
+    std::vector<int> control_points(space.functions_per_element());
+    space.element_control_points(element.element, control_points.data());
+    for (const int a : control_points) ++elements_inside[body_.nodes.node(element.patch, a)];
+  }
+  std::vector<Id> shared;
+  for (const auto& [node, inside] : elements_inside)
+    (near.elements_of(node) == inside ? nodes_ : shared).push_back(node);
+  free_ = static_cast<int>(nodes_.size());
+  nodes_.insert(nodes_.end(), shared.begin(), shared.end());
+  for (std::size_t place = 0; place < nodes_.size(); ++place) place_[nodes_[place]] = static_cast<int>(place);
+}
+
+void LocalPatch::take_free_faces(const NearElements& near) {
+  std::map<std::pair<int, nurbs::Face>, std::vector<int>> faces;
+  for (const auto& [p, element] : elements_) {
+    const nurbs::Space<3>& space = body_.patches[p].space;
+    const nurbs::Indices<3> span = space.element_indices(element);
+    for (int f = 0; f < 6; ++f) {
+      const int d = f / 2, u = d == 0 ? 1 : 0, v = d == 2 ? 1 : 2;
+      if (span[d] != (f % 2 == 0 ? 0 : space.knots(d).element_count() - 1)) continue;
+      const auto face = static_cast<nurbs::Face>(f);
+      if (near.is_free(p, face))
+        faces[{p, face}].push_back(span[u] + space.knots(u).element_count() * span[v]);
+    }
+  }
+  for (const auto& [piece, elements] : faces) free_faces_.push_back({{piece.first, piece.second}, elements});
+}
+
+std::vector<int> LocalPatch::places_of(const BodyElement& element) const {
+  const nurbs::Space<3>& space = body_.patches[element.patch].space;
+  std::vector<int> places(space.functions_per_element());
+  space.element_control_points(element.element, places.data());
+  for (int& place : places) place = place_.at(body_.nodes.node(element.patch, place));
+  return places;
+}
+
+}  // namespace structure

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a mesh gives way under a point force, beyond what the body does: the half-space under the force,
+// solved on the elements around it.  Its displacement is prescribed on what they share with other elements,
+// its traction acts on the other free faces; the mesh answers with a finite displacement at the foot where
+// the half-space has none.  README.md has the derivation.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <vector>
+
+#include "structure/compliance/control_values.h"
+#include "structure/compliance/free_faces.h"
+#include "structure/compliance/half_space.h"
+#include "structure/compliance/local_patch.h"
+#include "structure/solid/element_tables.h"
+
+namespace structure {
+
+class LocalProblem {
+ public:
+  /// Keeps a reference to the patch.  Factorises a dense matrix; throws std::invalid_argument if there are
+  /// more than kMostUnknowns.
+  explicit LocalProblem(const LocalPatch& patch);
+  static constexpr int kMostUnknowns = 6000;
+
+  /// Per foot, a point of the element that is hit, the tensor c [length/force]: column j is the mesh's
+  /// displacement there by a unit force along e_j, less what the body itself gives way more than a
+  /// half-space.
+  std::vector<Matrix3> compliances(const std::vector<SkinPoint>& feet) const;
+
+ private:
+  void assemble();
+  void add(const ElementTables& tables, const std::vector<int>& places);
+  void hold_by_springs();
+  Eigen::MatrixXd prescribed(const std::vector<SkinPoint>& feet,
+                             const std::vector<HalfSpace>& half_spaces) const;
+  void add_tractions(const std::vector<SkinPoint>& feet, const std::vector<HalfSpace>& half_spaces,
+                     Eigen::MatrixXd& forces) const;
+
+  const LocalPatch& patch_;
+  double E_, nu_;
+  ControlValues held_;       // of nodes that other elements have, too, or of those with springs
+  Eigen::MatrixXd K_;        // rows of free nodes, columns of all [force/length]
+  std::vector<int> sprung_;  // places of nodes with a spring, if nothing else is held
+  double spring_ = 0.0;      // [force/length]
+  Eigen::LLT<Eigen::MatrixXd> factor_;
+};
+
+}  // namespace structure

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Forces over meshes: Table 2's ball on blocks, and balls on thin plates, of ever smaller elements.
+
+References: Hertz' solution less what waves into a half-space take (Miller & Pursey 1955; the integral is this project's own),
+and three-dimensional elasticity of thin plates (two independent programs of this project: axisymmetric finite elements with
+rings of contact pressure, and the exact kernel of a layer less that of a half-space with Hertz' law; they agree to 0.03 %).
+"""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+from pathlib import Path
+from typing import Mapping
+
+import numpy as np
+from matplotlib.figure import Figure as Picture
+
+from study.build.graded_block import PLACES, GradedBlock
+from study.reference import hertz
+from study.run.case import Case, Figure, Result, Study, Values
+from study.run.figures import COLOURS, MARKERS, save
+from study.run.pulse import measure
+from study.run.summary import Row
+
+STEEL = {"law": "linear_elastic", "youngs_modulus": "210.6e9", "poissons_ratio": 0.286, "density": 7850}
+GLASS = {"law": "linear_elastic", "youngs_modulus": "74.6e9", "poissons_ratio": 0.2285, "density": 2480}
+STEEL_BALL = {"E_ball": 210.6e9, "nu_ball": 0.286, "rho": 7850.0}
+
+# Table 2's ball on a half-space: peak force [N] and restitution.  Waves take 0.374 % of its energy and 0.11 % of the force.
+PEAK, RESTITUTION = 6.679, 0.998
+PEAK_TOLERANCE, RESTITUTION_TOLERANCE = 1e-3, 5e-4
+COARSE_TOLERANCE = 5e-3  # of elements that are too large for the waves
+CUBIC_TOLERANCE = 2e-3
+SLIDING_TOLERANCE = 1e-6
+SIZES_MM = (1, 0.5, 0.25, 0.125, 0.0625)
+COARSE_MM = (4, 2)
+UNCORRECTED = ("corner", "centre")
+
+# Plate: thickness, half of its side [m], material, ball, and restitution and peak force [N] of three-dimensional elasticity.
+PLATES = {
+    "Z1": (1e-3, 13e-3, GLASS, {"r": 1.0e-3}, 0.7586, 4.911),
+    "Z2": (1e-3, 18e-3, GLASS, {**STEEL_BALL, "r": 1.0e-3}, 0.5336, 9.658),
+    "steel": (0.5e-3, 13e-3, STEEL, {"r": 1.0e-3}, 0.6609, 5.344),
+}
+# h over the thickness, layers.
+PLATE_MESHES = ((1.0, 1), (0.5, 2), (0.25, 4))
+# Absolute of the restitution, relative of the force: for elements as large as the plate is thick, and for smaller ones.
+PLATE_TOLERANCES = {True: (0.005, 0.01), False: (0.002, 0.004)}
+TOO_COARSE = ("Z2", 1.0)  # its force is 1.07 % off: bending waves, in elements as large as the plate is thick
+
+
+def impact(values: Values) -> hertz.Impact:
+    """The ball on a half-space that does not move."""
+    E_star = hertz.effective_modulus(*(values[name] for name in ("E_ball", "nu_ball", "E_wall", "nu_wall")))
+    return hertz.penalty_impact("hertz", 1.0, E_star, values["r"], values["rho"], values["V"])
+
+
+def steps(longer: float, values: Values) -> int:
+    return math.ceil(longer * impact(values).duration / values["dt"])
+
+
+def peak_force(result: Result) -> float:
+    """[N]"""
+    force = result.force
+    return measure(force["t"], force["F"], force["overlap"]).peak_force
+
+
+def rows(peak: tuple[float, float] | tuple[()], restitution: tuple[float, float] | tuple[()], result: Result) -> list[Row]:
+    """Each with reference and relative tolerance, if the user changed nothing."""
+    F, e = peak_force(result), result.state["v"][-1] / result.values["V"]
+    known = result.as_published
+    return [
+        Row(result.case, "peak_force", F, "N", *(peak if known else ())),
+        Row(result.case, "restitution", e, "1", *(restitution if known else ())),
+    ]
+
+
+def block(h_mm: float, place: str, degree: int) -> GradedBlock:
+    """So large that no wave is back while the ball is there."""
+    return GradedBlock(h_mm * 1e-3, place, half=25e-3, depth=25e-3, largest=2e-3, degree=degree)
+
+
+def block_case(h_mm: float, place: str, compliance: str, degree: int = 2) -> Case:
+    if compliance == "none":
+        name, expected = f"none_{h_mm:g}mm_{place}", ((), ())
+    elif degree == 3:
+        name, expected = f"cubic_{h_mm:g}mm_{place}", ((PEAK, CUBIC_TOLERANCE), (RESTITUTION, RESTITUTION_TOLERANCE))
+    elif h_mm in COARSE_MM:
+        name, expected = f"{h_mm:g}mm_{place}", ((PEAK, COARSE_TOLERANCE), ())
+    else:
+        name, expected = f"{h_mm:g}mm_{place}", ((PEAK, PEAK_TOLERANCE), (RESTITUTION, RESTITUTION_TOLERANCE))
+    file = f"{name}.yaml"
+    variables = {"block": file, "compliance": compliance, "dt": 0.6e-8 if degree == 3 else 0.8e-8}
+    mesh = block(h_mm, place, degree)
+    return Case(name, "in.mesh_study", partial(rows, *expected), variables, partial(steps, 1.08 if compliance == "corrected" else 1.3),
+                lambda _: {file: mesh.model_file(STEEL)})  # fmt: skip
+
+
+def sliding_rows(result: Result) -> list[Row]:
+    """The speed along the top that a bounce without friction leaves as it was, over that of the impact."""
+    values, after = result.values, result.state["along"][-1]
+    known = result.as_published and values["compliance"] == "corrected"
+    change = (after - values["slide"]) / values["V"]
+    return [
+        *rows(*(((PEAK, PEAK_TOLERANCE), (RESTITUTION, RESTITUTION_TOLERANCE)) if known else ((), ())), result),
+        Row(result.case, "change_of_sliding_speed", change, "1", *((0.0, SLIDING_TOLERANCE) if known else ())),
+    ]
+
+
+def sliding_case(compliance: str) -> Case:
+    """Over one and a half elements of 2.8 contact radii."""
+    name = "slide" if compliance == "corrected" else "none_slide"
+    file, mesh = f"{name}.yaml", block(0.125, "corner", 2)
+    variables = {"block": file, "compliance": compliance, "dt": 0.4e-8, "slide": 30.0}
+    return Case(name, "in.mesh_study", sliding_rows, variables, partial(steps, 1.3),
+                lambda _: {file: mesh.model_file(STEEL)})  # fmt: skip
+
+
+def plate_case(plate: str, ratio: float, layers: int, place: str, suffix: str = "") -> Case:
+    """A suffix: as information beside the others."""
+    thickness, half, material, ball, e, F = PLATES[plate]
+    e_tolerance, F_tolerance = PLATE_TOLERANCES[ratio == 1.0]
+    h = ratio * thickness
+    mesh = GradedBlock(h, place, half, thickness, max(h, 0.5 * thickness), layers=layers)
+    name = f"{plate}_{1e3 * h:g}mm_{place}{suffix}"
+    file = f"{name}.yaml"
+    variables = {**ball, "block": file, "compliance": "none" if suffix == "_none" else "corrected",
+                 "E_wall": float(material["youngs_modulus"]), "nu_wall": material["poissons_ratio"]}  # fmt: skip
+    of_force = () if (plate, ratio) == TOO_COARSE else (F, F_tolerance)
+    expected = ((), ()) if suffix else (of_force, (e, e_tolerance / e))
+    return Case(name, "in.mesh_study", partial(rows, *expected), variables, partial(steps, 1.6),
+                lambda _: {file: mesh.model_file(material)})  # fmt: skip
+
+
+CASES = [
+    *(block_case(h, place, "corrected") for h in (*COARSE_MM, *SIZES_MM) for place in PLACES),
+    *(block_case(h, place, "none") for h in (*COARSE_MM, *SIZES_MM) for place in UNCORRECTED),
+    *(block_case(0.5, place, "corrected", degree=3) for place in PLACES),
+    *(sliding_case(compliance) for compliance in ("corrected", "none")),
+    *(plate_case(plate, *mesh, place) for plate in PLATES for mesh in PLATE_MESHES for place in ("corner", "centre")),
+    *(plate_case("Z1", *mesh, "corner", "_none") for mesh in PLATE_MESHES),
+    *(plate_case("Z1", ratio, 1, "corner", "_one_layer") for ratio in (0.5, 0.25)),
+]
+
+
+def contact_radius(values: Values) -> float:
+    """Where the contact is deepest [m]."""
+    return math.sqrt(values["r"] * impact(values).max_overlap)
+
+
+def draw(path: Path, results: Mapping[str, Result]) -> None:
+    """Peak force less Hertz', over the size of the elements."""
+    picture = Picture(figsize=(9.0, 4.6), layout="constrained")
+    axes = picture.subplots()
+    some = next(iter(results.values())).values
+    a, exact = contact_radius(some), impact(some).peak_force
+    sizes = sorted((*COARSE_MM, *SIZES_MM))
+    for place, colour, marker in zip(PLACES, COLOURS, MARKERS):
+        for prefix, words, style, face in (("", "corrected", "-", colour), ("none_", "none", "--", "none")):
+            names = [f"{prefix}{h:g}mm_{place}" for h in sizes]
+            if names[0] not in results:
+                continue
+            F = np.array([peak_force(results[name]) for name in names])
+            axes.plot(1e-3 * np.array(sizes) / a, 100.0 * (F / exact - 1.0), style, color=colour, marker=marker,
+                      markerfacecolor=face, linewidth=1.2, label=f"compliance {words}, {place} of an element")  # fmt: skip
+    axes.axhline(100.0 * (PEAK / exact - 1.0), color="k", linewidth=1.0, label="half-space, waves")
+    axes.set(xscale="log", xlabel="size of the elements over the contact's radius, $h/a$",
+             ylabel="peak force beside Hertz' [%]", title="A glass ball on steel, 1 m/s: what the mesh does to the force")  # fmt: skip
+    axes.legend(frameon=False, loc="lower right")
+    axes.grid(color="0.92", linewidth=0.6)
+    axes.set_axisbelow(True)
+    save(picture, path)
+
+
+ON_BLOCKS = [case.name for case in CASES if case.name.removeprefix("none_")[0].isdigit()]
+STUDY = Study(cases=CASES, figures=[Figure("force.png", ON_BLOCKS, draw)])

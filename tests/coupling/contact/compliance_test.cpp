@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Contacts behind a compliance of their mesh, on a sheet that does not give way itself: what is left is the
+// correction alone, with a potential of its own.
+#include "coupling/contact/compliance.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "balls.h"
+#include "nurbs/primitives.h"
+#include "rising_sheet.h"
+
+namespace {
+
+using contact::corrected_overlap;
+using nurbs::Vector3;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double kRadius = 0.5, kConstant = 1e4, kSide = 8.0;
+const double kK = kConstant * std::sqrt(kRadius);
+
+/// c = c0 (1 + ripple sin(2 pi x) cos(2 pi y)), one wave per element of length 1.
+class Ripples final : public coupling::LocalCompliance {
+ public:
+  Ripples(double c0, double ripple) : c0_(c0), ripple_(ripple) {}
+  Value at(const nurbs::SurfacePoint& foot) override {
+    const double k = nurbs::kTwoPi * kSide, x = k * foot.xi[0], y = k * foot.xi[1];
+    return {c0_ * (1.0 + ripple_ * std::sin(x) * std::cos(y)),
+            {c0_ * ripple_ * k * std::cos(x) * std::cos(y), -c0_ * ripple_ * k * std::sin(x) * std::sin(y)}};
+  }
+
+ private:
+  double c0_, ripple_;
+};
+
+/// F = K x^(3/2) along delta.
+class Hertz final : public contact::ContactModel {
+ public:
+  void evaluate(contact::Contact* contacts, int count) override {
+    for (contact::Contact* c = contacts; c < contacts + count; ++c) {
+      const double x = std::max(c->overlap, 0.0);
+      c->force = kConstant * std::sqrt(c->effective_radius) * x * std::sqrt(x) / c->distance * c->delta;
+      c->torque.setZero();
+      seen = *c;
+    }
+  }
+  double hertz_constant(int) const override { return kConstant; }
+  contact::Contact seen;
+};
+
+struct Scene {
+  Scene(coupling::LocalCompliance& compliance, const Vector3& centre, const Vector3& velocity, double dt)
+      : dt(dt),
+        sheet(nurbs::plane({-4, -4, 0}, {kSide, 0, 0}, {0, kSide, 0},
+                           {nurbs::KnotVector::uniform(2, 8), nurbs::KnotVector::uniform(2, 8)}),
+              0.0) {
+    sheet.compliance = &compliance;
+    sheet.set_time_step(dt);
+    balls.add(centre, kRadius, velocity);
+  }
+  void begin(const nurbs::NodalVectors& inverse_mass = {}) {
+    sheet.inverse_mass = inverse_mass;
+    exchange.emplace(MPI_COMM_SELF, sheet);
+    loop.emplace(sheet, *exchange, contact::ContactLoop::Options{});
+    loop->wall().import();
+    loop->build_list(balls.view(), {4.0, 1.0, dt, {{-9, -9, -9}, {9, 9, 9}, {false, false, false}}});
+    evaluate();
+  }
+  void evaluate() {
+    std::fill(balls.f.begin(), balls.f.end(), 0.0);
+    std::fill(balls.torque.begin(), balls.torque.end(), 0.0);
+    loop->step(balls.view(), {++step_number, dt, 1.0, false}, model);
+  }
+  void step() {
+    for (std::size_t k = 0; k < balls.x.size(); ++k) balls.x[k] += dt * (balls.v[k] += 0.5 * dt * balls.f[k]);
+    evaluate();
+    for (std::size_t k = 0; k < balls.v.size(); ++k) balls.v[k] += 0.5 * dt * balls.f[k];
+  }
+  bool is_over() { return balls.velocity(0)[2] > 0.0 && loop->contacts().empty(); }
+
+  double dt;
+  test::RisingSheet sheet;
+  test::Balls balls;
+  Hertz model;
+  std::optional<coupling::SurfaceExchange> exchange;
+  std::optional<contact::ContactLoop> loop;
+  long step_number = 0;
+};
+
+TEST(CorrectedOverlap, SolvesForTheLawsOwn) {
+  for (const double c : {3e-4, 1e-5, 0.0, -1e-5, -3e-3})
+    for (const double overlap : {1e-12, 1e-4, 3e-2}) {
+      const auto [x, s] = corrected_overlap(overlap, c, kK, 0.9);
+      EXPECT_NEAR(x - c * kK * x * std::sqrt(x), overlap, 1e-15 + 1e-13 * overlap) << c;
+      EXPECT_NEAR(s, 1.5 * c * kK * std::sqrt(x), 1e-9);
+    }
+}
+
+// x (1 - 2 s/3) has its largest value where s = 1: nothing beyond that has a solution, and nothing beyond the
+// limit is looked for.
+TEST(CorrectedOverlap, StopsAtTheLimit) {
+  const double c = 3e-4, at_limit = std::pow(0.7 / (1.5 * c * kK), 2),
+               overlap = at_limit * (1.0 - 2.0 / 3.0 * 0.7);
+  EXPECT_LT(corrected_overlap(0.999 * overlap, c, kK, 0.7).s, 0.7);
+  EXPECT_GE(corrected_overlap(1.001 * overlap, c, kK, 0.7).s, 0.7);
+  EXPECT_GE(corrected_overlap(100.0 * overlap, c, kK, 0.7).s, 0.7);
+}
+
+// m V^2/2 = 2/5 K x^(5/2) - c F^2/2 where the ball turns back.
+TEST(ComplianceCorrection, TheBallTurnsBackWhereItsEnergyIsAllInTheContact) {
+  const double c = 1.5e-4;
+  Ripples compliance(c, 0.0);
+  Scene scene(compliance, {0.3, 0.2, kRadius}, {0, 0, -1}, 1e-5);
+  scene.begin();
+  double peak = 0.0;
+  do {
+    scene.step();
+    peak = std::max(peak, scene.balls.force(0)[2]);
+  } while (!scene.is_over());
+  const double x = std::pow(peak / kK, 2.0 / 3.0);
+  EXPECT_NEAR(0.4 * peak * x - 0.5 * c * peak * peak, 0.5, 1e-7);
+  EXPECT_GT(1.5 * c * kK * std::sqrt(x), 0.25);
+  EXPECT_NEAR(scene.balls.velocity(0)[2], 1.0, 1e-7);
+}
+
+// Over the ripples of c a ball that slides while it bounces is accelerated and braked, and no energy is lost.
+TEST(ComplianceCorrection, ASlidingContactIsConservative) {
+  Ripples compliance(1.5e-4, 0.4);
+  for (const double phase : {0.0, 0.3, 0.7}) {
+    Scene scene(compliance, {-2.0 + phase, -1.1, kRadius}, {3, 1, -1}, 1e-5);
+    scene.begin();
+    double fastest = 0.0;
+    do {
+      scene.step();
+      fastest = std::max(fastest, std::abs(scene.balls.velocity(0)[0] - 3.0));
+    } while (!scene.is_over());
+    EXPECT_NEAR(scene.balls.velocity(0).squaredNorm(), 11.0, 2e-7) << phase;
+    EXPECT_GT(fastest, 1e-3);
+  }
+}
+
+TEST(ComplianceCorrection, ModelsSeeTheirOwnOverlapAndItsRate) {
+  const double c = 1.5e-4, overlap = 0.02;
+  Ripples compliance(c, 0.0);
+  Scene scene(compliance, {0.3, 0.2, kRadius - overlap}, {0.5, 0, -2}, 1e-5);
+  scene.begin();
+  const contact::Contact& seen = scene.model.seen;
+  const auto [x, s] = corrected_overlap(overlap, c, kK, 0.7);
+  EXPECT_NEAR(seen.overlap, x, 1e-15);
+  EXPECT_NEAR(seen.delta.norm(), kRadius - x, 1e-15);
+  EXPECT_NEAR(seen.wall_velocity[2], 2.0 / (1.0 - s) - 2.0, 1e-12);
+  EXPECT_EQ(seen.wall_velocity[0], 0.0);
+  // and others the geometry
+  EXPECT_NEAR(scene.loop->contacts()[0].overlap, overlap, 1e-15);
+  EXPECT_NEAR(scene.loop->contacts()[0].point[2], 0.0, 1e-15);
+}
+
+TEST(ComplianceCorrection, IsAsStiffAsItIsToTheTimeStep) {
+  const double overlap = 0.02, c = 1.5e-4;
+  const auto [x, s] = corrected_overlap(overlap, c, kK, 0.7);
+  const double tangent = 1.5 * kK * std::sqrt(x) / (1.0 - s);
+  for (const bool is_stable : {true, false}) {
+    Ripples compliance(c, 0.0);
+    Scene scene(compliance, {0.3, 0.2, kRadius - overlap}, {0, 0, 0},
+                (is_stable ? 1.999 : 2.001) / std::sqrt(tangent));
+    const nurbs::NodalVectors inverse_mass = nurbs::NodalVectors::Zero(3, 100);
+    if (is_stable)
+      EXPECT_NO_THROW(scene.begin(inverse_mass));
+    else
+      EXPECT_THAT([&] { scene.begin(inverse_mass); },
+                  ThrowsMessage<std::runtime_error>(HasSubstr("too stiff")));
+  }
+}
+
+TEST(ComplianceCorrection, SaysWhereElementsAreTooSmall) {
+  Ripples compliance(1e-3, 0.0);
+  Scene scene(compliance, {0.3, 0.2, kRadius - 0.01}, {0, 0, 0}, 1e-5);
+  EXPECT_THAT([&] { scene.begin(); },
+              ThrowsMessage<std::runtime_error>(
+                  AllOf(HasSubstr("elements at (0.3, 0.2, 0)"), HasSubstr("particle 1 at step 1"),
+                        HasSubstr("expected at most 0.7"), HasSubstr("or 'compliance none'"))));
+}
+
+}  // namespace

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Local compliances of meshes.  What a mesh gives way at a foot less its local compliance is the body's Green
+// function less the half-space's, so it must be the same on all meshes; on cubes the numbers are those of a
+// mesh without end.
+#include <gmock/gmock.h>
+
+#include <Eigen/Dense>
+#include <cmath>
+
+#include "models.h"
+#include "nurbs/primitives.h"
+#include "nurbs/refinement.h"
+#include "structure/compliance/compliance_tables.h"
+#include "structure/weld.h"
+
+namespace {
+
+using models::Matrix3;
+using models::NodalVectors;
+using models::Vector3;
+using nurbs::KnotVector;
+using nurbs::Volume;
+using structure::ComplianceTable;
+using structure::ComplianceTables;
+using structure::HalfSpace;
+using structure::Quadrature;
+using structure::ReferenceBody;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr double kNu = 0.286;
+
+ReferenceBody body_of(const Volume& patch, double E = 1.0, Quadrature quadrature = Quadrature::full) {
+  return {{patch}, {models::elastic(E, kNu)}, structure::without_welds({patch}), quadrature};
+}
+ReferenceBody block_body(const Vector3& size, const std::array<int, 3>& elements, int degree,
+                         Quadrature quadrature = Quadrature::full) {
+  return body_of(models::block(size, elements, degree), 1.0, quadrature);
+}
+const std::vector<structure::SkinPiece> kTop = {{0, nurbs::Face::zeta_plus}};
+
+/// A point of a top, parameters from 0 to 1.
+struct Top {
+  ReferenceBody body;
+  nurbs::Space<2> space = nurbs::boundary_surface(body.patches[0].space, nurbs::Face::zeta_plus).space;
+  int element(const nurbs::Parameter<2>& xi) const { return space.element_at(xi); }
+  double table(ComplianceTables& tables, const nurbs::Parameter<2>& xi,
+               ComplianceTable::Component component = ComplianceTable::normal) const {
+    return value(tables, xi, component).c;
+  }
+  ComplianceTable::Value value(ComplianceTables& tables, const nurbs::Parameter<2>& xi,
+                               ComplianceTable::Component component = ComplianceTable::normal) const {
+    const auto span = space.element_indices(element(xi));
+    nurbs::Parameter<2> low, high;
+    for (int d = 0; d < 2; ++d) {
+      low[d] = space.knots(d).breaks()[span[d]];
+      high[d] = space.knots(d).breaks()[span[d] + 1];
+    }
+    return tables.of(0, element(xi)).at(component, low, high, xi);
+  }
+};
+
+/// Normal displacement of the foot by a unit force there, the body held where `is_held(X)`: by conjugate
+/// gradients on the solid's own internal force.
+template <class IsHeld>
+double mesh_compliance(const ReferenceBody& body, const nurbs::Parameter<2>& xi, IsHeld is_held) {
+  const Volume& patch = body.patches[0];
+  const structure::Solid solid(patch, body.materials[0], {body.quadrature});
+  const structure::FaceSurface top(body, kTop[0]);
+  const structure::SkinPoint foot = top.at(top.space().element_at(xi), xi);
+  NodalVectors load = NodalVectors::Zero(3, solid.node_count()), free = load;
+  for (std::size_t a = 0; a < foot.R.size(); ++a) load.col(foot.nodes[a]) = foot.R[a] * foot.outward_normal;
+  for (int a = 0; a < solid.node_count(); ++a)
+    if (!is_held(patch.control_points.col(a))) free.col(a).setOnes();
+  NodalVectors r = load.cwiseProduct(free), u = 0.0 * r, d = r, q = r;
+  const double goal = 1e-20 * r.squaredNorm();
+  for (double rr = r.squaredNorm(); rr > goal;) {
+    solid.internal_force(d, q);
+    q = q.cwiseProduct(free);
+    const double step = rr / d.cwiseProduct(q).sum();
+    u += step * d;
+    r -= step * q;
+    const double next = r.squaredNorm();
+    d = r + next / rr * d;
+    rr = next;
+  }
+  return u.cwiseProduct(load).sum();
+}
+
+TEST(HalfSpace, IsInEquilibriumUnderTheForce) {
+  const Vector3 n = Vector3(1, -2, 3).normalized();
+  const HalfSpace half_space(2.0, kNu, n);
+  // deep enough that the plane through it has no force of its own: tractions on a sphere around the point of
+  // the force, as far as it is in the body, bear the force
+  Matrix3 sum = Matrix3::Zero();
+  const Matrix3 axes = nurbs::frame(Vector3::Zero(), -n).axes;
+  const nurbs::QuadratureRule polar = nurbs::gauss_legendre(8, 0.0, 1.0);
+  constexpr int kAround = 24;
+  for (int i = 0; i < 8; ++i)
+    for (int k = 0; k < kAround; ++k) {
+      const double z = polar.points[i], r = std::sqrt(1.0 - z * z), angle = nurbs::kTwoPi * k / kAround;
+      const Vector3 m = axes * Vector3(r * std::cos(angle), r * std::sin(angle), z);
+      sum += polar.weights[i] * nurbs::kTwoPi / kAround * half_space.traction(m, m);
+    }
+  EXPECT_LT((sum + Matrix3::Identity()).norm(), 1e-4);
+  // the surface is free
+  const Vector3 along = n.cross(Vector3(0, 1, 0));
+  EXPECT_LT(half_space.traction(along, n).norm(), 1e-14);
+  // and sinks by (1 - nu^2) / (pi E r) (Johnson 1985, eq. 3.22b)
+  EXPECT_NEAR(n.dot(half_space.displacement(2.0 * along) * n),
+              (1 - kNu * kNu) / (nurbs::kPi * 2.0 * 2.0 * along.norm()), 1e-15);
+}
+
+TEST(HalfSpace, TractionIsThatOfTheDisplacement) {
+  const HalfSpace half_space(2.0, kNu, Vector3::UnitZ());
+  const double mu = 1.0 / (1.0 + kNu), lambda = 2.0 * mu * kNu / (1.0 - 2.0 * kNu), step = 1e-4;
+  const auto stress = [&](const Vector3& x, int force) -> Matrix3 {
+    Matrix3 H;
+    for (int k = 0; k < 3; ++k)
+      H.col(k) = (half_space.displacement(x + step * Vector3::Unit(k)).col(force) -
+                  half_space.displacement(x - step * Vector3::Unit(k)).col(force)) /
+                 (2.0 * step);
+    return lambda * H.trace() * Matrix3::Identity() + mu * (H + H.transpose());
+  };
+  const Vector3 x(0.3, -0.5, -0.4), m = Vector3(1, 2, -2) / 3.0;
+  for (int force = 0; force < 3; ++force) {
+    EXPECT_LT((half_space.traction(x, m).col(force) - stress(x, force) * m).norm(), 1e-7);
+    Vector3 divergence = Vector3::Zero();
+    for (int k = 0; k < 3; ++k)
+      divergence += (half_space.traction(x + step * Vector3::Unit(k), Vector3::Unit(k)) -
+                     half_space.traction(x - step * Vector3::Unit(k), Vector3::Unit(k)))
+                        .col(force) /
+                    (2.0 * step);
+    EXPECT_LT(divergence.norm(), 1e-6);
+  }
+}
+
+// c E' h of cubes without end, from patches of ever more layers: 0.804, 0.997 and 1.274 (7 layers); 1.302,
+// 1.055 and 0.875 (5 layers).
+TEST(Compliance, OfCubesIsThatOfAMeshWithoutEnd) {
+  const std::pair<int, std::array<double, 3>> cases[] = {{2, {0.8043, 0.9968, 1.2741}},
+                                                         {3, {1.3024, 1.0553, 0.8751}}};
+  for (const auto& [degree, expected] : cases) {
+    const Top top{block_body({18, 18, 8}, {18, 18, 8}, degree)};
+    ComplianceTables tables(top.body, kTop);
+    const double E_plane = 1.0 / (1.0 - kNu * kNu), h = 1.0 / 18;
+    EXPECT_NEAR(E_plane * top.table(tables, {0.5, 0.5}), expected[0], 0.007 * expected[0]);
+    EXPECT_NEAR(E_plane * top.table(tables, {0.5 + 0.5 * h, 0.5}), expected[1], 0.007 * expected[1]);
+    EXPECT_NEAR(E_plane * top.table(tables, {0.5 + 0.5 * h, 0.5 + 0.5 * h}), expected[2],
+                0.007 * expected[2]);
+    EXPECT_NEAR(top.table(tables, {0.5, 0.5}, ComplianceTable::first),
+                top.table(tables, {0.5, 0.5}, ComplianceTable::second), 1e-9);
+  }
+}
+
+struct Place {
+  const char* where;
+  double x, y, tolerance;
+};
+
+// A cube of 6 on a rigid base: what is left of the mesh's answer must not depend on the mesh, however near to
+// an edge or a corner.
+TEST(Compliance, LeavesTheBodyWhatIsItsOwn) {
+  const double size = 6.0;
+  const auto on_base = [](const Vector3& X) { return X[2] < 1e-9; };
+  const Place places[] = {{"corner of elements", 3, 3, 0.04},
+                          {"centre of an element", 2.5, 2.5, 0.04},
+                          {"1 from an edge", 1, 3, 0.03},
+                          {"1/2 from an edge", 0.5, 3, 0.06},
+                          {"1/2 from a corner", 0.5, 0.5, 0.04}};
+  for (const Place& place : places) {
+    std::vector<double> left;
+    for (const auto& [degree, elements, quadrature] : {std::tuple{2, 6, Quadrature::full},
+                                                       {2, 12, Quadrature::full},
+                                                       {2, 6, Quadrature::reduced},
+                                                       {2, 12, Quadrature::reduced},
+                                                       {3, 6, Quadrature::full}}) {
+      const ReferenceBody body =
+          block_body({size, size, 4}, {elements, elements, elements * 2 / 3}, degree, quadrature);
+      const Top top{body};
+      const nurbs::Parameter<2> xi = {place.x / size, place.y / size};
+      ComplianceTables tables(body, kTop);
+      const double c = tables.direct(0, top.element(xi), xi)(2, 2);
+      left.push_back(mesh_compliance(body, xi, on_base) - c);
+      EXPECT_GT(c, 0.7);
+    }
+    EXPECT_LT(*std::max_element(left.begin(), left.end()) - *std::min_element(left.begin(), left.end()),
+              place.tolerance)
+        << place.where << ": " << testing::PrintToString(left);
+  }
+}
+
+// Bending of a thin plate stays in the mesh.
+TEST(Compliance, LeavesAPlateItsBending) {
+  const auto on_sides = [](const Vector3& X) { return std::min({X[0], X[1], 8 - X[0], 8 - X[1]}) < 1e-9; };
+  std::vector<double> left, of_mesh;
+  for (const int layers : {2, 3, 4}) {
+    const ReferenceBody body = block_body({8, 8, 1}, {8 * layers, 8 * layers, layers}, 2);
+    const Top top{body};
+    ComplianceTables tables(body, kTop);
+    of_mesh.push_back(mesh_compliance(body, {0.5, 0.5}, on_sides));
+    left.push_back(of_mesh.back() - top.table(tables, {0.5, 0.5}));
+  }
+  EXPECT_NEAR(left[0], left[2], 0.04) << testing::PrintToString(left);  // the mesh bends by so much less
+  EXPECT_NEAR(left[1], left[2], 0.011);
+  EXPECT_GT(of_mesh[2] - of_mesh[0], 1.5);
+}
+
+TEST(Compliance, ATableHoldsWhatAnyPointOfItsElementHas) {
+  for (const int degree : {2, 3})
+    for (const int layers : {1, 6}) {
+      const Top top{block_body({12, 12, double(layers)}, {12, 12, layers}, degree)};
+      ComplianceTables tables(top.body, kTop);
+      const double tolerance = layers == 1 ? 5e-4 : 1e-7;
+      for (const nurbs::Parameter<2> xi : {nurbs::Parameter<2>{0.52, 0.57}, {0.5417, 0.51}}) {
+        const Matrix3 c = tables.direct(0, top.element(xi), xi);
+        EXPECT_NEAR(top.table(tables, xi), c(2, 2), tolerance * c(2, 2));
+        EXPECT_NEAR(top.table(tables, xi, ComplianceTable::first), c(0, 0), tolerance * c(0, 0));
+        EXPECT_NEAR(top.table(tables, xi, ComplianceTable::second), c(1, 1), tolerance * c(1, 1));
+        const double step = 1e-5;
+        for (int d = 0; d < 2; ++d) {
+          nurbs::Parameter<2> before = xi, after = xi;
+          before[d] -= step;
+          after[d] += step;
+          EXPECT_NEAR(top.value(tables, xi).change[d],
+                      (top.table(tables, after) - top.table(tables, before)) / (2.0 * step), 1e-5);
+        }
+      }
+    }
+}
+
+TEST(Compliance, IsThatOfTheBodyWhereverItStandsAndInAnyUnits) {
+  const Volume patch = models::distorted(models::block({9, 9, 4}, {9, 9, 4}, 2), 0.1);
+  const Top top{body_of(patch)};
+  ComplianceTables tables(top.body, kTop);
+  Volume moved = patch;
+  const Matrix3 turn = nurbs::frame(Vector3::Zero(), Vector3(1, 2, 3), Vector3(1, 0, 0)).axes;
+  moved.control_points = (0.5 * turn * patch.control_points).colwise() + Vector3(10, 20, 30);
+  ComplianceTables of_moved(body_of(moved, 4.0), kTop);
+  for (const auto component :
+       {ComplianceTable::normal, ComplianceTable::first, ComplianceTable::first_normal}) {
+    const double c = top.table(tables, {0.53, 0.47}, component);
+    EXPECT_NEAR(top.table(of_moved, {0.53, 0.47}, component), 0.5 * c, 1e-9);
+  }
+}
+
+// 7 x 7 x 4 elements are all that take part: nothing is held, springs do.
+TEST(Compliance, OfAWholeBodyIsThatOfAPieceOfALargerOne) {
+  const Top small{block_body({7, 7, 4}, {7, 7, 4}, 2)}, large{block_body({15, 15, 8}, {15, 15, 8}, 2)};
+  ComplianceTables of_small(small.body, kTop), of_large(large.body, kTop);
+  for (const double x : {0.0, 0.5})
+    EXPECT_NEAR(small.table(of_small, {(3 + x) / 7, 3.5 / 7}),
+                large.table(of_large, {(7 + x) / 15, 7.5 / 15}), 0.008 * 1.2);
+}
+
+TEST(Compliance, GoesAcrossWelds) {
+  const KnotVector whole(2, {0, 0, 0, 1, 2, 3, 3, 4, 5, 6, 6, 6}),
+      half = KnotVector::uniform(2, 3, 0, 3), y = KnotVector::uniform(2, 6), z = KnotVector::uniform(2, 4);
+  const Top one{body_of(nurbs::box(Vector3::Zero(), {6, 6, 4}, {whole, y, z}))};
+  const std::vector<Volume> halves = {nurbs::box(Vector3::Zero(), {3, 6, 4}, {half, y, z}),
+                                      nurbs::box({3, 0, 0}, {3, 6, 4}, {half, y, z})};
+  ComplianceTables tables(one.body, kTop);
+  ComplianceTables of_halves(
+      {halves, {models::elastic(1.0, kNu), models::elastic(1.0, kNu)}, structure::weld(halves)}, kTop);
+  const nurbs::Parameter<2> xi = {2.6, 0.55};  // in the element beside the weld
+  EXPECT_NEAR((of_halves.direct(0, 2 + 3 * 3, xi) - tables.direct(0, 2 + 6 * 3, xi)).norm(), 0.0, 1e-10);
+}
+
+TEST(Compliance, ElementsThatSeeTheSameShareATable) {
+  const Top top{block_body({20, 20, 6}, {20, 20, 6}, 2)};
+  ComplianceTables tables(top.body, kTop);
+  const ComplianceTable* const one = &tables.of(0, 11 + 20 * 12);
+  for (int j = 6; j < 14; ++j)
+    for (int i = 6; i < 14; ++i) EXPECT_EQ(&tables.of(0, i + 20 * j), one);
+  EXPECT_EQ(tables.made(), 1);
+  EXPECT_NE(&tables.of(0, 3 + 20 * 12), one);  // an edge comes into reach
+  EXPECT_EQ(tables.made(), 2);
+}
+
+// A graded mesh has elements of one size with others of several sizes beside them.
+TEST(Compliance, ASharedTableIsThatOfTheElementItself) {
+  std::vector<double> breaks{0};
+  for (int e = 0; e < 40; ++e) breaks.push_back(breaks.back() + (e < 9 ? 1.5 : e < 26 ? 1.0 : 0.8));
+  const KnotVector x = KnotVector::from_breaks(2, breaks), y = KnotVector::uniform(2, 9, 0, 9),
+                   z = KnotVector::uniform(2, 4, 0, 4);
+  const Top top{body_of(nurbs::box(Vector3::Zero(), {breaks.back(), 9, 4}, {x, y, z}))};
+  ComplianceTables tables(top.body, kTop);
+  int asked = 0;
+  for (int e = 9; e < 29; e += 2, ++asked) {
+    const nurbs::Parameter<2> xi = {0.3 * breaks[e] + 0.7 * breaks[e + 1], 4.6};
+    const double direct = tables.direct(0, top.element(xi), xi)(2, 2);
+    EXPECT_NEAR(top.table(tables, xi), direct, 2e-6 * direct) << e;
+  }
+  EXPECT_LT(tables.made(), asked);
+}
+
+TEST(Compliance, RefusesWhatItDoesNotKnow) {
+  const Volume patch = models::block({3, 3, 3}, {3, 3, 3}, 2);
+  const auto of_law = [&](std::shared_ptr<const structure::Material> law) {
+    return [=] { ComplianceTables({{patch}, {law}, structure::without_welds({patch})}, kTop); };
+  };
+  for (const structure::MaterialLaw& law : structure::material_laws()) {
+    if (law.word == std::string("orthotropic_elastic"))
+      EXPECT_THAT(of_law(models::make_law(law)),
+                  ThrowsMessage<std::invalid_argument>(HasSubstr("given 'orthotropic_elastic'")));
+    else
+      EXPECT_NO_THROW(of_law(models::make_law(law))());
+  }
+  const Volume quartic = models::block({5, 5, 5}, {5, 5, 5}, 4);
+  EXPECT_THAT([&] { ComplianceTables(body_of(quartic), kTop); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("degrees 2 and 3, given 4, 4, 4")));
+  EXPECT_THAT([&] { ComplianceTables(body_of(patch, 1.0, Quadrature::zou), kTop); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("given 'zou'")));
+  ComplianceTables flat(block_body({40, 40, 2}, {9, 9, 170}, 2), kTop);
+  EXPECT_THAT([&] { flat.of(0, 4 + 9 * 4); }, ThrowsMessage<std::invalid_argument>(HasSubstr("too flat")));
+}
+
+}  // namespace

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`compliance corrected` in decks: the same digits on any number of ranks and over restarts, momentum, forces on two meshes, and
+elements that are too small."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import ball_on_block as bob
+import decks
+
+CORRECTED = "structure block.yaml surface top compliance corrected"
+GLASS = (74.6e9, 0.2285)
+MODELS = "model hertz tangential history"
+SETTINGS = dict(ball=GLASS, wall=GLASS, restitution=0.95, friction=0.3, models=MODELS, timestep=1e-8, velocity=(0.4, -0.3, -1.0))
+BALLS = ((0.0, 0.0, 1e-3), (-4e-3, 3e-3, 1.0003e-3), (5e-3, 3.1e-3, 1.0008e-3), (4e-3, -3e-3, 1.0005e-3))
+COLUMNS = tuple(range(1, 22))
+
+
+def glass(size, elements, fixed=("zeta-",)):
+    return bob.block(size=size, elements=elements, youngs_modulus=GLASS[0], nu=GLASS[1], density=2480.0, fixed=fixed)
+
+
+PLATE = glass((16e-3, 12e-3, 1e-3), (34, 18, 1), ("xi-", "xi+", "eta-", "eta+"))
+
+
+class Ranks(unittest.TestCase):
+    def bounce(self, ranks=1, processors="1 1 1", words=CORRECTED):
+        deck = bob.prelude(balls=BALLS, processors=processors, **SETTINGS) + bob.wall(MODELS, words) + bob.output(COLUMNS)
+        return decks.good(deck + "run 500\n", files={"block.yaml": PLATE}, ranks=ranks).table
+
+    def test_same_history_on_1_2_and_4_ranks(self):
+        one = self.bounce()
+        self.assertEqual(one["plate7"].max(), 4)
+        for ranks, processors in ((2, "2 1 1"), (4, "2 2 1")):
+            more = self.bounce(ranks, processors)
+            for column in one:
+                if column.startswith("plate"):
+                    self.assertTrue((more[column] == one[column]).all(), f"{column} on {ranks} ranks")
+
+    def test_momentum_goes_from_the_ball_to_the_block(self):
+        """Of a free block: the force along the surface has its reaction."""
+        deck = bob.prelude(**SETTINGS | dict(friction=0.0, timestep=5e-9)) + bob.wall(MODELS, CORRECTED)
+        deck += bob.output((9, 10, 11)) + "run 200\n"
+        table = decks.good(deck, files={"block.yaml": glass((4e-3, 4e-3, 2e-3), (12, 12, 6), ())}).table
+        mass = 4.0 / 3.0 * np.pi * bob.RADIUS**3 * bob.DENSITY
+        for v, p in (("vx", "plate9"), ("vy", "plate10"), ("vz", "plate11")):
+            total = mass * table[v] + table[p]
+            self.assertLess(np.abs(total - total[0]).max(), 1e-12 * mass, v)
+        self.assertGreater(np.abs(table["plate11"]).max(), 1e-7 * mass)
+
+
+class Restart(unittest.TestCase):
+    def test_a_run_goes_on_in_a_contact_to_the_last_bit(self):
+        wall = bob.wall(MODELS, CORRECTED) + bob.output((3, 7, 15))
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "block.yaml").write_text(PLATE)
+            first = decks.run_in(Path(folder), bob.prelude(**SETTINGS) + wall + "run 260\nwrite_restart contact\nrun 60\n")
+            again = decks.run_in(Path(folder), bob.prelude(restart="contact", **SETTINGS) + wall + "run 60\n")
+        self.assertEqual((first.code, again.code), (0, 0), first.text[-2000:] + again.text[-2000:])
+        whole, rest = first.tables[-1], again.tables[-1]
+        self.assertEqual(whole["plate7"].min(), 1.0)
+        for column in whole:
+            self.assertTrue((whole[column] == rest[column]).all(), column)
+
+
+class Meshes(unittest.TestCase):
+    def peak(self, elements, words=CORRECTED):
+        deck = bob.prelude(**SETTINGS | dict(restitution=1.0, friction=0.0, velocity=(0, 0, -1))) + bob.wall(MODELS, words)
+        block = glass((4e-3, 4e-3, 2e-3), elements)
+        return -decks.good(deck + bob.output((3,)) + "run 500\n", files={"block.yaml": block}).table["plate3"].min()
+
+    def test_a_finer_mesh_has_the_same_force(self):
+        coarse, fine = ((8, 8, 4), (16, 16, 8))
+        self.assertLess(abs(self.peak(fine) / self.peak(coarse) - 1.0), 4e-3)
+        without = CORRECTED.replace("corrected", "none")
+        self.assertLess(self.peak(fine, without) / self.peak(coarse, without), 0.975)
+
+    def test_elements_that_are_too_small_stop_the_run(self):
+        deck = bob.prelude(**SETTINGS | dict(timestep=1e-9, velocity=(0, 0, -20))) + bob.wall(MODELS, CORRECTED) + bob.output(())
+        run = decks.run(deck + "run 4000\n", files={"block.yaml": glass((1e-3, 1e-3, 0.5e-3), (12, 12, 6))})
+        self.assertNotEqual(run.code, 0)
+        self.assertRegex(run.errors[0], "elements at .* too small for the contact of particle 1 .* or 'compliance none'")
+
+
+if __name__ == "__main__":
+    unittest.main()
