@@ -72,20 +72,44 @@ void Minima::add_of_edge(int number, int visiting) {
   add_in_wedge(uses, visiting, {at, foot.q, slack});
 }
 
-// Of a point where d is square above the face: on a curved one it can be the farthest, beyond the centre.
-bool Minima::is_nearest_of_whole(const EdgeUse& use, int number, const EdgePoint& at) const {
+// Of a point where d is square above the face: on a curved one it can be the farthest, beyond the centre. The
+// edge may be off the face by the slack.
+bool Minima::is_nearest_of_whole(const EdgeUse& use, int number, const OnEdge& on) const {
   const Face& shape = surface_.faces[use.face];
   if (shape.kind == Kind::plane) return true;
-  const double distance = (d_ - at.point).norm();
-  if (shape.kind == Kind::nurbs)
-    return is_lowest_beside(use.face, parameters_at(surface_, number, at), distance);
-  return distance <= (1.0 + kSame) * shape.distance_of_whole(d_);
+  if (shape.kind == Kind::nurbs) {
+    const Parameter<2> xi = parameters_at(surface_, number, on.at);
+    return is_lowest_beside(use.face, xi, (d_ - surface_.patches->point(shape.patch, xi)).norm());
+  }
+  return (d_ - on.at.point).norm() <= (1.0 + kSame) * shape.distance_of_whole(d_) + on.slack;
 }
 
-// Whether a face does not fall towards d from its edge.
+// Whether a face does not fall towards d from its edge.  Over a face that bends away from it d may be farther
+// inside of the border than its foot is.
 bool Minima::is_off(const EdgeUse& use, int number, const OnEdge& on) const {
+  constexpr double kMostBent = 1000.0;
   const double into = on.q[0] * use.conormal[0] + on.q[1] * use.conormal[1];
-  return into < -on.slack || (into <= on.slack && is_nearest_of_whole(use, number, on.at));
+  if (into < -on.slack) return true;
+  if (into > on.slack && (into > kMostBent * on.slack || !has_foot_beside(use, number, on))) return false;
+  return is_nearest_of_whole(use, number, on);
+}
+
+// Whether the foot on all of the surface that a face is cut from is no farther inside of the face's border
+// than the slack.
+bool Minima::has_foot_beside(const EdgeUse& use, int number, const OnEdge& on) const {
+  const Face& shape = surface_.faces[use.face];
+  if (shape.kind == Kind::plane || !surface_.trimmed()) return false;
+  Vector3 foot, normal;
+  if (shape.kind == Kind::nurbs) {
+    const Parameter<2> xi = parameters_at(surface_, number, on.at);
+    foot = surface_.patches->projector(shape.patch).warm(d_, xi).point;
+    normal = surface_.patches->normal(shape.patch, xi);
+  } else {
+    const Projection at = shape.project(d_);
+    foot = at.point, normal = at.normal;
+  }
+  const Vector3 inward = use.along * normal.cross(on.at.tangent);
+  return inward.dot(foot - on.at.point) <= on.slack;
 }
 
 void Minima::add_in_wedge(const Uses& uses, int visiting, const OnEdge& on) {
@@ -110,7 +134,7 @@ void Minima::add_square_above(const Uses& uses, const OnEdge& on) {
   for (const EdgeUse& use : uses) {
     const double* m = use.conormal;
     if (std::abs(on.q[0] * m[0] + on.q[1] * m[1]) > on.slack ||
-        !is_nearest_of_whole(use, uses.number(use), on.at))
+        !is_nearest_of_whole(use, uses.number(use), on))
       continue;
     const bool ahead = m[0] * on.q[1] - m[1] * on.q[0] > 0.0;  // in the wedge that begins at the face
     const EdgeUse& other = ahead ? uses.next(use) : uses.before(use);

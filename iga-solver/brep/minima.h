@@ -73,14 +73,15 @@ class Minima {
   // Of an edge as seen from a face that meets it by this use, or from all; of a vertex from one face, or all.
   static constexpr int kAll = -1;
   void add_of_edge(int edge, int visiting);
-  bool is_nearest_of_whole(const EdgeUse& use, int number, const EdgePoint& at) const;
   bool is_lowest_beside(int face, const Parameter<2>& xi, double distance) const;
   struct OnEdge {
     const EdgePoint& at;
     const double* q;
     double slack;
   };
+  bool is_nearest_of_whole(const EdgeUse& use, int number, const OnEdge& on) const;
   bool is_off(const EdgeUse& use, int number, const OnEdge& on) const;
+  bool has_foot_beside(const EdgeUse& use, int number, const OnEdge& on) const;
   void add_in_wedge(const Uses& uses, int visiting, const OnEdge& on);
   void add_square_above(const Uses& uses, const OnEdge& on);
   void add_of_vertex(int vertex, int face);

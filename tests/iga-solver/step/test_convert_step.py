@@ -3,6 +3,7 @@
 
 import os
 import re
+import shutil
 import subprocess
 import tempfile
 import time
@@ -136,6 +137,19 @@ class ConvertStep(unittest.TestCase):
             self.assertEqual(len(re.findall(f"(?m)^  face.*colour:{colour}", page)), count, colour)
         self.assertRegex(page, "face:24 'top' plane, area 12800, colour:FF8800")
         self.assertEqual(self.places("nested.igs")[1], sorted(self.places("nested.step")[1]))
+
+    def test_without_the_program_that_reads_step(self):
+        """As where OpenCASCADE was not found; what was converted before is read all the same."""
+        self.converted("box.step", "kept.h5")
+        with tempfile.TemporaryDirectory() as elsewhere:
+            alone = shutil.copy(NURBS_CONVERT, elsewhere)
+            for name in ("box.step", "frustum.igs"):
+                done = subprocess.run([alone, name], cwd=self.folder, capture_output=True, text=True, check=False)
+                self.assertEqual(done.returncode, 1)
+                said = rf"^ERROR: {name}: STEP and IGES are read by the program 'nurbs-read-step', .*OpenCASCADE.*take a file that nurbs-convert wrote \(.h5\).*\n$"
+                self.assertRegex(done.stderr, said)
+            done = subprocess.run([alone, "kept.h5"], cwd=self.folder, capture_output=True, text=True, check=False)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
 
     def test_what_was_healed(self):
         """A solid that lacks a face; edges of a loop out of turn; faces side by side; angles along an arc."""
