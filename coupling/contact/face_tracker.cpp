@@ -279,7 +279,8 @@ void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
     feet_[0].slot = 0;
   else if (slots.used() > 0)
     match_nearest(query, slots);
-  if (!found_.empty() && found_[0].distance < 0.0) drop_feet_through_bodies(query);
+  const auto is_behind = [](const brep::Foot& foot) { return foot.distance < 0.0; };
+  if (std::any_of(found_.begin(), found_.end(), is_behind)) drop_feet_through_bodies(query);
   State& state = states_[query.candidate];
   state.sheet = found_.size() == 1 ? found_[0].sheet : -1;
   if (found_.empty()) return;

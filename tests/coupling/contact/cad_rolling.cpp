@@ -45,9 +45,16 @@ struct Crossing {
   int face[2];
   brep::Wedge wedge;
   double gap;                                       // tolerance of the edge [mm]
+  Vector3 bent;                                     // curvature vector of the edge [1/mm]
   double turn() const { return to - from - M_PI; }  // of the normal; < 0: concave
   Vector3 direction(double angle) const { return std::cos(angle) * u + std::sin(angle) * v; }
 };
+
+Vector3 curvature_of(const brep::Surface& wall, const brep::Edge& edge, double part) {
+  constexpr double kBeside = 1e-4;
+  const brep::EdgePoint a = at_part(wall, edge, part - kBeside), b = at_part(wall, edge, part + kBeside);
+  return (b.tangent - a.tangent) / (b.point - a.point).norm();
+}
 
 std::vector<Crossing> crossings(const brep::Surface& wall, int number, double part) {
   const brep::Edge& edge = wall.edges[number];
@@ -66,7 +73,8 @@ std::vector<Crossing> crossings(const brep::Surface& wall, int number, double pa
                       std::atan2(next.conormal[1], next.conormal[0]),
                       {use.face, next.face},
                       use.wedge,
-                      std::max(wall.slack_of_edge(number), 1e-9 * wall.size)};
+                      std::max(wall.slack_of_edge(number), 1e-9 * wall.size),
+                      curvature_of(wall, edge, part)};
     if (crossing.to <= crossing.from + 1e-9) crossing.to += 2.0 * M_PI;
     found.push_back(crossing);
   }
@@ -90,8 +98,10 @@ class Rolling {
           roll(crossing);
         }
     fmt::print(
-        "{} edges, {} ways, {} without room; {} places, largest jump {:.3g} of what may be; wrong: {}\n",
-        wall_->edges.size(), ways_, no_room_, places_, worst_, wrong_);
+        "{} edges, {} ways, {} without room, {} hollows, {} pressed through; {} places, largest jump {:.3g} "
+        "of what "
+        "may be; wrong: {}\n",
+        wall_->edges.size(), ways_, no_room_, hollows_, pressed_, places_, worst_, wrong_);
   }
   int wrong() const { return wrong_; }
 
@@ -144,6 +154,39 @@ class Rolling {
     return way;
   }
 
+  // In a hollow edge the ball presses on both faces that BRepExtrema says are in reach.
+  void expect_both(const Vector3& c) {
+    move_to(c);
+    std::size_t in_reach = 0;
+    for (const int face : crossing_->face)
+      in_reach += judge_.nearest_on(face, {c[0], c[1], c[2]}).distance < radius_ - crossing_->gap ? 1 : 0;
+    ++hollows_;
+    if (in_reach == 2 && crossing_->face[0] != crossing_->face[1] && state_.faces.size() < 2)
+      complain(fmt::format("{} contacts in a hollow of two faces", state_.faces.size()));
+  }
+
+  // Through the skin of a body, across the edge behind it, and out again: on the side that it came from.
+  void press_through(const Crossing& crossing) {
+    constexpr double kBehind = 0.1, kAcross = 0.2;  // of the radius
+    constexpr int kSteps = 20;
+    const Vector3 up = crossing.direction(0.5 * (crossing.from + crossing.to)),
+                  on = crossing.direction(crossing.from);
+    const auto press = [&](double across, double height) {
+      move_to(crossing.place + radius_ * (across * on + height * up));
+      const double overlap = state_.force.norm(), expected = radius_ * (1.0 - height);
+      if (!(std::abs(overlap - expected) < 0.1 * radius_) || !(state_.force.dot(up) > 0.9 * overlap))
+        complain(fmt::format(
+            "pressed to {:.3g} of its radius it is pushed by {:.4g} in place of {:.4g}, {:.3g} of this "
+            "outwards, by {} contacts",
+            height, overlap, expected, state_.force.dot(up) / overlap, state_.faces.size()));
+    };
+    ++pressed_;
+    move_to(Vector3::Constant(1e5));
+    for (int k = 0; k <= kSteps; ++k) press(kAcross, 0.9 - (0.9 + kBehind) * k / kSteps);
+    for (int k = 0; k <= kSteps; ++k) press(kAcross - 2.0 * kAcross * k / kSteps, -kBehind);
+    for (int k = 0; k <= kSteps; ++k) press(-kAcross, -kBehind + (0.9 + kBehind) * k / kSteps);
+  }
+
   // Straight on over a free edge, be there another one beside it or nothing, on the side that `up` [rad]
   // leads to.
   std::vector<Vector3> way_on(const Crossing& crossing, double up) const {
@@ -161,7 +204,12 @@ class Rolling {
 
   void roll(const Crossing& crossing) {
     crossing_ = &crossing;
-    roll_along(way_over(crossing));
+    const std::vector<Vector3> way = way_over(crossing);
+    roll_along(way);
+    if (crossing.wedge == brep::Wedge::concave && has_room(way)) expect_both(way[way.size() / 2]);
+    if (crossing.wedge == brep::Wedge::smooth && wall_->faces[crossing.face[0]].outward != 0 &&
+        has_room(way) && radius_ < 0.01 * wall_->size)
+      press_through(crossing);
     if (crossing.face[0] != crossing.face[1] || crossing.turn() < 0.5 * M_PI) return;
     for (const double side : {0.5, -0.5}) roll_along(way_on(crossing, crossing.from + side * M_PI));
   }
@@ -172,10 +220,20 @@ class Rolling {
     return false;
   }
 
+  // Where the edge bends round the ball's way more tightly than the ball: beyond the centre of the bend its
+  // foot there is the farthest one, and feet elsewhere are the nearest.
+  bool passes_centre(const std::vector<Vector3>& way) const {
+    const auto beyond = [&](const Vector3& c) {
+      return crossing_->bent.dot(c - crossing_->place) > 1.0 - 1e-3;
+    };
+    return std::any_of(way.begin(), way.end(), beyond);
+  }
+
   bool has_room(const std::vector<Vector3>& way) const {
     if (way.empty()) return false;
     for (std::size_t k = 1; k < way.size(); ++k)
       if ((way[k] - way[k - 1]).norm() > 0.5 * radius_) return false;
+    if (passes_centre(way)) return false;
     const Vector3& middle = way[way.size() / 2];
     return !is_in_a_body(way.front()) && !is_in_a_body(middle) && !is_in_a_body(way.back()) &&
            !is_behind(crossing_->place, middle);
@@ -255,7 +313,22 @@ class Rolling {
     const bool hollow = crossing_->wedge == brep::Wedge::smooth_concave && own > kJump;
     const double turn = hollow ? wall_->edge_angle : crossing_->wedge == brep::Wedge::smooth ? own : 0.0;
     return 3.0 * (a.centre - b.centre).norm() + (kJump + turn) * std::max(a.force.norm(), b.force.norm()) +
-           crossing_->gap;
+           std::max(crossing_->gap, gap_between(a.faces, b.faces));
+  }
+
+  // The largest tolerance of edges at which these faces meet.
+  double gap_between(const std::vector<int>& a, const std::vector<int>& b) const {
+    const auto has = [&](int face) {
+      return std::count(a.begin(), a.end(), face) + std::count(b.begin(), b.end(), face) > 0;
+    };
+    double most = 0.0;
+    for (int e = 0; e < static_cast<int>(wall_->edges.size()); ++e) {
+      const brep::Edge& edge = wall_->edges[e];
+      bool all = true;
+      for (int u = edge.first_use; u < edge.first_use + edge.use_count; ++u) all &= has(wall_->uses[u].face);
+      if (all) most = std::max(most, wall_->slack_of_edge(e));
+    }
+    return most;
   }
 
   void compare(const State& a, const State& b, int halvings) {
@@ -294,7 +367,7 @@ class Rolling {
   test::BallsOnWall scene_;
   State state_;
   const Crossing* crossing_ = nullptr;
-  int edge_ = 0, ways_ = 0, no_room_ = 0, wrong_ = 0;
+  int edge_ = 0, ways_ = 0, no_room_ = 0, hollows_ = 0, pressed_ = 0, wrong_ = 0;
   long places_ = 0;
   double radius_ = 0.0, worst_ = 0.0;
 };

@@ -2,6 +2,7 @@
 // Balls whose centre passes the skin of a body: they stay on the side that they came from.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
@@ -33,9 +34,10 @@ RigidSurface thin_sheet(bool as_patches, int outward) {
   nurbs::NodalVectors points(3, 8);
   for (int k = 0; k < 8; ++k)
     points.col(k) << (k & 1 ? 4 : -4), (k & 2 ? 4 : -4), (k & 4 ? 0.0 : -kThickness);
-  return body_of(brep::from_triangles(points, {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
-                                               2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5}),
-                 as_patches, outward);
+  std::vector<int> triangles{0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                             2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  if (outward < 0) std::reverse(triangles.begin(), triangles.end());  // normals into the body
+  return body_of(brep::from_triangles(points, triangles), as_patches, outward);
 }
 
 /// Along y, of radius 2.
@@ -75,6 +77,25 @@ TEST(DeepOverlap, InThinSheetComesOutWhereItWentIn) {
           EXPECT_EQ(scene.spring.seen[0].inside, height < -1e-9) << height;
         }
       }
+}
+
+// A centre that comes to be exactly on the skin is not behind it yet; the far skin, behind which it would be,
+// pushes it no more than before.
+TEST(DeepOverlap, ExactlyOnTheSkinItMeetsThatAlone) {
+  for (const int outward : {1, -1})
+    for (const double side : {1.0, -1.0}) {
+      RigidSurface wall = thin_sheet(false, outward);
+      Balls balls(3, 1);
+      const double skin = side > 0.0 ? 0.0 : -kThickness;
+      balls.add({0.3, 0.1, skin + 0.25 * side}, kRadius);
+      BallsOnWall scene(wall, balls, 1.0, 1.0);
+      for (const double height : {0.125, 0.0, -0.0625, 0.0, 0.125}) {
+        scene.balls.centre(0)[2] = skin + side * height;
+        scene.evaluate();
+        ASSERT_EQ(scene.spring.seen.size(), 1u) << outward << ' ' << side << ' ' << height;
+        EXPECT_NEAR(scene.balls.force(0)[2], side * (kRadius - height), 1e-8);
+      }
+    }
 }
 
 TEST(DeepOverlap, OnARodItRollsOnBehindTheSkin) {
