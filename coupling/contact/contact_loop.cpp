@@ -103,7 +103,7 @@ void ContactLoop::step(const ParticleView& particles, const StepInfo& step, Cont
     const std::size_t first = contacts_.size();
     int count = 0;
     candidate = next_block(particles, step, candidate, queries, count);
-    if (steady) go_on(particles, step, *steady, queries, count);
+    if (steady) take_steady(particles, step, *steady, queries, count);
     tracker_->follow(queries, count);
     for (int k = 0; k < count; ++k) find_contacts(particles, step, queries[k]);
     answer(particles, step, model, observer, first);
@@ -138,13 +138,15 @@ inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo
 }
 
 // Those that may be steady become contacts, or queries.
-inline void ContactLoop::go_on(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady,
-                               FeetTracker::Query* queries, int& count) {
+inline void ContactLoop::take_steady(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady,
+                                     FeetTracker::Query* queries, int& count) {
   if (steady.count() == 0) return;
   steady.find();
+  const int others = count;
   for (int k = 0; k < steady.count(); ++k)
     if (!steady.is_there(k) || !go_on(particles, step, steady, steady.foot(k)))
       queries[count++] = query_of(particles, step, steady.candidate(k));
+  searches_.add_interior(steady.count() - (count - others));
 }
 
 FeetTracker::Query ContactLoop::query_of(const ParticleView& particles, const StepInfo& step,

@@ -108,8 +108,8 @@ class ContactLoop {
                  FeetTracker::Query* queries, int& count);
   FeetTracker::Query query_of(const ParticleView& particles, const StepInfo& step, int candidate) const;
   double squared_travel(const ParticleView& particles, int particle) const;
-  void go_on(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady,
-             FeetTracker::Query* queries, int& count);
+  void take_steady(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady,
+                   FeetTracker::Query* queries, int& count);
   bool go_on(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady, const SteadyFoot& foot);
   void find_contacts(const ParticleView& particles, const StepInfo& step, const FeetTracker::Query& query);
   bool may_cross(const ParticleView& particles, const StepInfo& step, int particle, double distance) const;

@@ -209,7 +209,7 @@ TEST(FaceWall, RowsReadLaterAreThoseOfTheStep) {
   Balls balls;
   balls.add({0.7, -0.4, 0.9 * kRadius}, kRadius);
   balls.add({-2.1, 1.3, 0.95 * kRadius}, kRadius);
-  BallsOnWall scene(wall, balls, 10.0, kStep);
+  BallsOnWall scene(wall, balls, 40.0, kStep);
   for (int step = 0; step < 20; ++step) scene.step();
   const coupling::RigidFrame frame = wall.frame();
   const std::vector<Vector3> centres = {scene.balls.centre(0), scene.balls.centre(1)},
