@@ -259,4 +259,29 @@ TEST(FaceWall, SteadyContactsKnowWhereTheyAre) {
   }
 }
 
+// Balls on two faces, in one block, within reach of both planes: spring times overlap along the normal of the
+// face below.
+TEST(FaceWall, SteadyContactsKnowTheirFaces) {
+  constexpr double kSlope = -0.05, kHeight = 0.97 * kRadius, kStep = 1e-3;
+  RigidSurface wall = bent_sheet(kSlope);
+  const Vector3 flat = Vector3::UnitZ(), slanted = Vector3(-kSlope, 0, 1).normalized();
+  Balls balls;
+  for (int k = 0; k < 6; ++k) {
+    const double x = 1.0 + 0.4 * (k / 2), y = k - 2.5;
+    balls.add(k % 2 == 0 ? Vector3(Vector3(-x, y, 0) + kHeight * flat)
+                         : Vector3(Vector3(x, y, kSlope * x) + kHeight * slanted),
+              kRadius);
+  }
+  BallsOnWall scene(wall, balls, 1.0, 1.0);
+  for (int step = 1; step <= 10; ++step) {
+    for (int k = 0; k < 6; ++k) scene.balls.centre(k) += kStep * Vector3(0.1 * k, 1.0, 0.2);
+    scene.evaluate();
+    for (int k = 0; k < 6; ++k) {
+      const Vector3& normal = k % 2 == 0 ? flat : slanted;
+      const Vector3 force = (kRadius - normal.dot(scene.balls.centre(k))) * normal;
+      EXPECT_LT((scene.balls.force(k) - force).norm(), 1e-14) << step << ' ' << k;
+    }
+  }
+}
+
 }  // namespace
