@@ -91,9 +91,10 @@ class SteadyFeet {
 
  private:
   static constexpr int kNone = -1;
-  struct Marks {
-    std::int8_t side;  // of the patch
+  struct alignas(4) Marks {  // copied as one number
+    std::int8_t side;        // of the patch
     bool is_curved, is_settled;
+    bool unused = false;
   };
   struct alignas(64) Rest {
     nurbs::Vector3 centre;

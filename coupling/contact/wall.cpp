@@ -52,7 +52,8 @@ void Wall::import() {
   slides_ = structure_.slides();
   needs_forces_ = structure_.needs_forces();
   is_turned_ = !frame_.rotation.isIdentity(0.0);
-  stands_ = !deforms_ && !slides_ && frame_.velocity.isZero(0.0) && frame_.angular_velocity.isZero(0.0);
+  turns_ = !frame_.angular_velocity.isZero(0.0);
+  stands_ = !deforms_ && !slides_ && frame_.velocity.isZero(0.0) && !turns_;
   if (!imported_) return import_all();
   if (!deforms_) return;
   exchange_.import_followed();

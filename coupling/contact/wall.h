@@ -78,7 +78,7 @@ class Wall {
   }
   /// The same of a wall that is rigid and does not stand.
   Vector3 velocity_of_rigid(const Vector3& point, const Vector3& delta) const {
-    Vector3 v = frame_.velocity_at(point);
+    Vector3 v = turns_ ? frame_.velocity_at(point) : frame_.velocity;
     if (slides_) v += structure_.surface_velocity(point, delta.normalized());
     return v;
   }
@@ -116,7 +116,7 @@ class Wall {
   coupling::RigidFrame frame_;
   double resolution_ = 0.0, largest_inverse_mass_ = 0.0;
   bool imported_ = false, needs_forces_ = false, deforms_ = false, slides_ = false, stands_ = false,
-       is_turned_ = false;
+       is_turned_ = false, turns_ = false;
 };
 
 }  // namespace contact
