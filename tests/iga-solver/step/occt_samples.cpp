@@ -253,7 +253,8 @@ OcctSamples::Found OcctSamples::nearest(const Point& point) const {
   parts_->tree->within(point, std::sqrt(first) + parts_->farthest, near);
   std::sort(near.begin(), near.end());
   Found found{std::sqrt(first), false};
-  for (const auto& [square, number] : near) {
+  for (const std::pair<double, int>& away : near) {
+    const int number = away.second;
     const samples::Sample& sample = parts_->samples[number];
     const auto is_close = [&](int other) {
       return parts_->samples[other].entity == sample.entity &&
