@@ -18,11 +18,12 @@ from matplotlib.figure import Figure as Picture
 
 from study.build.graded_block import PLACES, GradedBlock
 from study.reference import hertz
-from study.run.case import Case, Figure, Result, Study, Values
+from study.run.case import Case, Figure, Result, Study, Values, index_variables, numbers
 from study.run.figures import COLOURS, MARKERS, save
 from study.run.pulse import measure
 from study.run.summary import Row
 
+HERE = Path(__file__).parent
 STEEL = {"law": "linear_elastic", "youngs_modulus": "210.6e9", "poissons_ratio": 0.286, "density": 7850}
 GLASS = {"law": "linear_elastic", "youngs_modulus": "74.6e9", "poissons_ratio": 0.2285, "density": 2480}
 STEEL_BALL = {"E_ball": 210.6e9, "nu_ball": 0.286, "rho": 7850.0}
@@ -33,6 +34,12 @@ PEAK_TOLERANCE, RESTITUTION_TOLERANCE = 1e-3, 5e-4
 COARSE_TOLERANCE = 5e-3  # of elements that are too large for the waves
 CUBIC_TOLERANCE = 2e-3
 SLIDING_TOLERANCE = 1e-6
+RIGID = {"E_ball": 1e20}  # the ball gives way by nothing: E* is the block's own
+RIGID_TOLERANCE = 3e-3
+RIGID_SIZE = 3.7  # contact radii
+# Energy that waves take into a half-space of this steel: WAVES * integral of (dF/dt)^2 [m s/N]; of Hertz' pulse the integral is
+# PULSE F^2/t_c.  Of the part that is lost the peak force loses PEAK_SHARE (0.11 % of 0.374 %, by integration of the motion).
+WAVES, PULSE, PEAK_SHARE = 5.301e-16, 4.685, 0.294
 SIZES_MM = (1, 0.5, 0.25, 0.125, 0.0625)
 COARSE_MM = (4, 2)
 UNCORRECTED = ("corner", "centre")
@@ -66,6 +73,11 @@ def peak_force(result: Result) -> float:
     return measure(force["t"], force["F"], force["overlap"]).peak_force
 
 
+def contact_radius(values: Values) -> float:
+    """Where the contact is deepest [m]."""
+    return math.sqrt(values["r"] * impact(values).max_overlap)
+
+
 def rows(peak: tuple[float, float] | tuple[()], restitution: tuple[float, float] | tuple[()], result: Result) -> list[Row]:
     """Each with reference and relative tolerance, if the user changed nothing."""
     F, e = peak_force(result), result.state["v"][-1] / result.values["V"]
@@ -94,6 +106,27 @@ def block_case(h_mm: float, place: str, compliance: str, degree: int = 2) -> Cas
     variables = {"block": file, "compliance": compliance, "dt": 0.6e-8 if degree == 3 else 0.8e-8}
     mesh = block(h_mm, place, degree)
     return Case(name, "in.mesh_study", partial(rows, *expected), variables, partial(steps, 1.08 if compliance == "corrected" else 1.3),
+                lambda _: {file: mesh.model_file(STEEL)})  # fmt: skip
+
+
+def with_waves(rigid: hertz.Impact) -> tuple[float, float]:
+    """Peak force [N] and restitution of Hertz' impact on a half-space of steel."""
+    lost = WAVES * PULSE * rigid.peak_force**2 / rigid.duration / (0.5 * rigid.m * rigid.V**2)
+    return rigid.peak_force * (1.0 - PEAK_SHARE * lost), math.sqrt(1.0 - lost)
+
+
+def rigid_rows(result: Result) -> list[Row]:
+    F, e = with_waves(impact(result.values))
+    return rows((F, RIGID_TOLERANCE), (e, RESTITUTION_TOLERANCE), result)
+
+
+def rigid_case(place: str) -> Case:
+    """Elements as small as the correction takes them under a ball that gives way by nothing."""
+    name, defaults = f"rigid_{place}", numbers(index_variables(HERE / "in.mesh_study"))
+    h_mm = 1e3 * RIGID_SIZE * contact_radius({**defaults, **RIGID})
+    file, mesh = f"{name}.yaml", block(h_mm, place, 2)
+    variables = {"block": file, "dt": 0.6e-8, **RIGID}
+    return Case(name, "in.mesh_study", rigid_rows, variables, partial(steps, 1.3),
                 lambda _: {file: mesh.model_file(STEEL)})  # fmt: skip
 
 
@@ -137,16 +170,12 @@ CASES = [
     *(block_case(h, place, "corrected") for h in (*COARSE_MM, *SIZES_MM) for place in PLACES),
     *(block_case(h, place, "none") for h in (*COARSE_MM, *SIZES_MM) for place in UNCORRECTED),
     *(block_case(0.5, place, "corrected", degree=3) for place in PLACES),
+    *(rigid_case(place) for place in ("corner", "centre")),
     *(sliding_case(compliance) for compliance in ("corrected", "none")),
     *(plate_case(plate, *mesh, place) for plate in PLATES for mesh in PLATE_MESHES for place in ("corner", "centre")),
     *(plate_case("Z1", *mesh, "corner", "_none") for mesh in PLATE_MESHES),
     *(plate_case("Z1", ratio, 1, "corner", "_one_layer") for ratio in (0.5, 0.25)),
 ]
-
-
-def contact_radius(values: Values) -> float:
-    """Where the contact is deepest [m]."""
-    return math.sqrt(values["r"] * impact(values).max_overlap)
 
 
 def draw(path: Path, results: Mapping[str, Result]) -> None:
