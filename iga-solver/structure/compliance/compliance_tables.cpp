@@ -96,7 +96,7 @@ ComplianceTable::Value ComplianceTable::at(Component component, const nurbs::Par
 }
 
 ComplianceTables::ComplianceTables(ReferenceBody body, std::vector<SkinPiece> skin)
-    : body_(std::move(body)), near_(body_), skin_(std::move(skin)) {
+    : body_(std::move(body)), near_(body_), gradients_(body_), skin_(std::move(skin)) {
   expect_quadrature(body_.quadrature);
   for (const SkinPiece& piece : skin_) {
     const nurbs::Volume& patch = body_.patches[piece.patch];
@@ -168,7 +168,7 @@ std::unique_ptr<ComplianceTable> ComplianceTables::solve(int piece, int element,
       feet.push_back(foot(piece, element, {xi, eta}));
       frames.push_back(surface.frame(element, {xi, eta}));
     }
-  const std::vector<Matrix3> tensors = LocalProblem(patch).compliances(feet);
+  const std::vector<Matrix3> tensors = LocalProblem(patch, gradients_).compliances(feet);
   std::vector<std::vector<double>> values(ComplianceTable::kComponents);
   for (std::size_t f = 0; f < feet.size(); ++f) {
     const Matrix3 c = frames[f].transpose() * tensors[f] * frames[f];
@@ -207,7 +207,7 @@ const ComplianceTable& ComplianceTables::of(int piece, int element) {
 Matrix3 ComplianceTables::direct(int piece, int element, const nurbs::Parameter<2>& xi) const {
   const BodyElement hit = volume_element(piece, element);
   const LocalPatch patch(body_, near_, hit, extent_for(body_.patches[hit.patch].space));
-  return LocalProblem(patch).compliances({foot(piece, element, xi)}).front();
+  return LocalProblem(patch, gradients_).compliances({foot(piece, element, xi)}).front();
 }
 
 }  // namespace structure

@@ -69,6 +69,7 @@ class ComplianceTables {
 
   ReferenceBody body_;
   NearElements near_;
+  mutable GradientProducts gradients_;
   std::vector<SkinPiece> skin_;
   std::vector<FaceSurface> surfaces_;
   std::vector<std::array<std::vector<int>, 2>> alike_;  // per piece and direction (alike_elements.h)

@@ -8,15 +8,18 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "nurbs/gauss_legendre.h"
-
 namespace structure {
 
 FaceSurface::FaceSurface(const ReferenceBody& body, const SkinPiece& piece)
     : body_(body),
       patch_(piece.patch),
       face_(nurbs::boundary_surface(body.patches[piece.patch].space, piece.face)),
-      X_(body.patches[piece.patch].control_points(Eigen::all, face_.volume_control_point)) {}
+      X_(body.patches[piece.patch].control_points(Eigen::all, face_.volume_control_point)),
+      rule_(nurbs::gauss_legendre(std::max(space().degree(0), space().degree(1)) + 2, 0.0, 1.0)),
+      along_{std::vector<nurbs::BasisFunctions>(rule_.points.size()),
+             std::vector<nurbs::BasisFunctions>(rule_.points.size())},
+      net_(4, space().functions_per_element()),
+      R_(space().functions_per_element()) {}
 
 std::vector<Id> FaceSurface::nodes_of(int element) const {
   std::vector<int> points(space().functions_per_element());
@@ -81,6 +84,12 @@ bool FaceSurface::is_in_tangent_plane(int element, const SkinPoint& foot) const 
 void FaceSurface::integrate(int element, const std::vector<SkinPoint>& feet,
                             const std::vector<HalfSpace>& half_spaces) const {
   const nurbs::Indices<2> span = space().element_indices(element);
+  std::vector<int> points(space().functions_per_element());
+  space().element_control_points(element, points.data());
+  for (std::size_t a = 0; a < points.size(); ++a) {
+    const double w = space().weight(points[a]);
+    net_.col(static_cast<Eigen::Index>(a)) << w * X_.col(points[a]), w;
+  }
   Cell cell;
   for (int d = 0; d < 2; ++d) {
     cell.low[d] = space().knots(d).breaks()[span[d]];
@@ -124,23 +133,48 @@ void FaceSurface::add_cell(int element, const Cell& cell, const std::vector<int>
                            const std::vector<SkinPoint>& feet,
                            const std::vector<HalfSpace>& half_spaces) const {
   if (feet_here.empty()) return;
-  const int points = std::max(space().degree(0), space().degree(1)) + 2;
-  const nurbs::QuadratureRule x = nurbs::gauss_legendre(points, cell.low[0], cell.high[0]),
-                              y = nurbs::gauss_legendre(points, cell.low[1], cell.high[1]);
-  nurbs::RationalBasis<2> basis;
+  const double length[2] = {cell.high[0] - cell.low[0], cell.high[1] - cell.low[1]};
+  const auto points = static_cast<int>(rule_.points.size());
+  const nurbs::Indices<2> span = space().element_indices(element);
+  for (int d = 0; d < 2; ++d)
+    for (int i = 0; i < points; ++i)
+      nurbs::evaluate_basis(space().knots(d), space().knots(d).span_of_element(span[d]),
+                            cell.low[d] + length[d] * rule_.points[i], 1, along_[d][i]);
   for (int j = 0; j < points; ++j)
     for (int i = 0; i < points; ++i) {
-      nurbs::evaluate_on_element(space(), element, {x.points[i], y.points[j]}, 1, basis);
-      const Tangents at = tangents(basis);
-      const double weight = x.weights[i] * y.weights[j] * at.area.norm();
+      const Vector3 point = evaluate(along_[0][i], along_[1][j]);
+      const double size = area_.norm();
+      const double weight = length[0] * rule_.weights[i] * length[1] * rule_.weights[j] * size;
       if (!(weight > 0.0)) continue;
+      const Vector3 outward_normal = area_ / size;
       for (const int f : feet_here) {
-        const Matrix3 t = weight * half_spaces[f].traction(at.point - feet[f].point, at.area.normalized());
-        for (int a = 0; a < basis.count; ++a)
-          local_.block<3, 3>(3 * static_cast<Eigen::Index>(a), 3 * static_cast<Eigen::Index>(f)) +=
-              basis.R[a] * t;
+        const Matrix3 t = weight * half_spaces[f].traction(point - feet[f].point, outward_normal);
+        double* const sums = local_.col(static_cast<Eigen::Index>(f) * R_.size()).data();
+        for (Eigen::Index a = 0; a < R_.size(); ++a) Matrix3::Map(sums + 9 * a) += R_[a] * t;
       }
     }
+}
+
+/// Point of the element that net_ is of, from functions along both directions; leaves R_ and the area vector
+/// (outwards) in area_.
+Vector3 FaceSurface::evaluate(const nurbs::BasisFunctions& x, const nurbs::BasisFunctions& y) const {
+  const int p = space().degree(0), q = space().degree(1);
+  Eigen::Matrix<double, 4, 3> sums = Eigen::Matrix<double, 4, 3>::Zero();  // of w X and w: value, derivatives
+  for (int b = 0, k = 0; b <= q; ++b)
+    for (int a = 0; a <= p; ++a, ++k) {
+      R_[k] = net_(3, k) * x.values[0][a] * y.values[0][b];
+      const Eigen::Vector4d P = net_.col(k);
+      sums.col(0) += x.values[0][a] * y.values[0][b] * P;
+      sums.col(1) += x.values[1][a] * y.values[0][b] * P;
+      sums.col(2) += x.values[0][a] * y.values[1][b] * P;
+    }
+  const double inverse_W = 1.0 / sums(3, 0);
+  R_ *= inverse_W;
+  const Vector3 point = inverse_W * sums.col(0).head<3>();
+  const Vector3 t_0 = inverse_W * (sums.col(1).head<3>() - sums(3, 1) * point),
+                t_1 = inverse_W * (sums.col(2).head<3>() - sums(3, 2) * point);
+  area_ = face_.outward_sign * t_0.cross(t_1);
+  return point;
 }
 
 }  // namespace structure

@@ -3,8 +3,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
+#include "nurbs/basis.h"
+#include "nurbs/gauss_legendre.h"
 #include "structure/compliance/half_space.h"
 #include "structure/compliance/reference_body.h"
 
@@ -34,12 +37,15 @@ class FaceSurface {
   template <class Row>
   void add_tractions(int element, const std::vector<SkinPoint>& feet,
                      const std::vector<HalfSpace>& half_spaces, Row row, Eigen::MatrixXd& forces) const {
-    local_.setZero(3 * space().functions_per_element(), forces.cols());
-    integrate(element, feet, half_spaces);
     const std::vector<Id> nodes = nodes_of(element);
-    for (std::size_t a = 0; a < nodes.size(); ++a)
+    const auto count = static_cast<Eigen::Index>(nodes.size());
+    local_.setZero(9, count * static_cast<Eigen::Index>(feet.size()));
+    integrate(element, feet, half_spaces);
+    for (Eigen::Index a = 0; a < count; ++a)
       if (const int place = row(nodes[a]); place >= 0)
-        forces.middleRows<3>(3 * place) += local_.middleRows<3>(3 * static_cast<Eigen::Index>(a));
+        for (std::size_t f = 0; f < feet.size(); ++f)
+          forces.block<3, 3>(3 * place, 3 * static_cast<Eigen::Index>(f)) +=
+              Matrix3::Map(local_.col(static_cast<Eigen::Index>(f) * count + a).data());
   }
 
  private:
@@ -59,14 +65,22 @@ class FaceSurface {
   double size_of(int element, const Cell& cell) const;
   void integrate(int element, const Cell& cell, int depth, const std::vector<int>& feet_here,
                  const std::vector<SkinPoint>& feet, const std::vector<HalfSpace>& half_spaces) const;
+  Vector3 evaluate(const nurbs::BasisFunctions& x, const nurbs::BasisFunctions& y) const;
   void add_cell(int element, const Cell& cell, const std::vector<int>& feet_here,
                 const std::vector<SkinPoint>& feet, const std::vector<HalfSpace>& half_spaces) const;
 
   const ReferenceBody& body_;
   int patch_;
   nurbs::BoundarySurface face_;
-  nurbs::NodalVectors X_;  // of the face's control points
-  mutable Eigen::MatrixXd local_;
+  nurbs::NodalVectors X_;       // of the face's control points
+  nurbs::QuadratureRule rule_;  // on [0, 1], of both directions
+  // Of the element that is integrated over, so that nothing is allocated point by point: functions along both
+  // directions of a cell, points times weights and weights of the control points; functions and area vector.
+  mutable std::array<std::vector<nurbs::BasisFunctions>, 2> along_;
+  mutable Eigen::Matrix4Xd net_;
+  mutable Eigen::VectorXd R_;
+  mutable Vector3 area_;
+  mutable Eigen::Matrix<double, 9, Eigen::Dynamic> local_;  // 3 x 3 matrices of the functions, foot by foot
 };
 
 }  // namespace structure

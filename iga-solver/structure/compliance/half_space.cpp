@@ -9,49 +9,37 @@ namespace structure {
 // (Johnson's eqs. 3.18 and 3.75, which give them component by component).
 
 HalfSpace::HalfSpace(double youngs_modulus, double poissons_ratio, const Vector3& outward_normal)
-    : lambda_(youngs_modulus * poissons_ratio / ((1.0 + poissons_ratio) * (1.0 - 2.0 * poissons_ratio))),
-      mu_(0.5 * youngs_modulus / (1.0 + poissons_ratio)),
+    : mu_(0.5 * youngs_modulus / (1.0 + poissons_ratio)),
       mirror_(1.0 - 2.0 * poissons_ratio),
       n_(-outward_normal),
       nn_(n_ * n_.transpose()),
       P_(Matrix3::Identity() - nn_) {}
 
 Matrix3 HalfSpace::displacement(const Vector3& x) const {
-  const double R = x.norm(), z = n_.dot(x), S = R + z;
+  const double r = 1.0 / x.norm(), z = n_.dot(x), s = 1.0 / (1.0 / r + z), rs = r * s;
   const Vector3 rho = x - z * n_;
-  const Matrix3 n_rho = n_ * rho.transpose();
-  const Matrix3 T =
-      P_ / S - rho * rho.transpose() / (R * S * S) + (n_rho - n_rho.transpose()) / (R * S) + nn_ / R;
-  const Matrix3 sum = Matrix3::Identity() / R + x * x.transpose() / (R * R * R) + mirror_ * T;
+  const Matrix3 rho_terms = rho * (rs * (s * rho + n_)).transpose(),
+                n_terms = n_ * (rs * rho + r * n_).transpose();
+  Matrix3 sum = (r * r * r) * x * x.transpose() + mirror_ * (s * P_ - rho_terms + n_terms);
+  sum.diagonal().array() += r;
   return sum / (4.0 * nurbs::kPi * mu_);
 }
 
-/// dU/dx . a
-Matrix3 HalfSpace::displacement_change(const Vector3& x, const Vector3& a) const {
-  const double R = x.norm(), z = n_.dot(x), S = R + z;
-  const double dR = x.dot(a) / R, dz = n_.dot(a), dS = dR + dz;
-  const Vector3 rho = x - z * n_, d_rho = a - dz * n_;
-  const Matrix3 a_x = a * x.transpose(), d_rho_rho = d_rho * rho.transpose(), n_rho = n_ * rho.transpose(),
-                n_d_rho = n_ * d_rho.transpose();
-  const Matrix3 dT = -P_ * (dS / (S * S)) - (d_rho_rho + d_rho_rho.transpose()) / (R * S * S) +
-                     rho * rho.transpose() * (dR / (R * R * S * S) + 2.0 * dS / (R * S * S * S)) +
-                     (n_d_rho - n_d_rho.transpose()) / (R * S) -
-                     (n_rho - n_rho.transpose()) * (dR / (R * R * S) + dS / (R * S * S)) -
-                     nn_ * (dR / (R * R));
-  const Matrix3 sum = -Matrix3::Identity() * (dR / (R * R)) + (a_x + a_x.transpose()) / (R * R * R) -
-                      x * x.transpose() * (3.0 * dR / (R * R * R * R)) + mirror_ * dT;
-  return sum / (4.0 * nurbs::kPi * mu_);
-}
-
+// T is -grad grad psi + 2 n (grad phi)^T of two harmonic functions, psi = z ln(R+z) - R and its derivative by
+// depth phi = ln(R+z); all that is left of their third derivatives on a plane m, which is m_s along the
+// surface and m - m_s along n, are in-plane terms:
+//   2 pi t = (1 - 2 nu) (m_s x^T/R^3 - B - v n^T) - 3 (x . m) x x^T/R^5
+//   B = (rho . m_s) (P/(R S^2) - (1/(R^3 S^2) + 2/(R^2 S^3)) rho rho^T) + (rho m_s^T + m_s rho^T)/(R S^2)
+//   v = m_s/(R S) - (rho . m_s) (1/(R^3 S) + 1/(R^2 S^2)) rho,  S = R + z
 Matrix3 HalfSpace::traction(const Vector3& x, const Vector3& m) const {
-  Matrix3 along[3], traction;
-  for (int k = 0; k < 3; ++k) along[k] = displacement_change(x, Vector3::Unit(k));
-  for (int j = 0; j < 3; ++j) {
-    Matrix3 H;
-    for (int k = 0; k < 3; ++k) H.col(k) = along[k].col(j);
-    traction.col(j) = lambda_ * H.trace() * m + mu_ * (H + H.transpose()) * m;
-  }
-  return traction;
+  const double r = 1.0 / x.norm(), z = n_.dot(x), s = 1.0 / (1.0 / r + z), rs = r * s;
+  const Vector3 rho = x - z * n_, m_s = m - n_.dot(m) * n_;
+  const double along = rho.dot(m_s);
+  const Vector3 by_m_s = r * r * r * x - rs * s * rho - rs * n_;
+  const Vector3 by_rho =
+      along * rs * s * (r * r + 2.0 * rs) * rho - rs * s * m_s + along * rs * (r * r + rs) * n_;
+  const Matrix3 in_plane = m_s * by_m_s.transpose() + rho * by_rho.transpose() - along * rs * s * P_;
+  return (mirror_ * in_plane - 3.0 * x.dot(m) * (r * r * r * r * r) * x * x.transpose()) / nurbs::kTwoPi;
 }
 
 }  // namespace structure

@@ -24,11 +24,9 @@ class HalfSpace {
   Matrix3 traction(const Vector3& x, const Vector3& m) const;
 
  private:
-  Matrix3 displacement_change(const Vector3& x, const Vector3& along) const;
-
-  double lambda_, mu_, mirror_;  // Lame constants; 1 - 2 nu
-  Vector3 n_;                    // into the body
-  Matrix3 nn_, P_;               // n n^T, I - n n^T
+  double mu_, mirror_;  // shear modulus; 1 - 2 nu
+  Vector3 n_;           // into the body
+  Matrix3 nn_, P_;      // n n^T, I - n n^T
 };
 
 }  // namespace structure

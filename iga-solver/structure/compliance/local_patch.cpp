@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "structure/compliance/local_patch.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace structure {
@@ -24,8 +25,29 @@ void LocalPatch::number_nodes(const NearElements& near) {
   for (const auto& [node, inside] : elements_inside)
     (near.elements_of(node) == inside ? nodes_ : shared).push_back(node);
   free_ = static_cast<int>(nodes_.size());
+  sort_along_widest_axis();
   nodes_.insert(nodes_.end(), shared.begin(), shared.end());
   for (std::size_t place = 0; place < nodes_.size(); ++place) place_[nodes_[place]] = static_cast<int>(place);
+}
+
+// So matrices have narrow bands.
+void LocalPatch::sort_along_widest_axis() {
+  const auto place = [&](Id node) {
+    const auto [patch, control_point] = body_.nodes.place(node);
+    return Vector3(body_.patches[patch].control_points.col(control_point));
+  };
+  if (nodes_.empty()) return;
+  Vector3 low = place(nodes_.front()), high = low;
+  for (const Id node : nodes_) {
+    low = low.cwiseMin(place(node));
+    high = high.cwiseMax(place(node));
+  }
+  int axis;
+  (high - low).maxCoeff(&axis);
+  std::vector<std::pair<double, Id>> sorted;
+  for (const Id node : nodes_) sorted.emplace_back(place(node)[axis], node);
+  std::sort(sorted.begin(), sorted.end());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i] = sorted[i].second;
 }
 
 void LocalPatch::take_free_faces(const NearElements& near) {

@@ -25,7 +25,8 @@ class LocalPatch {
   const ReferenceBody& body() const { return body_; }
   const BodyElement& hit() const { return hit_; }
   const std::vector<BodyElement>& elements() const { return elements_; }
-  /// Nodes have places from 0 on: first those that no other element has, then the others.
+  /// Nodes have places from 0 on: first those that no other element has, along
+  /// the axis of their largest extent, then the others.
   const std::vector<Id>& nodes() const { return nodes_; }
   int free_count() const { return free_; }
   int place(Id node) const { return place_.at(node); }
@@ -40,6 +41,7 @@ class LocalPatch {
 
  private:
   void number_nodes(const NearElements& near);
+  void sort_along_widest_axis();
   void take_free_faces(const NearElements& near);
 
   const ReferenceBody& body_;

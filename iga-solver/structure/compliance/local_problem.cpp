@@ -4,32 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <stdexcept>
 
 namespace structure {
 
-namespace {
-
-/// Integrals of dR_A/dX_d dR_B/dX_e over an element, d <= e: in the order 00, 01, 02, 11, 12, 22.
-std::array<Eigen::MatrixXd, 6> gradient_products(const ElementTables& tables, int functions) {
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  using Table = Eigen::Map<const Rows, 0, Eigen::OuterStride<>>;
-  Eigen::MatrixXd G[3], weighted[3];
-  for (int d = 0; d < 3; ++d) {
-    G[d] = Table(tables.dR_dX.data() + d * tables.padded, tables.points, functions,
-                 Eigen::OuterStride<>(3 * tables.padded));
-    weighted[d] = Eigen::VectorXd::Map(tables.wJ.data(), tables.points).asDiagonal() * G[d];
-  }
-  std::array<Eigen::MatrixXd, 6> products;
-  for (int d = 0, k = 0; d < 3; ++d)
-    for (int e = d; e < 3; ++e) products[k++].noalias() = weighted[d].transpose() * G[e];
-  return products;
-}
-
-}  // namespace
-
-LocalProblem::LocalProblem(const LocalPatch& patch) : patch_(patch), held_(patch.body()) {
+LocalProblem::LocalProblem(const LocalPatch& patch, GradientProducts& gradients)
+    : patch_(patch), held_(patch.body()) {
   const Material& law = *patch.body().materials[patch.hit().patch];
   E_ = law.youngs_modulus();
   nu_ = law.poissons_ratio();
@@ -37,52 +17,64 @@ LocalProblem::LocalProblem(const LocalPatch& patch) : patch_(patch), held_(patch
     throw std::invalid_argument(fmt::format(
         "the {} elements that take part have {} unknowns, expected at most {}: elements are too flat",
         patch.elements().size(), 3 * patch.free_count(), kMostUnknowns));
-  assemble();
+  assemble(gradients);
   if (patch.free_count() == static_cast<int>(patch.nodes().size())) hold_by_springs();
   for (std::size_t place = patch.free_count(); place < patch.nodes().size(); ++place)
     held_.add(patch.nodes()[place]);
-  factor_.compute(K_.leftCols(3 * patch.free_count()));
-  if (factor_.info() != Eigen::Success)
+  if (!K_.factorise())
     throw std::invalid_argument("the stiffness of the elements that take part is not positive definite");
 }
 
-void LocalProblem::assemble() {
-  const ReferenceBody& body = patch_.body();
-  K_ = Eigen::MatrixXd::Zero(3 * patch_.free_count(), 3 * static_cast<Eigen::Index>(patch_.nodes().size()));
-  ElementTables tables;
-  std::vector<int> control_points;
-  for (std::size_t next = 0; next < patch_.elements().size();) {
-    const int p = patch_.elements()[next].patch;
-    const nurbs::Volume& volume = body.patches[p];
-    const ElementTabulator tabulate(volume.space, body.quadrature);
-    control_points.resize(volume.space.functions_per_element());
-    for (; next < patch_.elements().size() && patch_.elements()[next].patch == p; ++next) {
-      const int element = patch_.elements()[next].element;
-      volume.space.element_control_points(element, control_points.data());
-      tabulate(element, {volume.control_points, control_points}, tables);
-      add(tables, patch_.places_of(patch_.elements()[next]));
-    }
+void LocalProblem::assemble(GradientProducts& gradients) {
+  const int free = patch_.free_count(), held = static_cast<int>(patch_.nodes().size()) - free;
+  std::vector<std::vector<int>> places;
+  int farthest = 0;  // of two free nodes with an element in common
+  for (const BodyElement& element : patch_.elements()) {
+    places.push_back(patch_.places_of(element));
+    int first = free, last = 0;
+    for (const int place : places.back())
+      if (place < free) {
+        first = std::min(first, place);
+        last = std::max(last, place);
+      }
+    farthest = std::max(farthest, last - first);
   }
+  K_.reset(3 * free, 3 * farthest + 2);
+  block_.assign(static_cast<std::size_t>(held) * free, -1);
+  gradients.begin_patch();
+  for (std::size_t i = 0; i < places.size(); ++i) add(gradients.of(patch_.elements()[i]), places[i]);
 }
 
 // K_AB = integral of lambda dR_A (x) dR_B + mu (dR_B (x) dR_A + dR_A . dR_B I)
-void LocalProblem::add(const ElementTables& tables, const std::vector<int>& places) {
+void LocalProblem::add(const Eigen::MatrixXd& products, const std::vector<int>& places) {
   const double mu = 0.5 * E_ / (1.0 + nu_), lambda = 2.0 * mu * nu_ / (1.0 - 2.0 * nu_);
-  const int n = static_cast<int>(places.size());
-  const std::array<Eigen::MatrixXd, 6> M = gradient_products(tables, n);
+  const int n = static_cast<int>(places.size()), free = patch_.free_count();
   for (int b = 0; b < n; ++b)
     for (int a = 0; a < n; ++a) {
-      if (places[a] >= patch_.free_count()) continue;
-      const double D[3][3] = {{M[0](a, b), M[1](a, b), M[2](a, b)},
-                              {M[1](b, a), M[3](a, b), M[4](a, b)},
-                              {M[2](b, a), M[4](b, a), M[5](a, b)}};
-      const double shear = mu * (D[0][0] + D[1][1] + D[2][2]);
-      auto K = K_.block<3, 3>(3 * places[a], 3 * places[b]);
-      for (int j = 0; j < 3; ++j) {
-        for (int i = 0; i < 3; ++i) K(i, j) += lambda * D[i][j] + mu * D[j][i];
-        K(j, j) += shear;
-      }
+      if (places[a] >= free || (places[b] < free && places[b] > places[a])) continue;
+      Matrix3 D, K;  // D(i, j): integral of dR_A/dX_i dR_B/dX_j
+      for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) D(i, j) = products(i * n + a, j * n + b);
+      K = lambda * D + mu * D.transpose();
+      K.diagonal().array() += mu * D.trace();
+      if (places[b] >= free)
+        block(places[a], places[b]) += K;
+      else
+        for (int j = 0; j < 3; ++j)
+          for (int i = places[a] == places[b] ? j : 0; i < 3; ++i)
+            K_.at(3 * places[a] + i, 3 * places[b] + j) += K(i, j);
     }
+}
+
+/// Of a free node and one that is held.
+Matrix3& LocalProblem::block(int free_place, int held_place) {
+  const int free = patch_.free_count();
+  int& block = block_[static_cast<std::size_t>(held_place - free) * free + free_place];
+  if (block < 0) {
+    block = static_cast<int>(blocks_.size());
+    blocks_.push_back(Matrix3::Zero());
+  }
+  return blocks_[block];
 }
 
 // A whole body is smaller than that.  Springs on its farther half take up its rigid motions; they rest at the
@@ -107,7 +99,7 @@ void LocalProblem::hold_by_springs() {
     }
   spring_ = kStiffness * E_ * farthest / static_cast<double>(sprung_.size());
   for (const int place : sprung_)
-    K_.diagonal().segment<3>(3 * static_cast<Eigen::Index>(place)).array() += spring_;
+    for (int i = 3 * place; i < 3 * place + 3; ++i) K_.at(i, i) += spring_;
 }
 
 /// Control values of the half-spaces' displacements, of what is held.
@@ -139,29 +131,45 @@ void LocalProblem::add_tractions(const std::vector<SkinPoint>& feet,
   }
 }
 
+/// Forces on the held nodes by displacements of the free ones.
+Eigen::MatrixXd LocalProblem::forces_of_held(const Eigen::MatrixXd& u) const {
+  const int free = patch_.free_count(), held = static_cast<int>(patch_.nodes().size()) - free;
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(3 * held, u.cols());
+  for (int h = 0; h < held; ++h)
+    for (int a = 0; a < free; ++a)
+      if (const int block = block_[static_cast<std::size_t>(h) * free + a]; block >= 0)
+        forces.middleRows<3>(3 * h).noalias() += blocks_[block].transpose() * u.middleRows<3>(3 * a);
+  return forces;
+}
+
+// Feet are on one face, so only its functions' displacements are asked for.  By reciprocity these are work of
+// the loads on what unit forces on its nodes do: far fewer systems than loads.
 std::vector<Matrix3> LocalProblem::compliances(const std::vector<SkinPoint>& feet) const {
   std::vector<HalfSpace> half_spaces;
   for (const SkinPoint& foot : feet) half_spaces.emplace_back(E_, nu_, foot.outward_normal);
-  const auto count = static_cast<Eigen::Index>(feet.size());
-  Eigen::MatrixXd loads = Eigen::MatrixXd::Zero(3 * patch_.free_count(), 3 * count);
-  for (Eigen::Index f = 0; f < count; ++f)
-    for (std::size_t a = 0; a < feet[f].R.size(); ++a)
-      loads.block<3, 3>(3 * static_cast<Eigen::Index>(patch_.place(feet[f].nodes[a])), 3 * f)
-          .diagonal()
-          .setConstant(feet[f].R[a]);
+  std::vector<int> hit;
+  for (const Id node : feet.front().nodes) hit.push_back(patch_.place(node));
+  const auto count = static_cast<Eigen::Index>(feet.size()), of_face = static_cast<Eigen::Index>(hit.size());
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(3 * patch_.free_count(), 3 * of_face);
+  for (Eigen::Index a = 0; a < of_face; ++a) u.block<3, 3>(3 * hit[a], 3 * a).setIdentity();
+  K_.solve(u);
 
-  Eigen::MatrixXd forces = loads;
   const Eigen::MatrixXd u_held = prescribed(feet, half_spaces);
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(u.rows(), 3 * count);
   for (std::size_t k = 0; k < sprung_.size(); ++k)
     forces.middleRows<3>(3 * static_cast<Eigen::Index>(sprung_[k])) +=
         spring_ * u_held.middleRows<3>(3 * static_cast<Eigen::Index>(k));
-  if (sprung_.empty()) forces.noalias() -= K_.rightCols(u_held.rows()) * u_held;
   add_tractions(feet, half_spaces, forces);
+  Eigen::MatrixXd answer = u.transpose() * forces;
+  if (sprung_.empty()) answer.noalias() -= forces_of_held(u).transpose() * u_held;
 
-  const Eigen::MatrixXd u = factor_.solve(forces);
-  std::vector<Matrix3> c;
+  std::vector<Matrix3> c(feet.size(), Matrix3::Zero());
   for (Eigen::Index f = 0; f < count; ++f)
-    c.push_back(loads.middleCols<3>(3 * f).transpose() * u.middleCols<3>(3 * f));
+    for (Eigen::Index a = 0; a < of_face; ++a) {
+      Matrix3 at_node = answer.block<3, 3>(3 * a, 3 * f);
+      for (Eigen::Index b = 0; b < of_face; ++b) at_node += feet[f].R[b] * u.block<3, 3>(3 * hit[a], 3 * b);
+      c[f] += feet[f].R[a] * at_node;
+    }
   return c;
 }
 

@@ -131,14 +131,17 @@ std::vector<BodyElement> NearElements::neighbours(const BodyElement& element) co
 std::vector<BodyElement> NearElements::around(const BodyElement& element, int layers, double reach) const {
   const Corners middle = corners(element);
   const double distant = layers * reach * longest_edge(middle);
-  std::set<BodyElement> all{element};
+  std::set<BodyElement> all{element}, too_far;
   std::vector<BodyElement> rim{element};
   for (int layer = 1; !rim.empty(); ++layer) {
     std::vector<BodyElement> next;
     for (const BodyElement& of_rim : rim)
       for (const BodyElement& neighbour : neighbours(of_rim)) {
-        if (all.count(neighbour) > 0) continue;
-        if (layer > layers && !(distance(middle, corners(neighbour)) < distant)) continue;
+        if (all.count(neighbour) > 0 || too_far.count(neighbour) > 0) continue;
+        if (layer > layers && !(distance(middle, corners(neighbour)) < distant)) {
+          too_far.insert(neighbour);
+          continue;
+        }
         all.insert(neighbour);
         next.push_back(neighbour);
       }

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "models.h"
@@ -134,6 +135,46 @@ TEST(HalfSpace, TractionIsThatOfTheDisplacement) {
                     (2.0 * step);
     EXPECT_LT(divergence.norm(), 1e-6);
   }
+}
+
+// Blocks of a factor are 48 rows: one block, whole ones, a last one of one row; bands narrower and wider than
+// a block.
+TEST(BandMatrix, SolvesAsADenseFactorDoes) {
+  for (const auto& [rows, half_width] :
+       {std::pair{5, 2}, {48, 7}, {97, 1}, {97, 60}, {150, 149}, {200, 20}}) {
+    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, rows);
+    structure::BandMatrix band;
+    band.reset(rows, half_width);
+    for (int j = 0; j < rows; ++j)
+      for (int i = j; i <= std::min(j + half_width, rows - 1); ++i)
+        band.at(i, j) = A(i, j) = A(j, i) = i == j ? 2.0 * half_width + 3.0 : std::sin(3.0 * i + 7.0 * j);
+    const Eigen::MatrixXd b = Eigen::MatrixXd::Random(rows, 4);
+    Eigen::MatrixXd x = b;
+    ASSERT_TRUE(band.factorise());
+    band.solve(x);
+    EXPECT_LT((x - A.llt().solve(b)).norm(), 1e-13 * b.norm()) << rows << " rows, " << half_width;
+  }
+}
+
+TEST(BandMatrix, SaysWhatIsNotPositiveDefinite) {
+  structure::BandMatrix band;
+  band.reset(60, 3);
+  for (int i = 0; i < 60; ++i) band.at(i, i) = i == 55 ? -1.0 : 1.0;
+  EXPECT_FALSE(band.factorise());
+}
+
+TEST(GradientProducts, IntegratesAnElementOnceWhilePatchesHaveIt) {
+  const ReferenceBody body = block_body({3, 3, 3}, {3, 3, 3}, 2);
+  structure::GradientProducts gradients(body);
+  for (int patch = 0; patch < 3; ++patch) {
+    gradients.begin_patch();
+    gradients.of({0, 7});
+    if (patch == 0) gradients.of({0, 8});
+  }
+  EXPECT_EQ(gradients.integrated(), 2);
+  gradients.begin_patch();
+  gradients.of({0, 8});  // forgotten
+  EXPECT_EQ(gradients.integrated(), 3);
 }
 
 // c E' h of cubes without end, from patches of ever more layers: 0.804, 0.997 and 1.274 (7 layers); 1.302,
