@@ -33,8 +33,7 @@ void expect_one_material(const io::ModelFile& model, const std::vector<structure
         other.youngs_modulus() != first.youngs_modulus() || other.poissons_ratio() != first.poissons_ratio())
       throw geometry_io::InputError(
           fmt::format("{}: surface '{}' lies on patches of two materials ({} and {}), expected one: contact "
-                      "laws have one "
-                      "material of the wall",
+                      "laws have one material of the wall",
                       model.file, surface, skin.front().patch, piece.patch));
 }
 

@@ -84,12 +84,11 @@ bool Substeps::needs_spread(double dt) {
     return true;
   }
   if (!options_.count)
-    throw std::invalid_argument(fmt::format(
-        "substeps auto: with timestep {:.6g} and {} steps of the structure in it contacts may make "
-        "vibrations "
-        "grow by {:.2g} per step, expected at most {:.0g}; use a timestep of at most {:.3g}, or 'substeps "
-        "structure {}' to take that",
-        dt, count_, damped, kMostGrowth, 0.9 * stable_, count_));
+    throw std::invalid_argument(
+        fmt::format("substeps auto: with timestep {:.6g} and {} steps of the structure in it contacts may "
+                    "make vibrations grow by {:.2g} per step, expected at most {:.0g}; use a timestep of at "
+                    "most {:.3g}, or 'substeps structure {}' to take that",
+                    dt, count_, damped, kMostGrowth, 0.9 * stable_, count_));
   return false;
 }
 
@@ -133,8 +132,7 @@ int Substeps::particle_steps(double dt) const {
   if (dt > stable_)
     throw std::invalid_argument(
         fmt::format("substeps particles auto: timestep {:.6g} is above the structure's stable step {:.6g}; "
-                    "use a timestep of "
-                    "at most {:.3g}, or 'substeps auto'",
+                    "use a timestep of at most {:.3g}, or 'substeps auto'",
                     dt, stable_, 0.9 * stable_));
   const double ratio = heaviest_ratio();
   if (ratio == 0.0) return 1;  // no particles yet: the next run knows more

@@ -157,8 +157,7 @@ std::string why_refused(const ModelChoice& models, bool is_wall) {
   // after the contact it looks up the velocity of particle j; a wall without mesh has a negative j
   if (is_wall && models.cohesion == "easo/capillary/viscous")
     return "cohesion model 'easo/capillary/viscous' needs a triangle mesh as wall, expected another cohesion "
-           "model "
-           "('washino/capillary/viscous' works)";
+           "model ('washino/capillary/viscous' works)";
   // nobody sets the stiffness that tangential and rolling models use
   if (is_wall && models.normal == "off")
     return "model 'off' leaves a wall without stiffness, expected a normal model";

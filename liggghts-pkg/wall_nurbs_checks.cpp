@@ -168,14 +168,12 @@ std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, MPI_Com
   if (stiff.count > 0)
     alarms.push_back(
         fmt::format("the contact of particle {} and the solid together may be unstable ({} cases of this "
-                    "kind in this run): "
-                    "they are not with a timestep of at most {:.3g}",
+                    "kind in this run): they are not with a timestep of at most {:.3g}",
                     stiff.tag, stiff.count, 2.0 / stiff.speed));
   if (brief.count > 0)
     alarms.push_back(
         fmt::format("the contact of particle {} lasts about {:.3g} ({} cases of this kind in this run), too "
-                    "short for the "
-                    "modes that the solid keeps, which it finds too stiff: keep more of them",
+                    "short for the modes that the solid keeps, which it finds too stiff: keep more of them",
                     brief.tag, 1.0 / brief.speed, brief.count));
   return alarms;
 }

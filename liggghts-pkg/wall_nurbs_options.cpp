@@ -211,8 +211,7 @@ void check_complete(const WallNurbsOptions& options) {
   if (options.file.empty())
     fail(
         "keyword 'structure' or 'geometry' is missing, expected 'structure FILE surface NAME' for a "
-        "deforming wall or "
-        "'geometry FILE surface NAME' for a rigid one");
+        "deforming wall or 'geometry FILE surface NAME' for a rigid one");
   if (options.surface.empty())
     fail(
         "keyword 'surface' is missing, expected 'surface NAME' after the file: a name under 'surfaces' in "
@@ -222,10 +221,8 @@ void check_complete(const WallNurbsOptions& options) {
   if (options.placement && options.body != WallNurbsOptions::Body::rigid)
     fail(
         "'scale', 'move' and 'rotate' place a rigid wall, given 'structure', expected them in the solid's "
-        "model "
-        "file, as in 'geometry: {file: part.h5, scale: 0.001, rotate: {axis: [1, 0, 0], angle: 90}, move: "
-        "[0, "
-        "0, 1]}'");
+        "model file, as in 'geometry: {file: part.h5, scale: 0.001, rotate: {axis: [1, 0, 0], angle: 90}, "
+        "move: [0, 0, 1]}'");
   if (options.substeps && options.body == WallNurbsOptions::Body::rigid)
     fail("'substeps' are those of a deforming wall, given 'geometry', expected 'structure FILE'");
   if (options.substeps && options.solid.modes)

@@ -35,10 +35,8 @@ namespace {
   const Vector3 foot = particles.centre(i) - contact.delta;
   throw std::runtime_error(fmt::format(
       "elements at ({:.6g}, {:.6g}, {:.6g}) are too small for the contact of particle {} at step {}: what "
-      "they "
-      "give way is {:.2g} of what its law does, expected at most {:.2g}; use elements at least {:.2g} times "
-      "as "
-      "large there, or 'compliance none'",
+      "they give way is {:.2g} of what its law does, expected at most {:.2g}; use elements at least {:.2g} "
+      "times as large there, or 'compliance none'",
       foot[0], foot[1], foot[2], particles.tag[i], step, s, ComplianceCorrection::kLargest, s / kSafe));
 }
 

@@ -59,8 +59,7 @@ void ContactLoop::expect_images_to_stay(const std::vector<Vector3>& images) cons
     if ((wall_.frame().rotation * image - image).norm() > kSame * image.norm())
       throw std::runtime_error(
           "the wall turns about an axis that is not along the periodic direction across which it reaches; "
-          "use a "
-          "boundary that is not periodic there, or a box that holds the whole wall");
+          "use a boundary that is not periodic there, or a box that holds the whole wall");
 }
 
 void ContactLoop::forget_lost_contacts(const ParticleView& particles) {

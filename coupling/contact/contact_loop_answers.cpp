@@ -83,10 +83,8 @@ void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& s
   const double stable = 2.0 / std::sqrt(squared_frequency);
   throw std::runtime_error(
       fmt::format("the contact of particle {} is too stiff for the timestep {:.6g} at step {}: stiffness "
-                  "{:.4g} between a particle of "
-                  "mass {:.4g} and a surface that gives way there like a mass of {:.4g} is stable below "
-                  "{:.4g}; use a timestep of "
-                  "at most {:.2g}",
+                  "{:.4g} between a particle of mass {:.4g} and a surface that gives way there like a mass "
+                  "of {:.4g} is stable below {:.4g}; use a timestep of at most {:.2g}",
                   particles.tag[i], step.dt, step.number, stiffness, 1.0 / of_particle, 1.0 / of_wall, stable,
                   0.5 * stable));
 }

@@ -53,8 +53,7 @@ void check_table(const std::string& path, const StructurePlugin* table) {
   if (table->version != STRUCTURE_PLUGIN_VERSION || table->size < sizeof(StructurePlugin))
     throw std::invalid_argument(
         fmt::format("{}: is of version {} of structure_plugin.h with a table of {} bytes, expected version "
-                    "{} and {} bytes: "
-                    "compile it with the header of this program",
+                    "{} and {} bytes: compile it with the header of this program",
                     path, table->version, table->size, STRUCTURE_PLUGIN_VERSION, sizeof(StructurePlugin)));
   if (const char* const missing = missing_function(*table))
     throw std::invalid_argument(

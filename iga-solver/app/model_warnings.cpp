@@ -55,8 +55,7 @@ void warn_of_thin_elements(const io::ModelFile& model, Warnings& warnings) {
     if (!(worst.ratio <= kThin))
       warnings.push_back(
           fmt::format("patch {} has elements {:.0f} times as long as they are thin ({:.3g}): the shortest "
-                      "length sets the "
-                      "stable step; fewer elements there, or more in the other directions",
+                      "length sets the stable step; fewer elements there, or more in the other directions",
                       p, worst.ratio, worst.shortest));
   }
 }

@@ -91,8 +91,7 @@ struct KnownKind {
 
 constexpr const char* kCadFile =
     "expected another kind of file by its name: STEP is called .step or .stp, IGES .iges or .igs, and a file "
-    "in "
-    "YAML takes it by 'geometry: {file: NAME}'";
+    "in YAML takes it by 'geometry: {file: NAME}'";
 constexpr const char* kStlFile =
     "expected NURBS patches, or a file that names this one: triangles are read from files called .stl, and a "
     "file in YAML takes them by 'geometry: {file: NAME}'";
@@ -104,8 +103,7 @@ const KnownKind kKinds[] = {
      is_hdf5,
      {},
      "expected text: a geometry in HDF5 is called .h5 or .hdf5, and a model file (YAML) takes it by "
-     "'geometry: {file: "
-     "NAME}'"},
+     "'geometry: {file: NAME}'"},
     {FileKind::step, "a STEP file", is_step, {".step", ".stp", ".p21"}, kCadFile},
     {FileKind::iges, "an IGES file", is_iges, {".iges", ".igs"}, kCadFile},
     {FileKind::stl, "an STL file", is_stl, {".stl"}, kStlFile},
@@ -114,8 +112,7 @@ const KnownKind kKinds[] = {
      is_xml,
      {},
      "expected YAML: a geometry in G+Smo's XML is called .xml, and a model file (YAML) takes it by "
-     "'geometry: {file: "
-     "NAME}'"},
+     "'geometry: {file: NAME}'"},
     {FileKind::binary, "a binary file", is_binary, {}, "expected YAML, HDF5 (.h5) or G+Smo's XML (.xml)"},
 };
 

@@ -126,11 +126,10 @@ const ReaderProgram kHdf5Reader{"nurbs-read-hdf5", "HDF5",
                                 "HDF5 of another program, which needs the program 'nurbs-read-hdf5' to be "
                                 "read, expected beside this one or "
                                 "in PATH; or a file that nurbs-convert wrote"};
-const ReaderProgram kStepReader{
-    "nurbs-read-step", "OpenCASCADE",
-    "STEP and IGES are read by the program 'nurbs-read-step', expected beside this one or in PATH: it is "
-    "built "
-    "where OpenCASCADE is found, which inputs/setup installs; or take a file that nurbs-convert wrote (.h5)"};
+const ReaderProgram kStepReader{"nurbs-read-step", "OpenCASCADE",
+                                "STEP and IGES are read by the program 'nurbs-read-step', expected beside "
+                                "this one or in PATH: it is built where OpenCASCADE is found, which "
+                                "inputs/setup installs; or take a file that nurbs-convert wrote (.h5)"};
 
 std::string read_in_own_process(const ReaderProgram& program, const std::string& bytes,
                                 const std::vector<std::string>& arguments) {

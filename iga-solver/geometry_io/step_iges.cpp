@@ -101,12 +101,10 @@ std::string problem_of_place(const Entity& entity) {
     }
   if (!(off <= kSame))
     return "placed by a matrix that scales or skews, expected one that turns and shifts: export the part in "
-           "its "
-           "own size";
+           "its own size";
   if (turn.Determinant() < 0.0 && !may_be_mirrored(entity->TypeNumber()))
     return "placed as a mirror image, expected a matrix that turns and shifts: export the mirrored part as "
-           "one of "
-           "its own";
+           "one of its own";
   if (is_left_in_place(entity->TypeNumber()) && moved > 0.0)
     return "placed by a matrix, which OpenCASCADE leaves out, expected it where it is: export it without";
   return "";

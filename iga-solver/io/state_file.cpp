@@ -51,8 +51,7 @@ void take(const SavedState& state, double time, structure::ExplicitSolver& solve
       (reference - state.reference).lpNorm<Eigen::Infinity>() > kSame * reference.lpNorm<Eigen::Infinity>())
     throw InputError(
         fmt::format("{}: is a state of {} control points, expected one of the same {} undeformed ones as in "
-                    "the model: mesh "
-                    "and geometry are others",
+                    "the model: mesh and geometry are others",
                     state.file, state.reference.cols(), reference.cols()));
   std::vector<double> numbers{time};
   append(state.displacement, numbers);

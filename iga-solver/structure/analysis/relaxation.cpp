@@ -35,8 +35,7 @@ RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
     if (step > options.most_steps)
       throw std::runtime_error(
           fmt::format("relax: forces out of balance are {:.3g} of loads and reactions after {} steps, "
-                      "expected {:.1e}: try more "
-                      "'steps', or 'analysis: static'",
+                      "expected {:.1e}: try more 'steps', or 'analysis: static'",
                       peak.residual, options.most_steps, options.tolerance));
     solver.begin_step();
     solver.end_step(none);

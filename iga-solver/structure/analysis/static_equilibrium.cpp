@@ -21,8 +21,7 @@ void expect_held(const Body& body, const Supports& supports) {
   if (free > 0)
     throw NoEquilibrium(
         fmt::format("static: the supports leave the body free in {} of its 6 rigid motions, expected none: "
-                    "fix more faces or "
-                    "directions in 'boundary'",
+                    "fix more faces or directions in 'boundary'",
                     free));
 }
 

@@ -94,8 +94,7 @@ std::string likely_cause(const LastStep& step) {
   if (!folded.empty())
     return fmt::format(
         "{}: the loads, contact forces or initial velocities are too large for it, or the time step {:.6g} "
-        "is too "
-        "long for what it is strained to{}",
+        "is too long for what it is strained to{}",
         folded, dt, known);
   return fmt::format(
       "too large loads, contact forces or initial velocities, or too long a time step, {:.6g}{}", dt, known);

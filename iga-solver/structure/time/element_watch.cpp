@@ -96,8 +96,7 @@ std::string describe_turned(const Body& body, const Halo& halo, const ElementWat
   return halo.words_of_largest(seen ? seen->value : kNowhere, id, [&] {
     return fmt::format(
         "at time {:.6g} element {} ({}) is turned by {:.3g} degrees, and its law {}, of small strain, takes "
-        "turning "
-        "for strain: use saint_venant_kirchhoff or neo_hooke beyond {:g} degrees",
+        "turning for strain: use saint_venant_kirchhoff or neo_hooke beyond {:g} degrees",
         time, id, body.describe_element(seen->element), seen->value,
         body.element_material(seen->element).law(), ElementWatch::kLargestTurn);
   });

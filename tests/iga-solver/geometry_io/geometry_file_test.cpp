@@ -24,26 +24,17 @@ OrientedSurface the_patch(const GeometryFile& file, const std::string& name) {
 }
 
 const std::string kBox =
-    "units: si\n"
-    "geometry:\n"
-    "  box: {origin: [0, 0, -1], size: [2, 3, 1], elements: [4, 3, 2], degree: [2, 3, 1]}\n"
-    "surfaces: {top: zeta+, side: xi-}\n";
+    "units: si\ngeometry:\n  box: {origin: [0, 0, -1], size: [2, 3, 1], elements: [4, 3, 2], degree: [2, 3, "
+    "1]}\nsurfaces: {top: zeta+, side: xi-}\n";
 
 const std::string kPlane =
-    "units: mm-g-ms\n"
-    "geometry:\n"
-    "  plane: {origin: [1, 0, 0], edges: [[2, 0, 0], [0, 4, 0]], breaks: [[0, 0.25, 1], [0, 1]], degree: 2}\n"
-    "surfaces: {floor: all}\n";
+    "units: mm-g-ms\ngeometry:\n  plane: {origin: [1, 0, 0], edges: [[2, 0, 0], [0, 4, 0]], breaks: [[0, "
+    "0.25, 1], [0, 1]], degree: 2}\nsurfaces: {floor: all}\n";
 
 const std::string kPatch =
-    "units: cgs\n"
-    "geometry:\n"
-    "  patches:\n"
-    "    - degrees: [2, 1]\n"
-    "      knots: [[0, 0, 0, 1, 1, 1], [0, 0, 1, 1]]\n"
-    "      control_points: [[1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 0, 2], [1, 1, 2], [0, 1, 2]]\n"
-    "      weights: [1, 0.7071067811865476, 1, 1, 0.7071067811865476, 1]\n"
-    "surfaces: {quarter: all}\n";
+    "units: cgs\ngeometry:\n  patches:\n    - degrees: [2, 1]\n      knots: [[0, 0, 0, 1, 1, 1], [0, 0, 1, "
+    "1]]\n      control_points: [[1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 0, 2], [1, 1, 2], [0, 1, 2]]\n      "
+    "weights: [1, 0.7071067811865476, 1, 1, 0.7071067811865476, 1]\nsurfaces: {quarter: all}\n";
 
 TEST(GeometryFile, Box) {
   const GeometryFile file = parsed(kBox);
@@ -89,9 +80,8 @@ TEST(GeometryFile, PatchIsAnExactQuarterCircle) {
 TEST(GeometryFile, VolumePatch) {
   const GeometryFile file = parsed(
       "units: si\ngeometry:\n  patches:\n    - degrees: [1, 1, 1]\n      knots: [[0, 0, 1, 1], [0, 0, 1, 1], "
-      "[0, 0, 1, 1]]\n"
-      "      control_points: [[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],[0,1,1],[1,1,1]]\n"
-      "surfaces: {bottom: zeta-}\n");
+      "[0, 0, 1, 1]]\n      control_points: "
+      "[[0,0,0],[1,0,0],[0,1,0],[1,1,0],[0,0,1],[1,0,1],[0,1,1],[1,1,1]]\nsurfaces: {bottom: zeta-}\n");
   EXPECT_EQ(std::get<Volume>(file.patches.front()).space.element_count(), 1);
   EXPECT_EQ(the_patch(file, "bottom").outward_sign, -1);
 }
@@ -100,16 +90,12 @@ TEST(GeometryFile, VolumePatch) {
 
 // Two squares side by side, and a cube beside them.
 const std::string kPatches =
-    "units: si\n"
-    "geometry:\n"
-    "  patches:\n"
-    "    - {degrees: [1, 1], knots: [[0, 0, 1, 1], [0, 0, 1, 1]],\n"
-    "       control_points: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]}\n"
-    "    - {degrees: [1, 1], knots: [[0, 0, 1, 1], [0, 0, 1, 1]],\n"
-    "       control_points: [[1, 0, 0], [2, 0, 0], [1, 1, 0], [2, 1, 0]]}\n"
-    "    - {degrees: [1, 1, 1], knots: [[0, 0, 1, 1], [0, 0, 1, 1], [0, 0, 1, 1]],\n"
-    "       control_points: [[3,0,0],[4,0,0],[3,1,0],[4,1,0],[3,0,1],[4,0,1],[3,1,1],[4,1,1]]}\n"
-    "surfaces: {floor: [0, 1], second: 1, mixed: [2 zeta-, 1, 2 xi+]}\n";
+    "units: si\ngeometry:\n  patches:\n    - {degrees: [1, 1], knots: [[0, 0, 1, 1], [0, 0, 1, 1]],\n       "
+    "control_points: [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0]]}\n    - {degrees: [1, 1], knots: [[0, 0, "
+    "1, 1], [0, 0, 1, 1]],\n       control_points: [[1, 0, 0], [2, 0, 0], [1, 1, 0], [2, 1, 0]]}\n    - "
+    "{degrees: [1, 1, 1], knots: [[0, 0, 1, 1], [0, 0, 1, 1], [0, 0, 1, 1]],\n       control_points: "
+    "[[3,0,0],[4,0,0],[3,1,0],[4,1,0],[3,0,1],[4,0,1],[3,1,1],[4,1,1]]}\nsurfaces: {floor: [0, 1], second: "
+    "1, mixed: [2 zeta-, 1, 2 xi+]}\n";
 
 TEST(GeometryFile, SurfacesOfSeveralPatches) {
   const GeometryFile file = parsed(kPatches);

@@ -12,11 +12,9 @@ namespace {
 using namespace nurbs;
 
 const std::string kQuarterCylinder =
-    "  patches:\n"
-    "    - degrees: [2, 1]\n"
-    "      knots: [[0, 0, 0, 1, 1, 1], [0, 0, 1, 1]]\n"
-    "      control_points: [[1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 0, 2], [1, 1, 2], [0, 1, 2]]\n"
-    "      weights: [1, 0.7071067811865476, 1, 1, 0.7071067811865476, 1]\n";
+    "  patches:\n    - degrees: [2, 1]\n      knots: [[0, 0, 0, 1, 1, 1], [0, 0, 1, 1]]\n      "
+    "control_points: [[1, 0, 0], [1, 1, 0], [0, 1, 0], [1, 0, 2], [1, 1, 2], [0, 1, 2]]\n      weights: [1, "
+    "0.7071067811865476, 1, 1, 0.7071067811865476, 1]\n";
 
 Surface surface(const std::string& changes) {
   const std::string text = "units: si\ngeometry:\n" + changes + kQuarterCylinder;

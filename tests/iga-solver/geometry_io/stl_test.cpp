@@ -188,9 +188,8 @@ TEST(Stl, IsScaledTurnedAndMovedInYaml) {
 
   const GeometryFile several = read(
       "geometry:\n  shapes:\n    - {file: a.stl}\n    - {file: b.stl, move: [1, 0, 0]}\n    - plane: "
-      "{origin: [0, "
-      "0, 0], edges: [[1, 0, 0], [0, 1, 0]], elements: [1, 1], degree: 1}\n"
-      "surfaces: {both: [a, b], mixed: [1, 2]}\n");
+      "{origin: [0, 0, 0], edges: [[1, 0, 0], [0, 1, 0]], elements: [1, 1], degree: 1}\nsurfaces: {both: [a, "
+      "b], mixed: [1, 2]}\n");
   EXPECT_EQ(several.surfaces.at("all").size(), 3u);
   const JoinedMesh both = named_triangles(several, "both", "");
   EXPECT_EQ(both.mesh.points.cols(), 12);  // the cubes have a side in common

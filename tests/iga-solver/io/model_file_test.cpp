@@ -218,8 +218,7 @@ TEST(ModelFile, ReadsEveryLaw) {
   }
   const std::string nine =
       "law: orthotropic_elastic, E_1: 12, E_2: 0.9, E_3: 0.5, nu_12: 0.4, nu_13: 0.45, nu_23: 0.5, G_12: "
-      "0.8, "
-      "G_13: 0.6, G_23: 0.05, density: 500";
+      "0.8, G_13: 0.6, G_23: 0.05, density: 500";
   const ModelFile along = io::parse_model_file(with_material(nine), "a.yaml");
   EXPECT_THAT(along.materials.front()->further_constants(),
               testing::ElementsAre(12, 0.9, 0.5, 0.4, 0.45, 0.5, 0.8, 0.6, 0.05, 1, 0, 0, 0, 1, 0));

@@ -69,8 +69,7 @@ class Cost {
     const double of_all = mean(all), of_nearest = mean(nearest), extrema = mean(theirs);
     fmt::print(
         "{}: all feet nearer than twice the distance {:.2f} us, the nearest alone {:.2f}, BRepExtrema "
-        "{:.0f}: 1/{:.0f} "
-        "and 1/{:.0f} (medians 1/{:.0f} and 1/{:.0f})\n",
+        "{:.0f}: 1/{:.0f} and 1/{:.0f} (medians 1/{:.0f} and 1/{:.0f})\n",
         what, of_all, of_nearest, extrema, extrema / of_all, extrema / of_nearest,
         median(theirs) / median(all), median(theirs) / median(nearest));
   }
