@@ -6,6 +6,7 @@
 #include <BRepBndLib.hxx>
 #include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepLib.hxx>
+#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Eigen/Geometry>
@@ -13,8 +14,10 @@
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
+#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
@@ -29,7 +32,7 @@
 namespace geometry_io {
 namespace {
 
-constexpr double kSewing = 1e-6, kWidestGap = 5e-3;  // of the size
+constexpr double kSewing = 1e-6, kSewingOfGaps = 1.1e-4, kWidestGap = 5e-3;  // of the size
 constexpr double kSmallest = 1e-3;  // size of a model whose tolerances are told apart from it [mm]
 
 Handle(Geom_Surface) untrimmed(Handle(Geom_Surface) surface) {
@@ -91,30 +94,53 @@ class ModelMaker {
     model_.solids.push_back({body.name, body.colour, closed});
   }
 
-  // Faces that lie side by side without a common edge get one.
+  // Faces that lie side by side without a common edge get one: those of one border, and free edges that miss
+  // each other by little.
   TopoDS_Shape sewn(const StepBody& body) {
     Bnd_Box box;
     BRepBndLib::Add(body.shape, box, false);
-    const double tolerance = kSewing * std::sqrt(std::max(box.SquareExtent(), 0.0));
-    BRepBuilderAPI_Sewing sewing(tolerance);
-    int count = 0;
-    for (TopExp_Explorer it(body.shape, TopAbs_FACE); it.More(); it.Next(), ++count) sewing.Add(it.Current());
-    if (count < 2) return body.shape;
-    TopTools_IndexedMapOfShape before, after;
-    TopExp::MapShapes(body.shape, TopAbs_EDGE, before);
+    const double size = std::sqrt(std::max(box.SquareExtent(), 0.0));
+    const TopoDS_Shape exact = sewn(body.name, body.shape, kSewing, size);
+    return has_free_edges(exact) ? sewn(body.name, exact, kSewingOfGaps, size) : exact;
+  }
+
+  TopoDS_Shape sewn(const std::string& name, const TopoDS_Shape& shape, double relative, double size) {
+    BRepBuilderAPI_Sewing sewing(relative * size);
+    TopTools_IndexedMapOfShape faces, before, after;
+    TopExp::MapShapes(shape, TopAbs_FACE, faces);
+    if (faces.Extent() < 2) return shape;
+    for (int f = 1; f <= faces.Extent(); ++f) sewing.Add(faces(f));
     sewing.Perform();
-    const TopoDS_Shape result = sewing.SewedShape();
-    if (result.IsNull()) return body.shape;
+    // In their order, which gives faces their numbers.
+    BRep_Builder builder;
+    TopoDS_Compound result;
+    builder.MakeCompound(result);
+    for (int f = 1; f <= faces.Extent(); ++f) {
+      const TopoDS_Shape face = sewing.Modified(faces(f));
+      if (face.IsNull() || face.ShapeType() != TopAbs_FACE) return shape;  // it is as small as the gaps
+      builder.Add(result, face);
+    }
+    TopExp::MapShapes(shape, TopAbs_EDGE, before);
     TopExp::MapShapes(result, TopAbs_EDGE, after);
-    if (after.Extent() >= before.Extent()) return body.shape;
-    for (TopExp_Explorer it(body.shape, TopAbs_FACE); it.More(); it.Next())
-      if (const StepLabel* label = document_.labels.Seek(it.Current().Located(TopLoc_Location()))) {
+    if (after.Extent() >= before.Extent()) return shape;
+    for (int f = 1; f <= faces.Extent(); ++f)
+      if (const StepLabel* label = document_.labels.Seek(faces(f).Located(TopLoc_Location()))) {
         const StepLabel kept = *label;
-        document_.labels.Bind(sewing.Modified(it.Current()).Located(TopLoc_Location()), kept);
+        document_.labels.Bind(sewing.Modified(faces(f)).Located(TopLoc_Location()), kept);
       }
-    model_.healed.push_back(fmt::format("sheet '{}': {} edges sewn to {} within {:.3g} mm (1e-6 of its size)",
-                                        body.name, before.Extent(), after.Extent(), tolerance));
+    model_.healed.push_back(
+        fmt::format("sheet '{}': {} edges sewn to {} within {:.3g} mm ({:.2g} of its size)", name,
+                    before.Extent(), after.Extent(), relative * size, relative));
     return result;
+  }
+
+  static bool has_free_edges(const TopoDS_Shape& shape) {
+    TopTools_IndexedDataMapOfShapeListOfShape faces_of;
+    TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of);
+    for (int e = 1; e <= faces_of.Extent(); ++e)
+      if (faces_of(e).Extent() == 1 && !BRep_Tool::Degenerated(TopoDS::Edge(faces_of.FindKey(e))))
+        return true;
+    return false;
   }
 
   void add_face(const TopoDS_Face& face, int solid) {

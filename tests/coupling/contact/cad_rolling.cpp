@@ -99,8 +99,7 @@ class Rolling {
         }
     fmt::print(
         "{} edges, {} ways, {} without room, {} hollows, {} pressed through; {} places, largest jump {:.3g} "
-        "of what "
-        "may be; wrong: {}\n",
+        "of what may be; wrong: {}\n",
         wall_->edges.size(), ways_, no_room_, hollows_, pressed_, places_, worst_, wrong_);
   }
   int wrong() const { return wrong_; }
@@ -275,9 +274,10 @@ class Rolling {
     std::sort(state_.faces.begin(), state_.faces.end());
   }
 
-  // Pressed in by what it is placed for, and what is near the edge is one contact.
+  // Pressed in by what it is placed for, and what is near the edge is one contact.  Without any it is at most
+  // 0.
   void expect_contact() {
-    double most = -1.0;
+    double most = 0.0;
     const auto& seen = scene_.spring.seen;
     for (const contact::Contact& c : seen) most = std::max(most, c.overlap);
     const double off = std::abs(most - kOverlap * radius_);

@@ -221,6 +221,32 @@ TEST_F(Reader, IgesIsSewn) {
     }
 }
 
+// Four faces of a trough with three borders that miss each other by 0.01 mm; its other ten edges stay free.
+TEST_F(Reader, GapsAreSewn) {
+  using Kind = geometry_io::EdgeMeasure::Kind;
+  for (const step_parts::Part& part : step_parts::border_parts()) {
+    const std::string name = part.file;
+    if (name != "gaps.step") continue;
+    step_parts::write(part, path(""));
+    const CadModel model = geometry_io::read_step(bytes(name));
+    EXPECT_THAT(model.healed, testing::Contains(HasSubstr("16 edges sewn to 13 within 0.0166 mm")));
+    int smooth = 0, sharp = 0;
+    for (const geometry_io::EdgeMeasure& edge : geometry_io::measured_edges(model)) {
+      smooth += edge.kind == Kind::smooth, sharp += edge.kind == Kind::sharp;
+      if (edge.kind == Kind::free) continue;
+      EXPECT_NEAR(edge.gap, 0.01, 0.005);
+    }
+    EXPECT_EQ(smooth, 2);
+    EXPECT_EQ(sharp, 1);
+    // What faces are called is what they are in the file.
+    ASSERT_EQ(model.faces.size(), 4u);
+    EXPECT_TRUE(model.faces[1].shape.kind == brep::Kind::cylinder);
+    for (int f = 0; f < 4; ++f) EXPECT_GT(model.faces[f].entity, 0);
+    return;
+  }
+  FAIL() << "no such part";
+}
+
 // Planes and a cone, with outward sides.
 TEST_F(Reader, IgesSolidsAreBodies) {
   for (const step_parts::Part& part : step_parts::closed_form_parts()) {
