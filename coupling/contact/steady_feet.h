@@ -2,14 +2,15 @@
 // Contacts that are inside one face, and stay there: what most contacts do in most steps.  Who has looked at
 // all pieces near a candidate says how far it may move until the others matter (keep); until then its height
 // over that face is its only foot, and needs no search, no matching of slots, no question to anybody else.
-// Feet over plane faces are found a block at a time, in arrays by component, which the compiler turns into
-// vector instructions; their digits are those of a search.
+// Feet over planes and on one cylinder are found a block at a time (feet_kernel.h); their digits are those of
+// a search.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "brep/foot_search.h"
+#include "coupling/contact/feet_kernel.h"
 #include "coupling/rigid_frame.h"
 #include "nurbs/assert.h"
 #include "nurbs/processor.h"
@@ -33,11 +34,14 @@ struct SteadyFoot {
 
 class SteadyFeet {
  public:
-  static constexpr int kBlock = 64;
+  static constexpr int kBlock = FeetBlock::kCapacity;
 
   /// Keeps references.  `charts`: to the parameters that feet are given in; null: the faces' own.
   SteadyFeet(const brep::FootSearch& search, const std::vector<brep::Chart>* charts)
-      : search_(search), charts_(charts), waits_for_memory_(search.outgrows_cache()) {}
+      : search_(search),
+        charts_(charts),
+        waits_for_memory_(search.outgrows_cache()),
+        kernel_(feet_kernel(nurbs::simd_level())) {}
 
   void forget_all(std::size_t candidates) {
     rests_.assign(candidates, Rest());
@@ -54,7 +58,7 @@ class SteadyFeet {
 
   /// Begins a block, of centres in space that `frame` has in the wall's.
   void begin_block(const coupling::RigidFrame& frame, bool is_turned) {
-    count_ = curved_count_ = 0;
+    block_.count = curved_count_ = 0;
     frame_ = &frame;
     is_turned_ = is_turned;
   }
@@ -63,28 +67,28 @@ class SteadyFeet {
     NURBS_ASSERT(candidate < static_cast<int>(rests_.size()), candidate, rests_.size());
     const Rest& rest = rests_[candidate];
     if (rest.piece < 0) return false;
-    const int k = count_++;
+    const int k = block_.count++;
     candidate_[k] = candidate, particle_[k] = particle, piece_[k] = rest.piece;
-    face_[k] = rest.face, sign_[k] = rest.sign, marks_[k] = rest.marks;
-    touch_reach_[k] = touch_reach, reach_[k] = rest.reach, margin_[k] = rest.margin;
-    centre_[0][k] = x[0], centre_[1][k] = x[1], centre_[2][k] = x[2];
-    before_[0][k] = rest.centre[0], before_[1][k] = rest.centre[1], before_[2][k] = rest.centre[2];
+    face_[k] = rest.face, marks_[k] = rest.marks;
+    block_.sign[k] = rest.sign;
+    block_.touch_reach[k] = touch_reach, block_.reach[k] = rest.reach, block_.margin[k] = rest.margin;
+    for (int d = 0; d < 3; ++d) block_.centre[d][k] = x[d], block_.before[d][k] = rest.centre[d];
     if (rest.marks.is_curved) curved_[curved_count_++] = k;
     if (waits_for_memory_) nurbs::prefetch(search_.triangle(rest.piece));  // find() looks at it
     return true;
   }
   /// Finds the feet of those that were added, numbers 0 to count() - 1.
   void find();
-  int count() const { return count_; }
+  int count() const { return block_.count; }
   int candidate(int k) const { return candidate_[k]; }
   /// Whether it still has that foot alone, nearer than it touches.
-  bool is_there(int k) const { return room_[k] > 0.0; }
+  bool is_there(int k) const { return block_.room[k] > 0.0; }
   SteadyFoot foot(int k) const {
     return {candidate_[k],
             particle_[k],
-            {face_[k], {xi_[0][k], xi_[1][k]}},
-            {delta_[0][k], delta_[1][k], delta_[2][k]},
-            distance_[k],
+            {face_[k], {block_.xi[0][k], block_.xi[1][k]}},
+            {block_.delta[0][k], block_.delta[1][k], block_.delta[2][k]},
+            block_.distance[k],
             marks_[k].side,
             marks_[k].is_settled};
   }
@@ -103,16 +107,9 @@ class SteadyFeet {
     std::int32_t piece = kNone, face;
     Marks marks;
   };
-  struct OnePlane;
-  struct EachItsPlane;
   bool is_one_face() const;
-  void bring_into_frame();
-  void turn_into_space();
   void find_in_frame();
-  double room_to_move(int k) const;
   void find_on_planes();
-  template <class Planes>
-  void find_over(const Planes& planes);
   bool find_on_one_cylinder();
   void find_on_curved(int k);
 
@@ -122,20 +119,15 @@ class SteadyFeet {
   std::vector<Rest> rests_;                    // per candidate
   std::vector<nurbs::Parameter<2>> followed_;  // likewise, where feet are followed (brep::FootSearch)
 
-  // A block, in lanes.
-  using Lanes = double[kBlock];
+  FeetKernel kernel_;
   const coupling::RigidFrame* frame_ = nullptr;
   bool is_turned_ = false;
-  int count_ = 0, curved_count_ = 0;
+  int curved_count_ = 0;
   int candidate_[kBlock] = {}, particle_[kBlock] = {}, piece_[kBlock] = {}, face_[kBlock] = {},
       curved_[kBlock] = {};
   Marks marks_[kBlock] = {};
-  alignas(64) Lanes centre_[3] = {}, before_[3] = {}, touch_reach_ = {}, reach_ = {}, margin_ = {};
-  Lanes sign_ = {};
-  Lanes origin_[3] = {}, x_[3] = {}, y_[3] = {}, scale_[2] = {}, shift_[2] = {};  // of their planes
-  Lanes room_ = {};  // more than 0: it has not moved too far, nor is it too far, nor on the other side
-  Lanes cos_ = {}, sin_ = {}, length_ = {}, from_axis_ = {}, inside_[2] = {};  // of cylinders
-  Lanes delta_[3] = {}, distance_ = {}, xi_[2] = {};
+  FeetBlock block_;
+  double inside_[2][kBlock] = {};  // of charts of cylinders
 };
 
 }  // namespace contact
