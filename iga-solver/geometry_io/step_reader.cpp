@@ -116,7 +116,7 @@ class ModelMaker {
     TopoDS_Compound result;
     builder.MakeCompound(result);
     for (int f = 1; f <= faces.Extent(); ++f) {
-      const TopoDS_Shape face = sewing.Modified(faces(f));
+      const TopoDS_Shape& face = sewing.Modified(faces(f));
       if (face.IsNull() || face.ShapeType() != TopAbs_FACE) return shape;  // it is as small as the gaps
       builder.Add(result, face);
     }
