@@ -25,8 +25,8 @@ class LocalPatch {
   const ReferenceBody& body() const { return body_; }
   const BodyElement& hit() const { return hit_; }
   const std::vector<BodyElement>& elements() const { return elements_; }
-  /// Nodes have places from 0 on: first those that no other element has, along
-  /// the axis of their largest extent, then the others.
+  /// Nodes have places from 0 on: first those that no other element has, along the axis of their largest
+  /// extent, then the others.
   const std::vector<Id>& nodes() const { return nodes_; }
   int free_count() const { return free_; }
   int place(Id node) const { return place_.at(node); }
