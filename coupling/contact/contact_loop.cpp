@@ -120,13 +120,14 @@ inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo
   const double touch_factor = step.touch_factor;
   int seen = 0;
   if (steady) steady->begin_block(wall_.frame(), wall_.is_turned());
-  for (; candidate < end && seen < FeetTracker::kBlock; ++candidate) {
+  for (; candidate < end && seen <= FeetTracker::kBlock - SteadyFeet::kMostFeet; ++candidate) {
     const std::ptrdiff_t i = candidates[candidate].particle;
     if (!p.meets_wall(static_cast<int>(i))) continue;
     const double touch_reach = p.radius[i] * touch_factor;
-    if (steady && steady->add(candidate, static_cast<int>(i), p.x + 3 * i, touch_reach)) {
-      ++seen;
-      continue;
+    if (steady) {
+      const int lines = steady->add(candidate, static_cast<int>(i), p.x + 3 * i, p.v + 3 * i, touch_reach);
+      seen += lines;
+      if (lines > 0) continue;
     }
     const Vector3 centre = wall_.to_frame(Vector3::Map(p.x + 3 * i));
     if (tracker_->is_quiet(candidate, centre, touch_reach)) continue;
@@ -140,12 +141,18 @@ inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo
 inline void ContactLoop::take_steady(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady,
                                      FeetTracker::Query* queries, int& count) {
   if (steady.count() == 0) return;
-  steady.find();
-  const int others = count;
+  steady.find({squared_time_, squared_way_, wall_.resolution()});
+  for (const SteadyFeet::Group& lines : steady)
+    if (!settle(particles, steady, lines)) steady.drop(lines);
+  int taken = 0;
   for (int k = 0; k < steady.count(); ++k)
-    if (!steady.is_there(k) || !go_on(particles, step, steady, steady.foot(k)))
+    if (steady.is_there(k) && (steady.slot(k) >= 0 || settle(particles, steady, {k, 1}))) {
+      go_on(particles, step, steady, k);
+      ++taken;
+    } else if (count == 0 || queries[count - 1].candidate != steady.candidate(k)) {
       queries[count++] = query_of(particles, step, steady.candidate(k));
-  searches_.add_interior(steady.count() - (count - others));
+    }
+  searches_.add_interior(taken);
 }
 
 FeetTracker::Query ContactLoop::query_of(const ParticleView& particles, const StepInfo& step,
@@ -176,35 +183,43 @@ bool keeps_side(const ContactSlot& slot, const Foot& foot, double radius) {
 
 }  // namespace
 
-// A contact that keeps its slot and its side; false: it may be another, ask find_contacts.
-inline bool ContactLoop::go_on(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady,
-                               const SteadyFoot& foot) {
-  const int i = foot.particle;
-  const double radius = particles.radius[i];
-  ContactSlot slot = particles.memory.slot(i, 0);
-  if (foot.distance < std::max(kDeep * radius, wall_.resolution())) return false;
-  if (!foot.is_settled) {
-    if (used_slots_[i] != 1 || !slot.is_beside(foot.at.patch)) return false;
-    steady.settle(foot.candidate);
+// Finds the slots of a candidate's feet, each on its face; false: they may be others, ask find_contacts.
+bool ContactLoop::settle(const ParticleView& particles, SteadyFeet& steady, const SteadyFeet::Group& lines) {
+  if (!steady.is_there(lines.first) || steady.slot(lines.first) >= 0) return true;
+  const ParticleSlots slots = slots_of(particles, steady.particle(lines.first));
+  if (slots.filled() != lines.count) return false;
+  for (int k = lines.first; k < lines.first + lines.count; ++k) {
+    int s = 0;
+    while (s < slots.used() && !slots.slot(s).is_beside(steady.face(k))) ++s;
+    if (s == slots.used()) return false;
+    steady.settle(k, s);
   }
-  const Vector3& delta = foot.delta;
-  Vector3 v_wall = Vector3::Zero();
-  const double travel2 = squared_travel(particles, i);
-  if (!wall_.stands() || travel2 >= foot.distance * foot.distance) {
-    const double reach = radius * step.touch_factor;
-    if (travel2 > reach * reach) return false;
-    if (!wall_.stands()) v_wall = wall_.velocity_of_rigid(particles.centre(i) - delta, delta);
-    check_crossing(particles, step, i, travel2, foot.distance, delta, v_wall);
-  }
-  slot.set_parameters(foot.at);
-  Contact& contact = add_contact(particles, i, foot.at, 0, foot.distance, delta, v_wall);
-  contact.inside = wall_.is_inside(foot.at.patch, foot.side);
-  contact.effective_radius = radius;
-  if (options_.curvature_radius)
-    contact.effective_radius =
-        wall_.effective_radius(foot.searched(wall_.to_frame(particles.centre(i) - delta)), delta, radius);
-  contact.history = slot.history();
   return true;
+}
+
+// A contact that keeps its slot and its side.
+inline void ContactLoop::go_on(const ParticleView& particles, const StepInfo& step, const SteadyFeet& steady,
+                               int k) {
+  const int i = steady.particle(k), place = steady.slot(k);
+  const double distance = steady.distance(k);
+  const Vector3 delta = steady.delta(k);
+  const nurbs::SurfacePoint at = steady.at(k);
+  Vector3 v_wall = Vector3::Zero();
+  if (!wall_.stands()) {
+    v_wall = wall_.velocity_of_rigid(particles.centre(i) - delta, delta);
+    check_crossing(particles, step, i, distance, delta, v_wall);
+  }
+  ContactSlot slot = particles.memory.slot(i, place);
+  slot.set_parameters(at);
+  Contact& contact = add_contact(particles, i, at, place, distance, delta, v_wall);
+  contact.inside = wall_.is_inside(at.patch, steady.side(k));
+  contact.effective_radius = particles.radius[i];
+  if (options_.curvature_radius) {
+    const Vector3 point = wall_.to_frame(particles.centre(i) - delta);
+    contact.effective_radius = wall_.effective_radius(
+        {at.xi, point, distance, search::FootStatus::interior, 0, at.patch}, delta, particles.radius[i]);
+  }
+  contact.history = slot.history();
 }
 
 inline void ContactLoop::find_contacts(const ParticleView& particles, const StepInfo& step,
@@ -225,7 +240,8 @@ inline void ContactLoop::find_contacts(const ParticleView& particles, const Step
     Vector3 v_wall;
     if (touches || may_cross(particles, step, i, foot.distance)) {
       v_wall = wall_.velocity_below(foot, particles.centre(i), delta);
-      check_crossing(particles, step, i, query.squared_travel, foot.distance, delta, v_wall);
+      if (!wall_.stands() || query.squared_travel >= foot.distance * foot.distance)
+        check_crossing(particles, step, i, foot.distance, delta, v_wall);
     }
     if (touches) {
       const int slot = tracked.slot = take_slot(particles, step, i, tracked, slots, delta);
@@ -253,9 +269,7 @@ inline bool ContactLoop::may_cross(const ParticleView& particles, const StepInfo
 // A centre that comes to the surface within one step would leave it on the other side; one that was on the
 // other side a step ago has done so.
 inline void ContactLoop::check_crossing(const ParticleView& particles, const StepInfo& step, int i,
-                                        double squared_travel, double distance, const Vector3& delta,
-                                        const Vector3& v_wall) {
-  if (wall_.stands() && squared_travel < distance * distance) return;
+                                        double distance, const Vector3& delta, const Vector3& v_wall) {
   if (distance < 0.0) return;                                           // it stays on its side
   const double approach = (v_wall - particles.velocity(i)).dot(delta);  // times the distance
   // In this order: the sign of the approach is anyone's guess, for the processor too.
@@ -288,7 +302,7 @@ inline Contact& ContactLoop::add_contact(const ParticleView& particles, int i,
   contact.particle = i;
   contact.tag = particles.tag[i];
   contact.slot = slot;
-  contact.foot = foot;
+  contact.foot.patch = foot.patch, contact.foot.xi = foot.xi;  // a copy of the whole waits for its parts
   contact.touches = distance <= radius;
   contact.distance = distance;
   contact.overlap = radius - distance;

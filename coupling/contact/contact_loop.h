@@ -110,11 +110,12 @@ class ContactLoop {
   double squared_travel(const ParticleView& particles, int particle) const;
   void take_steady(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady,
                    FeetTracker::Query* queries, int& count);
-  bool go_on(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady, const SteadyFoot& foot);
+  bool settle(const ParticleView& particles, SteadyFeet& steady, const SteadyFeet::Group& lines);
+  void go_on(const ParticleView& particles, const StepInfo& step, const SteadyFeet& steady, int k);
   void find_contacts(const ParticleView& particles, const StepInfo& step, const FeetTracker::Query& query);
   bool may_cross(const ParticleView& particles, const StepInfo& step, int particle, double distance) const;
-  void check_crossing(const ParticleView& particles, const StepInfo& step, int particle,
-                      double squared_travel, double distance, const Vector3& delta, const Vector3& v_wall);
+  void check_crossing(const ParticleView& particles, const StepInfo& step, int particle, double distance,
+                      const Vector3& delta, const Vector3& v_wall);
   ParticleSlots slots_of(const ParticleView& particles, int particle) {
     return particles.memory.of(particle, used_slots_[particle]);
   }

@@ -74,6 +74,11 @@ class ParticleSlots {
     NURBS_ASSERT(0 <= s && s < slot_count_, s, slot_count_);
     return {slots_[s] + offset_, history_count_};
   }
+  int filled() const {
+    int count = 0;
+    for (int s = 0; s < used_; ++s) count += !slot(s).empty();
+    return count;
+  }
   /// Index of an empty slot, which from now on is used; -1 if there is none.
   int take_empty() const {
     for (int s = 0; s < used_; ++s)

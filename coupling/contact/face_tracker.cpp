@@ -135,7 +135,7 @@ void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
   State& state = states_[query.candidate];
   state.centre = query.centre;
   state.reach = query.touch_reach + margin;
-  state.looks = 0;
+  state.looks = state.next_try = 0;
   const Candidate& candidate = candidates_.candidates()[query.candidate];
   const ImageElements* image = candidates_.image_elements(candidate);
   int* count = &piece_counts_[candidate.first_image];
@@ -144,12 +144,19 @@ void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
   });
   state.alone = -1;
   state.margin = margin;
-  const int* const first = pieces_.data() + candidates_.image_elements(candidate)->first;
-  const int number = piece_counts_[candidate.first_image];
-  if (candidate.image_count == 1 && number > 0 &&
-      candidates_.images()[candidates_.image_elements(candidate)->image].isZero(0.0) &&
-      search_.is_well_inside(first, number, query.centre, state.reach, margin))
-    state.alone = *first;
+  const PiecesHere pieces = pieces_of_wall_itself(query);
+  if (pieces.count > 0 &&
+      search_.is_well_inside(pieces.first, pieces.count, query.centre, state.reach, margin))
+    state.alone = *pieces.first;
+}
+
+// Those chosen, if no image of the wall is near.
+FaceTracker::PiecesHere FaceTracker::pieces_of_wall_itself(const Query& query) const {
+  const Candidate& candidate = candidates_.candidates()[query.candidate];
+  if (candidate.image_count != 1) return {};
+  const ImageElements& at = *candidates_.image_elements(candidate);
+  if (!candidates_.images()[at.image].isZero(0.0)) return {};
+  return {pieces_.data() + at.first, piece_counts_[candidate.first_image]};
 }
 
 void FaceTracker::find(const Query& query, double reach) {
@@ -287,10 +294,35 @@ void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
   const brep::Foot& foot = found_[0];
   state.last = foot.point;
   if (state.sheet >= 0 && state.alone >= 0)
-    steady_.keep(query.candidate, state.alone, foot.patch, foot.side, state.centre, state.reach, state.margin,
-                 foot.xi);
-  else
+    steady_.keep(query.candidate, {state.centre, state.reach, state.margin}, state.alone, foot.patch,
+                 foot.side, foot.xi);
+  else if (!may_rest(query))
     steady_.forget(query.candidate);
+}
+
+// Feet inside plane faces stay what they are while the centre does not come to where others begin or end.
+// That is worth finding out if it lasts for some steps; where it does not, it is left for a while.
+bool FaceTracker::may_rest(const Query& query) {
+  constexpr int kWhile = 8;
+  constexpr double kSteps = 4.0;
+  State& state = states_[query.candidate];
+  if (state.looks < state.next_try || found_.size() > SteadyFeet::kMostFeet) return false;
+  state.next_try = state.looks + kWhile;
+  const PiecesHere pieces = pieces_of_wall_itself(query);
+  const double reach = state.reach - (query.centre - state.centre).norm(), margin = reach - query.touch_reach;
+  const auto enough = [&](double room) { return room * room > kSteps * kSteps * query.squared_travel; };
+  if (pieces.count == 0 || !(margin > 0.0) || !enough(margin)) return false;
+  int below[SteadyFeet::kMostFeet];
+  double room =
+      std::min(margin, search_.room_of_feet(query.centre, reach, pieces.first, pieces.count, found_, below));
+  if (!(room > 0.0) || !enough(room)) return false;
+  within_.clear();  // others may come nearer meanwhile
+  search_.feet(query.centre, query.touch_reach + room, pieces.first, pieces.count, within_);
+  if (within_.size() > found_.size()) room = within_[found_.size()].distance - query.touch_reach;
+  if (within_.size() < found_.size() || !enough(room)) return false;
+  steady_.keep(query.candidate, {query.centre, query.touch_reach + room, room}, found_, below);
+  state.next_try = 0;
+  return true;
 }
 
 // Most have one contact, and had it before: then nobody asks the slot where that was.

@@ -4,10 +4,10 @@
 // A foot costs little here, so none is followed: all are found anew in each step that may have one.  Near
 // the wall a candidate looks only at the pieces that it can reach before it has moved by a small part of its
 // radius, the smaller the slower it is; farther away it looks for the nearest piece alone, and then rests
-// until it can be there.  Most that touch have one contact, inside one face: steady_feet.h finds it, and
-// nobody looks at others.  A branch is a foot of one sheet (brep/README.md), wherever it moves on it, over
-// edges and vertices too.  Bodies have one side: a branch whose centre has passed their skin stays, with a
-// distance less than 0, until the centre is out again or farther in than the particle reaches.
+// until it can be there.  Most that touch do so inside faces, and go on to do so: steady_feet.h finds these
+// contacts, and nobody looks at others.  A branch is a foot of one sheet (brep/README.md), wherever it moves
+// on it, over edges and vertices too.  Bodies have one side: a branch whose centre has passed their skin
+// stays, with a distance less than 0, until the centre is out again or farther in than the particle reaches.
 #pragma once
 
 #include <vector>
@@ -46,7 +46,7 @@ class FaceTracker : public FeetTracker {
     double reach = 0.0;                              // then; 0: not yet [length]
     nurbs::Vector3 last = nurbs::Vector3::Zero();    // its foot when it was found last, if it had one alone
     int sheet = -1;                                  // of that; -1: none, or its list is new
-    int looks = 0;                                   // at these pieces
+    int looks = 0, next_try = 0;                     // at these pieces; when to ask whether it may rest
     int alone = -1;       // one of these, if all are of one face, which the candidate is well inside of ...
     double margin = 0.0;  // ... as long as it has not moved by more
   };
@@ -55,6 +55,11 @@ class FaceTracker : public FeetTracker {
   void for_each_image(const Query& query, Of of, Function f) const;
   double nearest(const Query& query, double reach, Of of) const;
   double nearest_of_chosen(const Query& query) const;
+  struct PiecesHere {
+    const int* first = nullptr;
+    int count = 0;
+  };
+  PiecesHere pieces_of_wall_itself(const Query& query) const;
   void choose_fewer_pieces(const Query& query);
   void choose_pieces(const Query& query, Of of, double margin);
   static bool has_moved_less(const Query& query, const State& state, double than);
@@ -70,6 +75,7 @@ class FaceTracker : public FeetTracker {
   void match_slots(const Query& query, const ParticleSlots& slots);
   bool is_last_foot(const Query& query, const ParticleSlots& slots) const;
   void match_nearest(const Query& query, const ParticleSlots& slots);
+  bool may_rest(const Query& query);
   TrackedFoot tracked(const brep::Foot& foot) const;
   FeetRange none(const Query& query, const ParticleSlots& slots, double clearance);
 
@@ -80,11 +86,12 @@ class FaceTracker : public FeetTracker {
   const std::vector<brep::Chart>* charts_;
   SearchCounts& counts_;
   SteadyFeet steady_;
-  std::vector<State> states_;      // per candidate
-  std::vector<int> pieces_;        // those chosen, of each image at the beginning of its range of elements
-  std::vector<int> piece_counts_;  // of these, per image of each candidate
-  std::vector<brep::Foot> found_;  // of one candidate, in this step; so are the next two
-  std::vector<TrackedFoot> feet_;  // the same
+  std::vector<State> states_;       // per candidate
+  std::vector<int> pieces_;         // those chosen, of each image at the beginning of its range of elements
+  std::vector<int> piece_counts_;   // of these, per image of each candidate
+  std::vector<brep::Foot> found_;   // of one candidate, in this step; so are the next two
+  std::vector<brep::Foot> within_;  // the same
+  std::vector<TrackedFoot> feet_;   // the same
   struct Pair {
     double way2;
     int slot, foot;

@@ -117,12 +117,24 @@ void over_one_cylinder(FeetBlock& block, const CylinderNumbers& cylinder) {
                                 block.length[k] * c.z[d]);
 }
 
+void stay_outside(FeetBlock& block, const StepNumbers& step) {
+  constexpr double kDeep = 0.5;
+  const StepNumbers s = step;
+  for (int k = 0; k < block.count; ++k) {
+    const double x = block.velocity[0][k], y = block.velocity[1][k], z = block.velocity[2][k];
+    const double distance = block.distance[k],
+                 way2 = s.squared_time * (x * x + y * y + z * z) + s.squared_way;
+    const double outside = least(distance * distance - way2, distance - kDeep * block.touch_reach[k]);
+    block.room[k] = least(block.room[k], least(outside, distance - s.resolution));
+  }
+}
+
 }  // namespace
 
 namespace NURBS_SIMD_LEVEL {
 
 FeetKernel feet_kernel() {
-  return {into_frame, into_space, room_to_move, over_one_plane, over_planes, over_one_cylinder};
+  return {into_frame, into_space, room_to_move, over_one_plane, over_planes, over_one_cylinder, stay_outside};
 }
 
 }  // namespace NURBS_SIMD_LEVEL

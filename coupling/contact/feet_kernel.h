@@ -11,10 +11,11 @@ namespace contact {
 /// Centres and their feet, number by number.  Lengths have one unit throughout; `xi` is the patch's.
 struct FeetBlock {
   static constexpr int kCapacity = 64;
-  using Lanes = double[kCapacity];
+  using Lanes = double[kCapacity + 8];
 
   int count = 0;
   alignas(64) Lanes centre[3] = {};                       // in space; then in the wall's frame
+  Lanes velocity[3] = {};                                 // in space
   Lanes before[3] = {};                                   // where they were looked at, in the frame
   Lanes touch_reach = {}, reach = {}, margin = {};        // SteadyFeet::keep
   Lanes sign = {};                                        // of their height over the face
@@ -38,6 +39,13 @@ struct CylinderNumbers {
   double radius, least;
 };
 
+/// What a step leaves of contacts that need no second look: a centre stays farther from its foot than it and
+/// the wall move in the step, whose squared way is at most `squared_time` v^2 + `squared_way`; than half of
+/// what it reaches; and than `resolution` [length].
+struct StepNumbers {
+  double squared_time, squared_way, resolution;
+};
+
 /// R is a rotation, by rows.
 struct FeetKernel {
   /// centre: from space into the frame, R^T (centre - origin), R null if it is not turned.
@@ -50,6 +58,8 @@ struct FeetKernel {
   void (*over_planes)(FeetBlock& block);
   /// All but xi, of which cos, sin and length are found.
   void (*over_one_cylinder)(FeetBlock& block, const CylinderNumbers& cylinder);
+  /// room: also that the step is one of those.
+  void (*stay_outside)(FeetBlock& block, const StepNumbers& step);
 };
 
 /// Throws std::invalid_argument if this machine does not have the instruction set.

@@ -6,24 +6,66 @@
 
 namespace contact {
 
-void SteadyFeet::keep(int candidate, int piece, int face, int side, const nurbs::Vector3& centre,
-                      double reach, double margin, const nurbs::Parameter<2>& xi) {
-  Rest& rest = rests_[candidate];
-  rest.centre = centre;
-  rest.reach = reach, rest.margin = margin;
-  rest.sign = side;
+void SteadyFeet::set(Rest& rest, const Room& room, int piece, int face, int side) {
+  rest.centre = room.centre;
+  rest.reach = room.reach, rest.margin = room.margin;
+  rest.sign = static_cast<float>(side);
   rest.piece = piece, rest.face = face;
-  rest.marks.side = static_cast<std::int8_t>(charts_ ? (*charts_)[face].side * side : side);
-  rest.marks.is_curved = !search_.triangle(piece).exists();
-  rest.marks.is_settled = false;
+  rest.feet = 1;
+}
+
+void SteadyFeet::keep(int candidate, const Room& room, int piece, int face, int side,
+                      const nurbs::Parameter<2>& xi) {
+  Rest& rest = rests_[candidate];
+  set(rest, room, piece, face, side);
+  rest.marks = {of_patch(face, side), kNone, 0, !search_.triangle(piece).exists()};
   if (!followed_.empty()) followed_[candidate] = xi;
 }
 
-void SteadyFeet::find() {
+void SteadyFeet::keep(int candidate, const Room& room, const std::vector<brep::Foot>& feet,
+                      const int* pieces) {
+  const int count = static_cast<int>(feet.size());
+  NURBS_ASSERT(0 < count && count <= kMostFeet, count);
+  Rest& rest = rests_[candidate];
+  if (count > 1 && rest.further < 0) {
+    rest.further = static_cast<std::int32_t>(further_.size());
+    further_.resize(further_.size() + kMostFeet - 1);
+  }
+  for (int k = 0; k < count; ++k) {
+    Rest& own = k == 0 ? rest : further_[rest.further + k - 1];
+    set(own, room, pieces[k], feet[k].patch, feet[k].side);
+    own.marks = {of_patch(feet[k].patch, feet[k].side), kNone, static_cast<std::int8_t>(k), false};
+  }
+  rest.feet = count;
+}
+
+int SteadyFeet::add_group(int particle, const double* x, const double* v, double touch_reach,
+                          const Rest& rest) {
+  const int first = block_.count - 1, candidate = candidate_[first];
+  for (int k = 1; k < rest.feet; ++k)
+    add_line(candidate, particle, x, v, touch_reach, further_[rest.further + k - 1]);
+  groups_[group_count_++] = {first, rest.feet};
+  return rest.feet;
+}
+
+void SteadyFeet::find(const StepNumbers& step) {
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = frame_->rotation;
   kernel_.into_frame(block_, frame_->origin.data(), is_turned_ ? R.data() : nullptr);
   find_in_frame();
   if (is_turned_) kernel_.into_space(block_, R.data());
+  kernel_.stay_outside(block_, step);
+  for (const Group& group : *this) bring_together(group);
+}
+
+// Their order is that of a search, which forces are added in: the nearest is the first.
+void SteadyFeet::bring_together(const Group& group) {
+  const int first = group.first;
+  double room = block_.room[first];
+  for (int k = first + 1; k < first + group.count; ++k) {
+    room = std::min(room, block_.room[k]);
+    if (!(block_.distance[k - 1] < block_.distance[k])) room = 0.0;
+  }
+  std::fill_n(block_.room + first, group.count, room);
 }
 
 void SteadyFeet::find_in_frame() {

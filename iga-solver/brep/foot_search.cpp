@@ -118,6 +118,31 @@ bool FootSearch::is_well_inside(const int* pieces, int count, const Vector3& d, 
   return true;
 }
 
+// Which feet there are depends on which sides of triangles and ends of edges d is beyond, and on nothing else
+// as long as d does not pass through a face.
+double FootSearch::room_of_feet(const Vector3& d, double reach, const int* pieces, int count,
+                                const std::vector<Foot>& feet, int* below) const {
+  double room = reach;
+  size_t found = 0;
+  for (const int* number = pieces; number < pieces + count; ++number) {
+    const PlaneTriangle& triangle = triangles_[*number];
+    if (!triangle.exists()) return 0.0;
+    const double height = triangle.over(d).height;
+    if (std::abs(height) >= reach) continue;
+    const PlaneTriangle::Room here = triangle.room_beside_sides(d, surface_.pieces[*number]);
+    room = std::min(room, here.room);
+    if (!here.over || surface_.faces[triangle.face()].outward * height < 0.0) continue;
+    const auto foot = std::find_if(feet.begin(), feet.end(), [&](const Foot& f) {
+      return f.patch == triangle.face() && f.status == FootStatus::interior;
+    });
+    if (foot == feet.end()) return 0.0;  // one that gives way to another
+    below[foot - feet.begin()] = *number;
+    ++found;
+  }
+  constexpr double kRoundOff = 4.0;
+  return found == feet.size() ? room - kRoundOff * surface_.slack : 0.0;
+}
+
 // Of a trimmed face edges and vertices would be among the pieces.
 bool FootSearch::is_well_inside_patch(const int* pieces, int count, const Vector3& d, double reach) const {
   const Piece& first = surface_.pieces[*pieces];

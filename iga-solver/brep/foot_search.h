@@ -48,6 +48,11 @@ class FootSearch {
   /// and it stays over them while it moves by less than `margin`.  If no other piece is within reach either,
   /// d has one foot at most, as long as it moves by less than that.
   bool is_well_inside(const int* pieces, int count, const Vector3& d, double reach, double margin) const;
+  /// How far d may move at least until feet begin or end within `reach`, but for those that are farther now,
+  /// if it has these alone and all are inside plane faces; 0 where that is not known [length].  Given all
+  /// pieces within `reach`; below[k] becomes the one that foot k is on.
+  double room_of_feet(const Vector3& d, double reach, const int* pieces, int count,
+                      const std::vector<Foot>& feet, int* below) const;
   /// That foot on a plane face: given any of these pieces, where its triangle says that d is.
   const PlaneTriangle& triangle(int piece) const { return triangles_[piece]; }
   /// The same on a curved one, whose pieces are no triangles, if it is nearer than `reach`: sets its

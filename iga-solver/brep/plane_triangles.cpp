@@ -39,6 +39,24 @@ double PlaneTriangle::from_border(const Vector3& d, const Piece& piece) const {
   return std::sqrt(least2);
 }
 
+PlaneTriangle::Room PlaneTriangle::room_beside_sides(const Vector3& d, const Piece& piece) const {
+  using Point = Eigen::Vector2d;
+  const Parameter<2> xi = over(d).xi;
+  double beside = std::numeric_limits<double>::infinity(), ends = beside;
+  bool over = true;
+  for (int i = 0; i < 3; ++i) {
+    const Point a = Point::Map(corner_[i]), side = Point::Map(corner_[(i + 1) % 3]) - a;
+    const double length = side.norm();
+    const Point way = side / length, from = Point::Map(xi.data()) - a;
+    const double in = way[0] * from[1] - way[1] * from[0], along = way.dot(from);
+    over &= in > 0.0;
+    if (piece.edge[i] < 0) continue;
+    beside = std::min(beside, std::abs(in));
+    ends = std::min({ends, std::abs(along), std::abs(along - length)});
+  }
+  return {over ? beside : std::min(beside, ends), over};
+}
+
 std::vector<PlaneTriangle> plane_triangles(const Surface& surface) {
   std::vector<PlaneTriangle> triangles;
   triangles.reserve(surface.pieces.size());

@@ -43,6 +43,15 @@ class alignas(64) PlaneTriangle {
   /// infinite if none does [length].
   double from_border(const Vector3& d, const Piece& piece) const;
 
+  /// How far a point may move at least until it is beyond a side of this piece, or within it, that it is not
+  /// beyond, or within, now; the same of the ends of these sides if it is not over the triangle [length].
+  /// Sides inside the face do not count.
+  struct Room {
+    double room;
+    bool over;
+  };
+  Room room_beside_sides(const Vector3& d, const Piece& piece) const;
+
   /// Too far is what is not nearer than `reach` for certain; over it is what is not farther than `slack`
   /// beyond a side [length].
   OverTriangle place(const Vector3& d, double reach, double slack) const;

@@ -48,6 +48,7 @@ FeetBlock random_block(Random& random, int count) {
     block.reach[k] = block.touch_reach[k] + random(-0.01, 0.1);
     block.margin[k] = random(0.0, 0.05);
     block.sign[k] = random() > 0.0 ? 1.0 : -1.0;
+    set(block.velocity, k, random.vector());
   }
   return block;
 }
@@ -159,6 +160,30 @@ TEST(FeetKernel, FeetOverACylinder) {
   }
 }
 
+// A centre that comes too near its foot, or may within the step, has no room.
+TEST(FeetKernel, StepsThatNeedASecondLook) {
+  Random random;
+  for (const SimdLevel level : levels_here()) {
+    FeetBlock block = random_block(random, 61);
+    for (int k = 0; k < block.count; ++k) {
+      block.room[k] = 1.0;
+      block.distance[k] = block.touch_reach[k] * random(0.3, 1.0);
+    }
+    constexpr contact::StepNumbers step{0.1, 0.05, 0.4};
+    contact::feet_kernel(level).stay_outside(block, step);
+    int there = 0;
+    for (int k = 0; k < block.count; ++k) {
+      const double way2 = 0.1 * get(block.velocity, k).squaredNorm() + 0.05, distance = block.distance[k];
+      const bool is_there =
+          distance > std::max(0.5 * block.touch_reach[k], 0.4) && distance > std::sqrt(way2);
+      EXPECT_EQ(block.room[k] > 0.0, is_there) << k;
+      there += is_there;
+    }
+    EXPECT_GT(there, 10);
+    EXPECT_LT(there, 50);
+  }
+}
+
 // Runs give the same digits on all machines.
 TEST(FeetKernel, InstructionSetsAgreeInAllDigits) {
   Random random;
@@ -173,6 +198,7 @@ TEST(FeetKernel, InstructionSetsAgreeInAllDigits) {
     kernel.into_frame(block, origin.data(), R.data());
     kernel.room_to_move(block);
     kernel.over_one_cylinder(block, cylinder);
+    kernel.stay_outside(block, {1e-3, 1e-4, 1e-3});
     kernel.into_space(block, R.data());
     std::vector<double> numbers;
     for (int k = 0; k < block.count; ++k)
