@@ -59,6 +59,31 @@ TopoDS_Shape gaps() {
   return shell;
 }
 
+TopoDS_Shape sheet_of(const std::vector<TopoDS_Face>& faces) {
+  TopoDS_Shell shell;
+  BRep_Builder builder;
+  builder.MakeShell(shell);
+  for (const TopoDS_Face& face : faces) builder.Add(shell, face);
+  return shell;
+}
+
+/// A plate with four others at its sides that are all shorter: one over a gap, one that hangs down, and two
+/// side by side.
+TopoDS_Shape unequal_plates() {
+  const double gap = 0.015;
+  return sheet_of({rectangle(gp_Pnt(0, 0, 0), gp_Vec(50, 0, 0), gp_Vec(0, 60, 0)),
+                   rectangle(gp_Pnt(50 + gap, 10, 0), gp_Vec(50, 0, 0), gp_Vec(0, 40, 0)),
+                   rectangle(gp_Pnt(0, 20, 0), gp_Vec(0, 25, 0), gp_Vec(-30, 0, -10)),
+                   rectangle(gp_Pnt(0, 60, 0), gp_Vec(20, 0, 0), gp_Vec(0, 30, 0)),
+                   rectangle(gp_Pnt(20, 60, 0), gp_Vec(30, 0, 0), gp_Vec(0, 30, 0))});
+}
+
+/// Like the pages of a book: their rims miss each other by 1e-4 of the size.
+TopoDS_Shape parallel_plates() {
+  return sheet_of({rectangle(gp_Pnt(0, 0, 0), gp_Vec(50, 0, 0), gp_Vec(0, 60, 0)),
+                   rectangle(gp_Pnt(0, 0, 0.0075), gp_Vec(50, 0, 0), gp_Vec(0, 60, 0))});
+}
+
 double height(const TopoDS_Shape& shape) {
   GProp_GProps properties;
   BRepGProp::LinearProperties(shape, properties);
@@ -106,6 +131,8 @@ TopoDS_Shape near_tangent() {
 std::vector<Part> border_parts() {
   return {{"tiny_faces.step", "faces 1e-3 of the part wide, a triangle of 1e-3 in a corner", tiny_faces},
           {"gaps.step", "faces that miss each other by 1e-4 of the size", gaps},
+          {"unequal_plates.step", "faces side by side of which one goes on beyond the other", unequal_plates},
+          {"parallel_plates.step", "faces that lie 1e-4 of the size above each other", parallel_plates},
           {"thin_sheet.step", "both skins of a sheet of 1 % thickness", thin_sheet},
           {"near_tangent.step", "edges that turn by 0.2 degrees", near_tangent}};
 }

@@ -142,6 +142,14 @@ void compare(const CadModel& model, const TopoDS_Shape& theirs, bool areas = tru
 
 class Reader : public Files {
  protected:
+  using Kind = geometry_io::EdgeMeasure::Kind;
+
+  CadModel read_border_part(const std::string& file) const {
+    for (const step_parts::Part& part : step_parts::border_parts())
+      if (part.file == file) step_parts::write(part, path(""));
+    return geometry_io::read_step(bytes(file));
+  }
+
   void compare_all(const std::vector<step_parts::Part>& parts) const {
     for (const step_parts::Part& part : parts) {
       SCOPED_TRACE(part.file);
@@ -213,7 +221,7 @@ TEST_F(Reader, IgesIsSewn) {
       const CadModel model = geometry_io::read_step(bytes(name));
       EXPECT_THAT(model.healed, testing::Contains(HasSubstr("sewn")));
       for (const geometry_io::EdgeMeasure& edge : geometry_io::measured_edges(model))
-        EXPECT_NE(edge.kind, geometry_io::EdgeMeasure::Kind::free);
+        EXPECT_NE(edge.kind, Kind::free);
       for (const CadFace& face : model.faces) {
         check_borders(model, face);
         EXPECT_EQ(face.outward, 0);
@@ -223,28 +231,48 @@ TEST_F(Reader, IgesIsSewn) {
 
 // Four faces of a trough with three borders that miss each other by 0.01 mm; its other ten edges stay free.
 TEST_F(Reader, GapsAreSewn) {
-  using Kind = geometry_io::EdgeMeasure::Kind;
-  for (const step_parts::Part& part : step_parts::border_parts()) {
-    const std::string name = part.file;
-    if (name != "gaps.step") continue;
-    step_parts::write(part, path(""));
-    const CadModel model = geometry_io::read_step(bytes(name));
-    EXPECT_THAT(model.healed, testing::Contains(HasSubstr("16 edges sewn to 13 within 0.0166 mm")));
-    int smooth = 0, sharp = 0;
-    for (const geometry_io::EdgeMeasure& edge : geometry_io::measured_edges(model)) {
-      smooth += edge.kind == Kind::smooth, sharp += edge.kind == Kind::sharp;
-      if (edge.kind == Kind::free) continue;
-      EXPECT_NEAR(edge.gap, 0.01, 0.005);
-    }
-    EXPECT_EQ(smooth, 2);
-    EXPECT_EQ(sharp, 1);
-    // What faces are called is what they are in the file.
-    ASSERT_EQ(model.faces.size(), 4u);
-    EXPECT_TRUE(model.faces[1].shape.kind == brep::Kind::cylinder);
-    for (int f = 0; f < 4; ++f) EXPECT_GT(model.faces[f].entity, 0);
-    return;
+  const CadModel model = read_border_part("gaps.step");
+  EXPECT_THAT(model.healed, testing::Contains(HasSubstr("sewn along 3 edges, over gaps up to 0.0141 mm")));
+  int smooth = 0, sharp = 0, free = 0;
+  for (const geometry_io::EdgeMeasure& edge : geometry_io::measured_edges(model)) {
+    smooth += edge.kind == Kind::smooth, sharp += edge.kind == Kind::sharp, free += edge.kind == Kind::free;
+    if (edge.kind == Kind::free) continue;
+    EXPECT_NEAR(edge.gap, 0.01, 0.005);
   }
-  FAIL() << "no such part";
+  EXPECT_EQ(smooth, 2);
+  EXPECT_EQ(sharp, 1);
+  EXPECT_EQ(free, 10);
+  // What faces are called is what they are in the file.
+  ASSERT_EQ(model.faces.size(), 4u);
+  EXPECT_TRUE(model.faces[1].shape.kind == brep::Kind::cylinder);
+  for (int f = 0; f < 4; ++f) EXPECT_GT(model.faces[f].entity, 0);
+}
+
+// The border of the first plate is cut where those of the others end, nowhere else.
+TEST_F(Reader, UnequalBordersAreSewn) {
+  const CadModel model = read_border_part("unequal_plates.step");
+  int smooth = 0, sharp = 0;
+  double free = 0.0;
+  const std::vector<geometry_io::EdgeMeasure> measured = geometry_io::measured_edges(model);
+  ASSERT_EQ(measured.size(), 20u);
+  for (std::size_t e = 0; e < measured.size(); ++e) {
+    smooth += measured[e].kind == Kind::smooth, sharp += measured[e].kind == Kind::sharp;
+    if (measured[e].kind == Kind::free) free += model.edges[e].length;
+    EXPECT_GT(model.edges[e].length, 9.9);
+    EXPECT_LE(measured[e].gap, 0.0151);
+  }
+  EXPECT_EQ(smooth, 4);
+  EXPECT_EQ(sharp, 1);
+  const double all = 220.0 + 180.0 + 2.0 * (25.0 + std::hypot(30.0, 10.0)) + 100.0 + 120.0;
+  EXPECT_NEAR(free, all - 2.0 * (40.0 + 25.0 + 20.0 + 30.0 + 30.0), 1e-9);
+  for (const CadFace& face : model.faces) check_borders(model, face);
+}
+
+TEST_F(Reader, PagesOfABookAreNotSewn) {
+  const CadModel model = read_border_part("parallel_plates.step");
+  EXPECT_EQ(model.edges.size(), 8u);
+  EXPECT_EQ(model.vertices.size(), 8u);
+  EXPECT_THAT(model.healed, testing::Not(testing::Contains(HasSubstr("sewn"))));
 }
 
 // Planes and a cone, with outward sides.
