@@ -113,6 +113,32 @@ std::vector<std::vector<int>> cut_edges(CadModel& model, const std::vector<std::
   return parts;
 }
 
+void merge_vertices(CadModel& model, brep::DisjointSets& sets) {
+  const std::vector<brep::CadVertex> old = model.vertices;
+  for (size_t v = 0; v < old.size(); ++v) {
+    brep::CadVertex& stays = model.vertices[sets.find(static_cast<int>(v))];
+    stays.tolerance = std::max(stays.tolerance, (old[v].point - stays.point).norm() + old[v].tolerance);
+  }
+  for (CadEdge& edge : model.edges)
+    for (int& vertex : edge.vertex)
+      if (vertex >= 0) vertex = sets.find(vertex);
+}
+
+double note_gap(CadModel& model, const brep::CadFace& face, const Trim& trim) {
+  constexpr int kPlaces = 40;
+  constexpr double kBetween = 1.01;  // of what is seen there
+  CadEdge& edge = model.edges[trim.edge];
+  const EdgeCurve curve(edge);
+  const BorderCurve border(model, face, trim);
+  double gap = 0.0;
+  for (int k = 0; k <= kPlaces; ++k) {
+    const brep::Vector3 p = border.point(border.at_part(static_cast<double>(k) / kPlaces));
+    gap = std::max(gap, curve.nearest(p, curve.begin(), curve.end()).distance);
+  }
+  edge.tolerance = std::max(edge.tolerance, kBetween * gap);
+  return gap;
+}
+
 void drop_unused(CadModel& model) {
   std::vector<bool> edges(model.edges.size(), false), vertices(model.vertices.size(), false);
   for (const brep::CadFace& face : model.faces)

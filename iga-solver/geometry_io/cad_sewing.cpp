@@ -258,7 +258,7 @@ class Sewer {
       for (const int k : group)
         if (k != group.front())
           becomes[edge_of[k]] = {edge_of[group.front()], matches_.at(std::minmax(k, group.front())).turned};
-    move_vertices();
+    merge_vertices(model_, vertices_);
     for (brep::CadFace& face : model_.faces)
       for (brep::Loop& loop : face.loops)
         for (brep::Trim& trim : loop)
@@ -266,7 +266,7 @@ class Sewer {
             const auto [edge, turned] = becomes[trim.edge];
             trim.edge = edge;
             trim.forward = trim.forward != turned;
-            note_gap(face, trim);
+            result_.widest = std::max(result_.widest, note_gap(model_, face, trim));
           }
   }
 
@@ -287,34 +287,6 @@ class Sewer {
       }
     }
     return edge_of;
-  }
-
-  void move_vertices() {
-    std::vector<brep::CadVertex> old = model_.vertices;
-    for (size_t v = 0; v < old.size(); ++v) {
-      brep::CadVertex& stays = model_.vertices[vertices_.find(static_cast<int>(v))];
-      stays.tolerance = std::max(stays.tolerance, (old[v].point - stays.point).norm() + old[v].tolerance);
-    }
-    for (brep::CadEdge& edge : model_.edges)
-      for (int& vertex : edge.vertex)
-        if (vertex >= 0) vertex = vertices_.find(vertex);
-  }
-
-  // How far a border is from the edge that it has got.
-  void note_gap(const brep::CadFace& face, const brep::Trim& trim) {
-    constexpr int kPlaces = 40;
-    constexpr double kBetween = 1.01;  // of what is seen there
-    brep::CadEdge& edge = model_.edges[trim.edge];
-    const EdgeCurve curve(edge);
-    const BorderCurve border(model_, face, trim);
-    double gap = 0.0;
-    for (int k = 0; k <= kPlaces; ++k)
-      gap = std::max(gap, curve
-                              .nearest(border.point(border.at_part(static_cast<double>(k) / kPlaces)),
-                                       curve.begin(), curve.end())
-                              .distance);
-    edge.tolerance = std::max(edge.tolerance, kBetween * gap);
-    result_.widest = std::max(result_.widest, gap);
   }
 
   CadModel& model_;

@@ -19,6 +19,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry_io/cad_joints.h"
 #include "geometry_io/cad_sewing.h"
 #include "geometry_io/input_error.h"
 #include "geometry_io/step_curves.h"
@@ -102,11 +103,16 @@ class ModelMaker {
         const Sewn more = sew(model_, static_cast<int>(s), relative * sizes_[s]);
         sewn = {sewn.edges + more.edges, std::max(sewn.widest, more.widest)};
       }
-      if (sewn.edges > 0)
-        model_.healed.push_back(
-            fmt::format("sheet '{}': sewn along {} edges, over gaps up to {:.3g} mm ({:.2g} of its size)",
-                        model_.solids[s].name, sewn.edges, sewn.widest, sewn.widest / sizes_[s]));
+      report(s, "sewn along", sewn);
+      report(s, "joined to faces that it stands on along",
+             join_to_faces(model_, static_cast<int>(s), kSewingOfGaps * sizes_[s]));
     }
+  }
+  void report(size_t solid, const char* what, const Sewn& sewn) {
+    if (sewn.edges > 0)
+      model_.healed.push_back(
+          fmt::format("sheet '{}': {} {} edges, over gaps up to {:.3g} mm ({:.2g} of its size)",
+                      model_.solids[solid].name, what, sewn.edges, sewn.widest, sewn.widest / sizes_[solid]));
   }
 
   static double size_of(const TopoDS_Shape& shape) {
