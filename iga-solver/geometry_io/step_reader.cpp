@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <BRepBndLib.hxx>
-#include <BRepBuilderAPI_Sewing.hxx>
 #include <BRepLib.hxx>
-#include <BRep_Builder.hxx>
 #include <BRep_Tool.hxx>
 #include <Bnd_Box.hxx>
 #include <Eigen/Geometry>
@@ -14,15 +12,15 @@
 #include <Standard_Failure.hxx>
 #include <TopExp.hxx>
 #include <TopExp_Explorer.hxx>
-#include <TopTools_IndexedDataMapOfShapeListOfShape.hxx>
 #include <TopTools_IndexedMapOfShape.hxx>
 #include <TopoDS.hxx>
-#include <TopoDS_Compound.hxx>
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "geometry_io/cad_joints.h"
+#include "geometry_io/cad_sewing.h"
 #include "geometry_io/input_error.h"
 #include "geometry_io/step_curves.h"
 #include "geometry_io/step_document.h"
@@ -73,6 +71,7 @@ class ModelMaker {
     model_.unit = document_.unit;
     model_.healed = document_.healed;
     for (const StepBody& body : document_.bodies) add_body(body);
+    sew_sheets();
     refuse_wide_gaps();
     return std::move(model_);
   }
@@ -81,9 +80,8 @@ class ModelMaker {
   void add_body(const StepBody& body) {
     const int number = static_cast<int>(model_.solids.size());
     const size_t first = model_.faces.size();
-    const TopoDS_Shape shape = body.solid ? body.shape : sewn(body);
-    BRepLib::BuildCurves3d(shape);
-    for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next())
+    BRepLib::BuildCurves3d(body.shape);
+    for (TopExp_Explorer it(body.shape, TopAbs_FACE); it.More(); it.Next())
       add_face(TopoDS::Face(it.Current()), number);
     const bool closed = body.solid && is_closed(first);
     if (body.solid && !closed)
@@ -92,55 +90,35 @@ class ModelMaker {
     if (!closed)
       for (size_t f = first; f < model_.faces.size(); ++f) model_.faces[f].outward = 0;
     model_.solids.push_back({body.name, body.colour, closed});
+    sizes_.push_back(size_of(body.shape));
   }
 
   // Faces that lie side by side without a common edge get one: those of one border, and free edges that miss
   // each other by little.
-  TopoDS_Shape sewn(const StepBody& body) {
-    Bnd_Box box;
-    BRepBndLib::Add(body.shape, box, false);
-    const double size = std::sqrt(std::max(box.SquareExtent(), 0.0));
-    const TopoDS_Shape exact = sewn(body.name, body.shape, kSewing, size);
-    return has_free_edges(exact) ? sewn(body.name, exact, kSewingOfGaps, size) : exact;
-  }
-
-  TopoDS_Shape sewn(const std::string& name, const TopoDS_Shape& shape, double relative, double size) {
-    BRepBuilderAPI_Sewing sewing(relative * size);
-    TopTools_IndexedMapOfShape faces, before, after;
-    TopExp::MapShapes(shape, TopAbs_FACE, faces);
-    if (faces.Extent() < 2) return shape;
-    for (int f = 1; f <= faces.Extent(); ++f) sewing.Add(faces(f));
-    sewing.Perform();
-    // In their order, which gives faces their numbers.
-    BRep_Builder builder;
-    TopoDS_Compound result;
-    builder.MakeCompound(result);
-    for (int f = 1; f <= faces.Extent(); ++f) {
-      const TopoDS_Shape& face = sewing.Modified(faces(f));
-      if (face.IsNull() || face.ShapeType() != TopAbs_FACE) return shape;  // it is as small as the gaps
-      builder.Add(result, face);
-    }
-    TopExp::MapShapes(shape, TopAbs_EDGE, before);
-    TopExp::MapShapes(result, TopAbs_EDGE, after);
-    if (after.Extent() >= before.Extent()) return shape;
-    for (int f = 1; f <= faces.Extent(); ++f)
-      if (const StepLabel* label = document_.labels.Seek(faces(f).Located(TopLoc_Location()))) {
-        const StepLabel kept = *label;
-        document_.labels.Bind(sewing.Modified(faces(f)).Located(TopLoc_Location()), kept);
+  void sew_sheets() {
+    for (size_t s = 0; s < model_.solids.size(); ++s) {
+      if (model_.solids[s].closed) continue;
+      Sewn sewn;
+      for (const double relative : {kSewing, kSewingOfGaps}) {
+        const Sewn more = sew(model_, static_cast<int>(s), relative * sizes_[s]);
+        sewn = {sewn.edges + more.edges, std::max(sewn.widest, more.widest)};
       }
-    model_.healed.push_back(
-        fmt::format("sheet '{}': {} edges sewn to {} within {:.3g} mm ({:.2g} of its size)", name,
-                    before.Extent(), after.Extent(), relative * size, relative));
-    return result;
+      report(s, "sewn along", sewn);
+      report(s, "joined to faces that it stands on along",
+             join_to_faces(model_, static_cast<int>(s), kSewingOfGaps * sizes_[s]));
+    }
+  }
+  void report(size_t solid, const char* what, const Sewn& sewn) {
+    if (sewn.edges > 0)
+      model_.healed.push_back(
+          fmt::format("sheet '{}': {} {} edges, over gaps up to {:.3g} mm ({:.2g} of its size)",
+                      model_.solids[solid].name, what, sewn.edges, sewn.widest, sewn.widest / sizes_[solid]));
   }
 
-  static bool has_free_edges(const TopoDS_Shape& shape) {
-    TopTools_IndexedDataMapOfShapeListOfShape faces_of;
-    TopExp::MapShapesAndAncestors(shape, TopAbs_EDGE, TopAbs_FACE, faces_of);
-    for (int e = 1; e <= faces_of.Extent(); ++e)
-      if (faces_of(e).Extent() == 1 && !BRep_Tool::Degenerated(TopoDS::Edge(faces_of.FindKey(e))))
-        return true;
-    return false;
+  static double size_of(const TopoDS_Shape& shape) {
+    Bnd_Box box;
+    BRepBndLib::Add(shape, box, false);
+    return std::sqrt(std::max(box.SquareExtent(), 0.0));
   }
 
   void add_face(const TopoDS_Face& face, int solid) {
@@ -271,6 +249,7 @@ class ModelMaker {
   StepDocument document_;
   const StepOptions options_;
   brep::CadModel model_;
+  std::vector<double> sizes_;  // of solids [mm]
   TopTools_IndexedMapOfShape edges_, vertices_;
 };
 

@@ -52,6 +52,7 @@ class Descent {
       ++result.iterations;
       propose();
       if (last_step()) {
+        if (box_ == nullptr && ends_on_crease() && advance()) continue;
         if (convex_ && box_ == nullptr && cross_crease()) continue;
         result.end = classify();
         break;
@@ -206,6 +207,18 @@ class Descent {
           side * s > 1.0 - 1e-14 * length * std::max(1.0, here.half_width / next.half_width))
         s = end;
     }
+  }
+
+  // Whether the step is as short as it is because a crease is there, over which it may go on.
+  bool ends_on_crease() const {
+    for (int i = 0; i < 2; ++i) {
+      const double s = now_->at.s[i];
+      const AxisElement& here = elements_.axis(i, now_->at.e[i]);
+      if (held_[i]) continue;
+      if (s < 1.0 && here.high == 1.0 && !here.at_end[1] && step_[i] >= here.high - s) return true;
+      if (s > -1.0 && here.low == -1.0 && !here.at_end[0] && step_[i] <= here.low - s) return true;
+    }
+    return false;
   }
 
   // Held on a crease: goes on in the neighbouring region if that leads downhill.

@@ -14,9 +14,9 @@
 
 #include "balls.h"
 #include "brep/builder.h"
-#include "brep/edge_uses.h"
 #include "brep/face_shape.h"
 #include "coupling/rigid/rigid_surface.h"
+#include "crossings.h"
 #include "geometry_io/step_reader.h"
 #include "occt_judge.h"
 #include "occt_samples.h"
@@ -24,6 +24,7 @@
 namespace {
 
 using nurbs::Vector3;
+using test::Crossing;
 
 constexpr double kOverlap = 1e-3;   // of the radius
 constexpr double kJump = 1e-6;      // of the force
@@ -38,53 +39,11 @@ std::shared_ptr<const brep::Surface> wall_of(const std::string& file) {
   return std::make_shared<brep::Surface>(brep::from_cad(model, all));
 }
 
-// Across an edge, from one face to the other through the wedge of space between them.
-struct Crossing {
-  Vector3 place, u, v;  // axes of the plane across
-  double from, to;      // angles of the faces, counterclockwise from u [rad]
-  int face[2];
-  brep::Wedge wedge;
-  double gap;                                       // tolerance of the edge [mm]
-  Vector3 bent;                                     // curvature vector of the edge [1/mm]
-  double turn() const { return to - from - M_PI; }  // of the normal; < 0: concave
-  Vector3 direction(double angle) const { return std::cos(angle) * u + std::sin(angle) * v; }
-};
-
-Vector3 curvature_of(const brep::Surface& wall, const brep::Edge& edge, double part) {
-  constexpr double kBeside = 1e-4;
-  const brep::EdgePoint a = at_part(wall, edge, part - kBeside), b = at_part(wall, edge, part + kBeside);
-  return (b.tangent - a.tangent) / (b.point - a.point).norm();
-}
-
-std::vector<Crossing> crossings(const brep::Surface& wall, int number, double part) {
-  const brep::Edge& edge = wall.edges[number];
-  const brep::EdgePoint at = at_part(wall, edge, part);
-  const brep::Across axes = edge.spline() ? brep::across(at.tangent) : brep::across(edge, at.point);
-  const brep::Uses uses = edge.varies ? local_uses(wall, edge, at, axes) : uses_of(wall, edge);
-  std::vector<Crossing> found;
-  for (const brep::EdgeUse& use : uses) {
-    const brep::EdgeUse& next = uses.next(use);
-    if (wall.faces[use.face].outward == -use.side || wall.faces[next.face].outward == next.side)
-      continue;  // inside of a body
-    Crossing crossing{at.point,
-                      axes.u,
-                      axes.v,
-                      std::atan2(use.conormal[1], use.conormal[0]),
-                      std::atan2(next.conormal[1], next.conormal[0]),
-                      {use.face, next.face},
-                      use.wedge,
-                      std::max(wall.slack_of_edge(number), 1e-9 * wall.size),
-                      curvature_of(wall, edge, part)};
-    if (crossing.to <= crossing.from + 1e-9) crossing.to += 2.0 * M_PI;
-    found.push_back(crossing);
-  }
-  return found;
-}
-
 class Rolling {
  public:
-  explicit Rolling(const std::string& file)
-      : wall_(wall_of(file)),
+  explicit Rolling(const std::string& file, bool stacks)
+      : stacks_(stacks),
+        wall_(wall_of(file)),
         rigid_(wall_),
         samples_(file),
         judge_(file),
@@ -93,7 +52,7 @@ class Rolling {
   void run() {
     for (const double share : {0.004, 0.03, 0.12})
       for (int e = 0; e < static_cast<int>(wall_->edges.size()); ++e)
-        for (const Crossing& crossing : crossings(*wall_, e, 0.37)) {
+        for (const Crossing& crossing : test::crossings(*wall_, e, 0.37)) {
           edge_ = e, radius_ = share * wall_->size;
           roll(crossing);
         }
@@ -291,7 +250,7 @@ class Rolling {
                                seen[i].foot.patch + 1, seen[j].foot.patch + 1, seen[i].overlap,
                                seen[j].overlap));
   }
-  // Faces without a common edge have a rim each.
+  // Faces without a common edge have a rim each, where some may lie one on the other.
   bool are_one(const contact::Contact& a, const contact::Contact& b) const {
     constexpr double kNear = 0.015;  // of the radius; less than what edges that are not smooth make of it
     const auto meets = [&](const brep::Edge& edge) {
@@ -303,7 +262,7 @@ class Rolling {
       return with[0] && with[1];
     };
     return (a.delta - b.delta).norm() < kNear * radius_ &&
-           std::any_of(wall_->edges.begin(), wall_->edges.end(), meets);
+           (!stacks_ || std::any_of(wall_->edges.begin(), wall_->edges.end(), meets));
   }
 
   // By the change of place, and by what a smooth edge that is not quite smooth turns; of two feet at such an
@@ -360,6 +319,7 @@ class Rolling {
         state_.centre[2], what);
   }
 
+  const bool stacks_;
   std::shared_ptr<const brep::Surface> wall_;
   coupling::RigidSurface rigid_;
   step_parts::OcctSamples samples_;
@@ -378,13 +338,16 @@ int main(int argc, char** argv) {
   std::vector<std::string> files;
   CLI::App app("A ball rolled over every edge of CAD parts");
   app.add_option("files", files, "STEP or IGES")->required();
+  bool no_stacks = false;
+  app.add_flag("--no-stacks", no_stacks,
+               "nowhere does one wall lie on another: what comes from one direction is one contact");
   CLI11_PARSE(app, argc, argv);
   MPI_Init(nullptr, nullptr);
   int wrong = 0;
   for (const std::string& file : files) {
     try {
       fmt::print("{}: ", file);
-      Rolling rolling(file);
+      Rolling rolling(file, !no_stacks);
       rolling.run();
       wrong += rolling.wrong();
     } catch (const std::exception& error) {

@@ -144,6 +144,20 @@ TEST(SurfaceProjector, FollowsMovedControlPoints) {
   }
 }
 
+// From a crease, or from little beside it, a descent goes on in the element where it leads downhill.
+TEST(SurfaceProjector, StartsBesideACrease) {
+  const Surface pipe = shapes::revolve(shapes::line(1.0, 5.0), 0.5 * kPi, 4);
+  const SurfaceProjector projector(pipe.space, pipe.control_points);
+  for (const double angle : {-0.4, 0.4})  // from the crease that is at 2
+    for (double beside = 1e-16; beside < 0.01; beside *= 1.5)
+      for (const double xi : {2.0 - beside, 2.0 + beside})
+        for (const double height : {0.1, 0.4, 0.8}) {
+          const Vector3 d(-1.7 * std::cos(angle), -1.7 * std::sin(angle), 2.0);
+          const Foot foot = projector.warm(d, {xi, height});
+          EXPECT_NEAR(foot.distance, 0.7, 1e-14) << angle << ", from " << xi - 2.0;
+        }
+}
+
 TEST(SurfaceProjector, WrongArguments) {
   shapes::Random random(25);
   const Surface hills =

@@ -59,6 +59,56 @@ TopoDS_Shape gaps() {
   return shell;
 }
 
+TopoDS_Shape sheet_of(const std::vector<TopoDS_Face>& faces) {
+  TopoDS_Shell shell;
+  BRep_Builder builder;
+  builder.MakeShell(shell);
+  for (const TopoDS_Face& face : faces) builder.Add(shell, face);
+  return shell;
+}
+
+/// A plate with four others at its sides that are all shorter: one over a gap, one that hangs down, and two
+/// side by side.
+TopoDS_Shape unequal_plates() {
+  const double gap = 0.015;
+  return sheet_of({rectangle(gp_Pnt(0, 0, 0), gp_Vec(50, 0, 0), gp_Vec(0, 60, 0)),
+                   rectangle(gp_Pnt(50 + gap, 10, 0), gp_Vec(50, 0, 0), gp_Vec(0, 40, 0)),
+                   rectangle(gp_Pnt(0, 20, 0), gp_Vec(0, 25, 0), gp_Vec(-30, 0, -10)),
+                   rectangle(gp_Pnt(0, 60, 0), gp_Vec(20, 0, 0), gp_Vec(0, 30, 0)),
+                   rectangle(gp_Pnt(20, 60, 0), gp_Vec(30, 0, 0), gp_Vec(0, 30, 0))});
+}
+
+/// Like the pages of a book: the rims of two miss each other by 1e-4 of the size, those of a third are
+/// inside.
+TopoDS_Shape parallel_plates() {
+  return sheet_of({rectangle(gp_Pnt(0, 0, 0), gp_Vec(50, 0, 0), gp_Vec(0, 60, 0)),
+                   rectangle(gp_Pnt(0, 0, 0.0075), gp_Vec(50, 0, 0), gp_Vec(0, 60, 0)),
+                   rectangle(gp_Pnt(10, 10, -0.0075), gp_Vec(20, 5, 0), gp_Vec(-5, 20, 0))});
+}
+
+/// One stands across the middle of another, over a gap of 1e-4 of the size.
+TopoDS_Shape tee() {
+  return sheet_of({rectangle(gp_Pnt(0, 0, 0), gp_Vec(100, 0, 0), gp_Vec(0, 60, 0)),
+                   rectangle(gp_Pnt(50, 0, 0.012), gp_Vec(0, 60, 0), gp_Vec(0, 0, 40))});
+}
+
+/// On a plate of two faces: a wall that goes on beyond the plate and over the seam, an angle of two walls
+/// that ends inside, a tube; a wall that stands in a gutter which the plate ends in.
+TopoDS_Shape standing_faces() {
+  const Handle(Geom_CylindricalSurface) tube =
+      new Geom_CylindricalSurface(gp_Ax3(gp_Pnt(75, 40, 0), gp_Dir(0, 0, 1)), 12.0);
+  const Handle(Geom_CylindricalSurface) gutter =
+      new Geom_CylindricalSurface(gp_Ax3(gp_Pnt(120, 0, 0), gp_Dir(0, 1, 0), gp_Dir(1, 0, 0)), 20.0);
+  return sheet_of({rectangle(gp_Pnt(0, 0, 0), gp_Vec(60, 0, 0), gp_Vec(0, 60, 0)),
+                   rectangle(gp_Pnt(60, 0, 0), gp_Vec(40, 0, 0), gp_Vec(0, 60, 0)),
+                   rectangle(gp_Pnt(-10, 15, 0), gp_Vec(90, 0, 0), gp_Vec(0, 4, 30)),
+                   rectangle(gp_Pnt(15, 30, 0), gp_Vec(25, 0, 0), gp_Vec(0, 0, 20)),
+                   rectangle(gp_Pnt(40, 30, 0), gp_Vec(0, 20, 0), gp_Vec(0, 0, 20)),
+                   BRepBuilderAPI_MakeFace(tube, 0.0, 2.0 * M_PI, 0.0, 25.0, 1e-7).Face(),
+                   BRepBuilderAPI_MakeFace(gutter, 0.0, M_PI, 0.0, 60.0, 1e-7).Face(),
+                   rectangle(gp_Pnt(120, 10, -20), gp_Vec(0, 30, 0), gp_Vec(0, 0, 45))});
+}
+
 double height(const TopoDS_Shape& shape) {
   GProp_GProps properties;
   BRepGProp::LinearProperties(shape, properties);
@@ -106,6 +156,10 @@ TopoDS_Shape near_tangent() {
 std::vector<Part> border_parts() {
   return {{"tiny_faces.step", "faces 1e-3 of the part wide, a triangle of 1e-3 in a corner", tiny_faces},
           {"gaps.step", "faces that miss each other by 1e-4 of the size", gaps},
+          {"unequal_plates.step", "faces side by side of which one goes on beyond the other", unequal_plates},
+          {"tee.step", "a face that stands on another, over a gap", tee},
+          {"standing_faces.step", "feet of faces that cross borders, end inside, go round", standing_faces},
+          {"parallel_plates.step", "faces that lie 1e-4 of the size above each other", parallel_plates},
           {"thin_sheet.step", "both skins of a sheet of 1 % thickness", thin_sheet},
           {"near_tangent.step", "edges that turn by 0.2 degrees", near_tangent}};
 }

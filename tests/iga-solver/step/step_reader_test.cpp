@@ -4,7 +4,6 @@
 #include "geometry_io/step_reader.h"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 #include <BRepGProp.hxx>
 #include <BRep_Tool.hxx>
 #include <GProp_GProps.hxx>
@@ -15,15 +14,13 @@
 #include <TopoDS_Face.hxx>
 
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <random>
-#include <sstream>
 
 #include "geometry_io/any_spline.h"
 #include "geometry_io/cad_measures.h"
 #include "parts.h"
 #include "read_plainly.h"
+#include "reader_files.h"
 #include "write_files.h"
 
 namespace {
@@ -35,26 +32,8 @@ using geometry_io::area_of;
 using geometry_io::distance_to;
 using geometry_io::normal_of;
 using geometry_io::point_of;
+using step_parts::check_borders;
 using testing::HasSubstr;
-
-class Files : public testing::Test {
- protected:
-  Files() : folder_(testing::TempDir() + "step_reader." + std::to_string(getpid())) {
-    step_parts::silence();
-    std::filesystem::create_directories(folder_);
-  }
-  ~Files() override { std::filesystem::remove_all(folder_); }
-
-  std::string path(const std::string& file) const { return folder_ + "/" + file; }
-  std::string bytes(const std::string& file) const {
-    std::stringstream all;
-    all << std::ifstream(path(file)).rdbuf();
-    return all.str();
-  }
-
- private:
-  const std::string folder_;
-};
 
 gp_Pnt pnt(const Vector3& p) { return {p.x(), p.y(), p.z()}; }
 
@@ -102,29 +81,6 @@ void compare_surface(const CadModel& model, const CadFace& face, const TopoDS_Fa
   }
 }
 
-Eigen::Vector2d end_of(const brep::Trim& trim) { return trim.curve.points.col(trim.curve.points.cols() - 1); }
-
-// Loops are closed, trims lie on their edges, and run as `forward` says.
-void check_borders(const CadModel& model, const CadFace& face) {
-  for (const brep::Loop& loop : face.loops)
-    for (size_t i = 0; i < loop.size(); ++i) {
-      const brep::Trim& trim = loop[i];
-      EXPECT_EQ(end_of(trim), Eigen::Vector2d(loop[(i + 1) % loop.size()].curve.points.col(0)));
-      if (trim.edge < 0) continue;
-      const brep::CadEdge& edge = model.edges[trim.edge];
-      const geometry_io::AnySpline curve = geometry_io::homogeneous(trim.curve);
-      const auto on_face = [&](double part) {
-        const Eigen::VectorXd p = curve.point(curve.begin() + part * (curve.end() - curve.begin()));
-        return point_of(model, face, {p(0), p(1)});
-      };
-      for (int k = 0; k <= 4; ++k)
-        EXPECT_LE(distance_to(edge, on_face(0.25 * k)), 1.02 * edge.tolerance + 1e-9);
-      ASSERT_GE(edge.vertex[0], 0);
-      const brep::CadVertex& start = model.vertices[edge.vertex[trim.forward ? 0 : 1]];
-      EXPECT_LE((on_face(0.0) - start.point).norm(), 1e-9 + start.tolerance + edge.tolerance);
-    }
-}
-
 void compare(const CadModel& model, const TopoDS_Shape& theirs, bool areas = true) {
   constexpr double size = 100.0;  // of all parts, more or less [mm]
   std::mt19937 random(5);
@@ -140,7 +96,7 @@ void compare(const CadModel& model, const TopoDS_Shape& theirs, bool areas = tru
   EXPECT_EQ(f, model.faces.size());
 }
 
-class Reader : public Files {
+class Reader : public step_parts::Files {
  protected:
   void compare_all(const std::vector<step_parts::Part>& parts) const {
     for (const step_parts::Part& part : parts) {
@@ -219,32 +175,6 @@ TEST_F(Reader, IgesIsSewn) {
         EXPECT_EQ(face.outward, 0);
       }
     }
-}
-
-// Four faces of a trough with three borders that miss each other by 0.01 mm; its other ten edges stay free.
-TEST_F(Reader, GapsAreSewn) {
-  using Kind = geometry_io::EdgeMeasure::Kind;
-  for (const step_parts::Part& part : step_parts::border_parts()) {
-    const std::string name = part.file;
-    if (name != "gaps.step") continue;
-    step_parts::write(part, path(""));
-    const CadModel model = geometry_io::read_step(bytes(name));
-    EXPECT_THAT(model.healed, testing::Contains(HasSubstr("16 edges sewn to 13 within 0.0166 mm")));
-    int smooth = 0, sharp = 0;
-    for (const geometry_io::EdgeMeasure& edge : geometry_io::measured_edges(model)) {
-      smooth += edge.kind == Kind::smooth, sharp += edge.kind == Kind::sharp;
-      if (edge.kind == Kind::free) continue;
-      EXPECT_NEAR(edge.gap, 0.01, 0.005);
-    }
-    EXPECT_EQ(smooth, 2);
-    EXPECT_EQ(sharp, 1);
-    // What faces are called is what they are in the file.
-    ASSERT_EQ(model.faces.size(), 4u);
-    EXPECT_TRUE(model.faces[1].shape.kind == brep::Kind::cylinder);
-    for (int f = 0; f < 4; ++f) EXPECT_GT(model.faces[f].entity, 0);
-    return;
-  }
-  FAIL() << "no such part";
 }
 
 // Planes and a cone, with outward sides.
