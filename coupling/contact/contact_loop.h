@@ -91,6 +91,10 @@ class ContactLoop {
   /// The same for SurfaceExchange::export_add, in the wall's frame; empty if the structure needs no forces.
   const std::vector<coupling::ContactForce>& forces_on_body() const { return forces_on_body_; }
 
+  /// Asks the model once more for a contact of the last step whose memory is at hand again, as step() did;
+  /// adds nothing to anything.  The result is the overlap that the model has seen [length].
+  double ask_again(const ParticleView& particles, long step, ContactModel& model, Contact& contact) const;
+
   /// What has happened since these were forgotten last, on this rank.
   void forget_reports();
   const SearchCounts& searches() const { return searches_; }

@@ -32,6 +32,15 @@ void ContactLoop::answer(const ParticleView& particles, const StepInfo& step, Co
   if (!are_plain) look_at(particles, step, model, observer, first);
 }
 
+double ContactLoop::ask_again(const ParticleView& particles, long step, ContactModel& model,
+                              Contact& contact) const {
+  if (correction_) correction_->before(particles, step, model, &contact, &contact + 1);
+  model.evaluate(&contact, 1);
+  const double overlap = contact.overlap;
+  if (correction_) correction_->after(&contact, &contact + 1);
+  return overlap;
+}
+
 // What is neither touch nor force is none; who else has to know of the others.
 void ContactLoop::look_at(const ParticleView& particles, const StepInfo& step, const ContactModel& model,
                           ContactObserver* observer, std::size_t first) {

@@ -68,6 +68,37 @@ class Restart(unittest.TestCase):
             self.assertTrue((whole[column] == rest[column]).all(), column)
 
 
+class OneByOne(unittest.TestCase):
+    def test_the_compute_of_liggghts_has_the_forces_that_acted(self):
+        """Without damping and friction they do not depend on velocities.  The force along the surface, and the heat that goes
+        through the law's own overlap, too."""
+        heat = """
+fix h1 all property/global thermalConductivity peratomtype 100. 50.
+fix h2 all property/global thermalCapacity peratomtype 10. 10.
+fix heat all heat/gran initial_temperature 300.
+"""
+        of_compute, of_fix = (1, 2, 3, 7, 8, 9, 10), (5, 6, 7, 8, 9, 10, 11)
+        columns = [f"c_contacts[{k}]" for k in of_compute] + [f"f_plate[{k}]" for k in of_fix] + ["c_contacts[11]"]
+        balls = ((0.06e-3, 0.05e-3, 1e-3),)
+        deck = bob.prelude(balls=balls, **SETTINGS | dict(restitution=1.0, friction=0.0, velocity=(0, 0, -1))) + heat
+        deck += bob.wall(MODELS, CORRECTED + " temperature 400.") + "compute contacts all wall/gran/local pos force delta heatFlux\n"
+        deck += f"dump rows all local 1 rows.* {' '.join(columns)}\ndump_modify rows format \"{' '.join(['%.17g'] * 15)}\"\n"
+        deck += "compute heat all reduce sum f_heatFlux\nthermo_style custom step c_heat\nthermo_modify format float %.17g norm no\nthermo 1\n"
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "block.yaml").write_text(glass((4e-3, 4e-3, 2e-3), (16, 16, 8)))
+            run = decks.run_in(Path(folder), deck + "run 250\n")
+            self.assertEqual(run.code, 0, run.text[-2000:])
+            (row,) = entries(Path(folder) / "rows.250", 15)
+        compute, fix = row[:7], row[7:14]
+        fix[3:6] *= -1.0  # on the wall
+        self.assertGreater(compute[5], 1.0)
+        # along the surface the slope of c and that of the dented mesh push the ball to opposite sides: 1.5e-3 N each
+        np.testing.assert_allclose(compute, fix, rtol=1e-12, atol=1e-16)
+        self.assertGreater(abs(row[14]), 0.0)
+        # the ball is warmer by a step; through the geometric overlap it would be 6 % less
+        self.assertAlmostEqual(row[14] / run.table["heat"][-1], 1.0, delta=1e-5)
+
+
 class Meshes(unittest.TestCase):
     def peak(self, elements, words=CORRECTED):
         deck = bob.prelude(**SETTINGS | dict(restitution=1.0, friction=0.0, velocity=(0, 0, -1))) + bob.wall(MODELS, words)
