@@ -11,6 +11,7 @@
 #include "models.h"
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
+#include "point_force.h"
 #include "structure/compliance/compliance_tables.h"
 #include "structure/weld.h"
 
@@ -21,23 +22,17 @@ using models::NodalVectors;
 using models::Vector3;
 using nurbs::KnotVector;
 using nurbs::Volume;
+using point_force::block_body;
+using point_force::body_of;
+using point_force::kNu;
+using point_force::kTop;
+using point_force::mesh_compliance;
 using structure::ComplianceTable;
 using structure::ComplianceTables;
 using structure::Quadrature;
 using structure::ReferenceBody;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-constexpr double kNu = 0.286;
-
-ReferenceBody body_of(const Volume& patch, double E = 1.0, Quadrature quadrature = Quadrature::full) {
-  return {{patch}, {models::elastic(E, kNu)}, structure::without_welds({patch}), quadrature};
-}
-ReferenceBody block_body(const Vector3& size, const std::array<int, 3>& elements, int degree,
-                         Quadrature quadrature = Quadrature::full) {
-  return body_of(models::block(size, elements, degree), 1.0, quadrature);
-}
-const std::vector<structure::SkinPiece> kTop = {{0, nurbs::Face::zeta_plus}};
 
 /// A point of a top, parameters from 0 to 1.
 struct Top {
@@ -59,34 +54,6 @@ struct Top {
     return tables.of(0, element(xi)).at(component, low, high, xi);
   }
 };
-
-/// Normal displacement of the foot by a unit force there, the body held where `is_held(X)`: by conjugate
-/// gradients on the solid's own internal force.
-template <class IsHeld>
-double mesh_compliance(const ReferenceBody& body, const nurbs::Parameter<2>& xi, IsHeld is_held,
-                       const structure::SkinPiece& piece = kTop[0]) {
-  const Volume& patch = body.patches[0];
-  const structure::Solid solid(patch, body.materials[0], {body.quadrature});
-  const structure::FaceSurface top(body, piece);
-  const structure::SkinPoint foot = top.at(top.space().element_at(xi), xi);
-  NodalVectors load = NodalVectors::Zero(3, solid.node_count()), free = load;
-  for (std::size_t a = 0; a < foot.R.size(); ++a) load.col(foot.nodes[a]) = foot.R[a] * foot.outward_normal;
-  for (int a = 0; a < solid.node_count(); ++a)
-    if (!is_held(patch.control_points.col(a))) free.col(a).setOnes();
-  NodalVectors r = load.cwiseProduct(free), u = 0.0 * r, d = r, q = r;
-  const double goal = 1e-20 * r.squaredNorm();
-  for (double rr = r.squaredNorm(); rr > goal;) {
-    solid.internal_force(d, q);
-    q = q.cwiseProduct(free);
-    const double step = rr / d.cwiseProduct(q).sum();
-    u += step * d;
-    r -= step * q;
-    const double next = r.squaredNorm();
-    d = r + next / rr * d;
-    rr = next;
-  }
-  return u.cwiseProduct(load).sum();
-}
 
 TEST(GradientProducts, IntegratesAnElementOnceWhilePatchesHaveIt) {
   const ReferenceBody body = block_body({3, 3, 3}, {3, 3, 3}, 2);
