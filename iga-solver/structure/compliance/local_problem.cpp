@@ -119,8 +119,9 @@ void LocalProblem::hold_by_springs() {
       sprung_.push_back(static_cast<int>(place));
     }
   if (sprung_.size() < kFewest)
-    throw std::invalid_argument(fmt::format(
-        "a body of {} elements has too few of them beside the one that is hit, expected more", patch_.elements().size()));
+    throw std::invalid_argument(
+        fmt::format("a body of {} elements has too few of them beside the one that is hit, expected more",
+                    patch_.elements().size()));
   spring_ = kStiffness * E_ * farthest / static_cast<double>(sprung_.size());
   for (const int place : sprung_)
     for (int i = 3 * place; i < 3 * place + 3; ++i) K_.at(i, i) += spring_;
