@@ -172,6 +172,12 @@ std::optional<SurfaceMaterial> IgaStructure::material() const {
   return SurfaceMaterial{material.youngs_modulus(), material.poissons_ratio()};
 }
 
+std::optional<MeshedSolid> IgaStructure::solid_below(int patch) const {
+  const structure::Material& material = *solver_.body().materials()[skin_[patch].patch];
+  const double E = material.youngs_modulus(), nu = material.poissons_ratio();
+  return MeshedSolid{E / (1.0 - nu * nu), std::sqrt(0.5 * E / (1.0 + nu) / material.density())};
+}
+
 Work IgaStructure::work() const {
   const structure::Work work = solver_.work();
   return {work.forces, work.loads, work.internal, work.supports, work.damped};

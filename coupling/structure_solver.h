@@ -27,6 +27,12 @@ struct SurfaceMaterial {
   double poissons_ratio;  ///< [-]
 };
 
+/// Isotropic solid below a surface whose elements are those of the solid's mesh.
+struct MeshedSolid {
+  double plane_modulus;  ///< E' = E / (1 - nu^2) [pressure]
+  double shear_speed;    ///< of waves [length/time]
+};
+
 /// A displacement history that the model file asks for.
 struct Probe {
   std::string name;
@@ -103,6 +109,8 @@ class StructureSolver {
   virtual double stable_time_step_with_contacts() const { return std::numeric_limits<double>::infinity(); }
   /// Contacts that last less than that [time] are felt otherwise than by the whole body.
   virtual double shortest_contact() const { return 0.0; }
+  /// What is below a patch of the surface; nothing if contacts do not feel a mesh, or one that is not known.
+  virtual std::optional<MeshedSolid> solid_below(int /*patch*/) const { return std::nullopt; }
   /// What its mesh gives way under contacts beyond what it does itself; null unless contact shall take that
   /// off.
   virtual LocalCompliance* local_compliance() const { return nullptr; }

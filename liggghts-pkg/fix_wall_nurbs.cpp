@@ -171,8 +171,9 @@ void FixWallNurbs::init() {
     meshwall_ = may_pose_as_mesh();
     if (!options_.material_independent)
       liggghts_pkg::check_wall_material(*modify, atom_type_wall_, structure_.material(), options_.file);
-    if (options_.solid.corrects_contacts)
-      model_.read_constants(lmp, liggghts_pkg::model_of(options_.model_words).normal, atom_type_wall_);
+    if (structure_.solid_below(0))
+      model_.read_constants(lmp, liggghts_pkg::model_of(options_.model_words).normal, atom_type_wall_,
+                            options_.solid.corrects_contacts);
     if (observer_) observer_->begin_run(style);
   });
   reset_dt();
@@ -313,6 +314,9 @@ void FixWallNurbs::post_run() {
   if (searches.not_converged() > 0)
     messages_.warn(fmt::format("{} closest-point projections did not converge", searches.not_converged()));
   for (const std::string& alarm : liggghts_pkg::alarms_of_run(loop_, world)) messages_.warn(alarm);
+  const std::string of_mesh = liggghts_pkg::alarm_of_mesh(loop_, world);
+  if (!of_mesh.empty() && !warned_of_mesh_) messages_.warn(of_mesh);
+  warned_of_mesh_ |= !of_mesh.empty();
   show_local_rows();  // for write_dump
   loop_.forget_reports();
 }

@@ -97,7 +97,7 @@ class FixWallNurbs : public WallNurbsSetup, public FixWallGran {
   liggghts_pkg::TriangleTwin twin_;
   const coupling::NodalForces* nodal_forces_ = nullptr;
   coupling::NodalForces no_forces_;
-  bool rebuild_list_ = true, warned_of_gravity_ = false;
+  bool rebuild_list_ = true, warned_of_gravity_ = false, warned_of_mesh_ = false;
   bool is_read_locally_ = false;  // may be, in this run
 };
 

@@ -12,6 +12,7 @@
 #include "modify.h"
 #include "output.h"
 #include "setting.h"
+#include "update.h"
 
 using namespace LAMMPS_NS;
 
@@ -66,14 +67,15 @@ void FixWallNurbs::report(liggghts_pkg::ContactReport& rows, int number, Compute
   const liggghts_pkg::Setting<bool> no_heat(heattransfer_flag_, false), no_storage(store_force_, false);
   const liggghts_pkg::Setting<FixPropertyAtom*> no_sums(fix_sum_normal_force_, nullptr);
   const contact::ContactMemory memory = memory_.rows();
+  const contact::ParticleView view = particles();
   for (contact::Contact contact : loop_.contacts()) {
     const int i = contact.particle;
     contact.history = memory.slot(i, contact.slot).history();
-    model_.evaluate(&contact, 1);
+    const double overlap = loop_.ask_again(view, update->ntimestep, model_, contact);
     rows.add(number, contact, nurbs::Vector3::Map(atom->x[i]), atom->radius[i], dnum_);
     if (!gives_heat) continue;
     const liggghts_pkg::Setting<int> only_tell(computeflag_, 0), tell(addflag_, 1);
     const liggghts_pkg::Setting<ComputePairGranLocal*> to(cwl_, compute);
-    addHeatFlux(nullptr, i, contact.effective_radius, contact.overlap, 1.0);
+    addHeatFlux(nullptr, i, contact.effective_radius, overlap, 1.0);
   }
 }

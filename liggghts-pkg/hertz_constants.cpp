@@ -15,7 +15,8 @@
 
 namespace liggghts_pkg {
 
-void HertzConstants::read(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model, int wall_type) {
+void HertzConstants::read(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model, int wall_type,
+                          bool corrected) {
   if (!is_hertzian(normal_model)) return;
   const auto property = [&](const char* name, const char* shape) {
     return static_cast<LAMMPS_NS::FixPropertyGlobal*>(
@@ -26,8 +27,8 @@ void HertzConstants::read(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_mode
   const LawProperty& factor = HertzLaw::properties[0];
   auto* const lambda = normal_model == HertzLaw::word ? property(factor.name, "peratomtypepair") : nullptr;
   types_ = lmp->atom->ntypes;
-  auto* const restitution = property("coefficientRestitution", "peratomtypepair");
-  for (int i = 0; i < types_; ++i)
+  auto* const restitution = corrected ? property("coefficientRestitution", "peratomtypepair") : nullptr;
+  for (int i = 0; restitution && i < types_; ++i)
     if (const double e = restitution->compute_array(i, wall_type - 1); e < kLeastRestitution)
       throw std::invalid_argument(fmt::format(
           "'compliance corrected' is for contacts that lose little, given coefficientRestitution {:g} "

@@ -26,8 +26,9 @@ class LiggghtsContactModel final : public contact::ContactModel {
     return constants_.of_types(atom_.type[particle], wall_type_);
   }
   /// Before each run.
-  void read_constants(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model, int wall_type) {
-    constants_.read(lmp, normal_model, wall_type);
+  void read_constants(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model, int wall_type,
+                      bool corrected) {
+    constants_.read(lmp, normal_model, wall_type, corrected);
     wall_type_ = wall_type;
   }
   void end_step(bool setup) { springs_.end_step(setup); }

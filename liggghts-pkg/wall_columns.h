@@ -17,7 +17,7 @@ namespace liggghts_pkg {
 
 class WallColumns {
  public:
-  static constexpr int kLocalColumns = 11;
+  static constexpr int kLocalColumns = 12;
 
   WallColumns(const coupling::StructureSolver& structure, const contact::ContactLoop& loop,
               const TangentialSprings& springs, MPI_Comm comm)

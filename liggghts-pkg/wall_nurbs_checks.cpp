@@ -178,4 +178,32 @@ std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, MPI_Com
   return alarms;
 }
 
+std::string alarm_of_mesh(const contact::ContactLoop& loop, MPI_Comm world) {
+  const contact::MeshAlarm uncorrected = loop.uncorrected().of_all_ranks(world),
+                           not_static = loop.not_static().of_all_ranks(world);
+  constexpr double kMost = contact::ContactLoop::kMissing;
+  const auto place = [](const contact::MeshAlarm& alarm) {
+    return fmt::format("particle {} at ({:.6g}, {:.6g}, {:.6g})", alarm.tag, alarm.foot[0], alarm.foot[1],
+                       alarm.foot[2]);
+  };
+  if (uncorrected.count > 0)
+    return fmt::format(
+        "elements of size {:.3g} give way under {} by what its contact law has counted already: about {:.1f} "
+        "% "
+        "of the force is missing ({} contacts above {:g} % in this run); use 'compliance corrected', or "
+        "elements "
+        "of at least {:.2g} there",
+        uncorrected.size, place(uncorrected), 100.0 * uncorrected.value, uncorrected.count, 100.0 * kMost,
+        uncorrected.size * uncorrected.value / kMost);
+  if (not_static.count > 0)
+    return fmt::format(
+        "the contact of {} is too short for 'compliance corrected', which is static: it lasts {:.2g} of what "
+        "a "
+        "shear wave takes through three elements of size {:.3g} ({} contacts of this kind in this run); use "
+        "elements of at most {:.2g} there, or 'compliance none'",
+        place(not_static), 1.0 / not_static.value, not_static.size, not_static.count,
+        not_static.size / not_static.value);
+  return "";
+}
+
 }  // namespace liggghts_pkg

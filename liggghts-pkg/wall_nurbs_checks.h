@@ -43,5 +43,8 @@ std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::Str
 
 /// What to tell the user of particles that came where they should not in this run.  Collective.
 std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, MPI_Comm world);
+/// The same of contacts and the solid's mesh: its elements are too small for what is not corrected, or too
+/// large for a correction that is static.  Empty if all is well.
+std::string alarm_of_mesh(const contact::ContactLoop& loop, MPI_Comm world);
 
 }  // namespace liggghts_pkg

@@ -16,7 +16,8 @@ ContactLoop::ContactLoop(const coupling::StructureSolver& structure, coupling::S
                          const Options& options)
     : options_(options),
       wall_(structure, exchange, options.edge_angle),
-      tracker_(wall_.shape().track(candidates_, options.search, searches_)) {
+      tracker_(wall_.shape().track(candidates_, options.search, searches_)),
+      mesh_(MeshEstimate::of(structure, exchange.positions())) {
   if (coupling::LocalCompliance* const compliance = structure.local_compliance())
     correction_ = std::make_unique<ComplianceCorrection>(*compliance, wall_);
 }
@@ -24,6 +25,7 @@ ContactLoop::ContactLoop(const coupling::StructureSolver& structure, coupling::S
 void ContactLoop::forget_reports() {
   searches_ = SearchCounts();
   inside_ = crossing_ = stiff_ = brief_ = RunAlarm();
+  uncorrected_ = not_static_ = MeshAlarm();
 }
 
 /* ---------------------------------------------------------------------- the list of candidates */
@@ -309,7 +311,7 @@ inline Contact& ContactLoop::add_contact(const ParticleView& particles, int i,
   contact.centre = particles.centre(i);
   contact.delta = delta;
   contact.wall_velocity = v_wall;
-  contact.tangent = 0.0;
+  contact.tangent = contact.missing = 0.0;
   return contact;
 }
 

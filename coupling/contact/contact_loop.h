@@ -21,6 +21,7 @@
 #include "coupling/contact/contact_model.h"
 #include "coupling/contact/contact_rows.h"
 #include "coupling/contact/feet_tracker.h"
+#include "coupling/contact/mesh_estimate.h"
 #include "coupling/contact/particle_view.h"
 #include "coupling/contact/periodic_images.h"
 #include "coupling/contact/run_alarm.h"
@@ -90,6 +91,10 @@ class ContactLoop {
   /// The same for SurfaceExchange::export_add, in the wall's frame; empty if the structure needs no forces.
   const std::vector<coupling::ContactForce>& forces_on_body() const { return forces_on_body_; }
 
+  /// Asks the model once more for a contact of the last step whose memory is at hand again, as step() did;
+  /// adds nothing to anything.  The result is the overlap that the model has seen [length].
+  double ask_again(const ParticleView& particles, long step, ContactModel& model, Contact& contact) const;
+
   /// What has happened since these were forgotten last, on this rank.
   void forget_reports();
   const SearchCounts& searches() const { return searches_; }
@@ -100,6 +105,11 @@ class ContactLoop {
   const RunAlarm& stiff() const { return stiff_; }
   /// Contacts that are too short for the body (StructureSolver::shortest_contact); 1 over how long they last.
   const RunAlarm& brief() const { return brief_; }
+  /// Contacts that miss more than kMissing of their force to the mesh: nothing corrects them.
+  const MeshAlarm& uncorrected() const { return uncorrected_; }
+  static constexpr double kMissing = 0.02;
+  /// Contacts that are corrected by what is static, and are shorter than that (MeshEstimate::waves > 1).
+  const MeshAlarm& not_static() const { return not_static_; }
 
  private:
   void expect_images_to_stay(const std::vector<Vector3>& images) const;
@@ -126,8 +136,10 @@ class ContactLoop {
   void push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact);
   void answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,
               ContactObserver* observer, std::size_t first);
-  void look_at(const ParticleView& particles, const StepInfo& step, ContactObserver* observer,
-               std::size_t first);
+  void look_at(const ParticleView& particles, const StepInfo& step, const ContactModel& model,
+               ContactObserver* observer, std::size_t first);
+  void look_at_mesh(const ParticleView& particles, const StepInfo& step, double hertz_constant,
+                    Contact& contact);
   void expect_stable(const ParticleView& particles, const StepInfo& step, const Contact& contact);
   /// `squared_frequency` of the particle on the spring of the contact; `speed` along the normal.
   void expect_long(const ParticleView& particles, const StepInfo& step, const Contact& contact,
@@ -141,6 +153,7 @@ class ContactLoop {
   SearchCounts searches_;
   std::unique_ptr<FeetTracker> tracker_;
   std::unique_ptr<ComplianceCorrection> correction_;  // null: none asked for
+  std::unique_ptr<MeshEstimate> mesh_;                // null: no solid whose mesh is known
   double surface_motion_ = 0.0;                       // of a deforming wall since the list was built
   double wall_travel_ = 0.0;                          // in a step, when the list was built [length]
   std::vector<double> list_reach_;                    // per particle, when the list was built
@@ -152,6 +165,7 @@ class ContactLoop {
   mutable ContactRows rows_;
   std::vector<coupling::ContactForce> forces_on_body_;
   RunAlarm inside_, crossing_, stiff_, brief_;
+  MeshAlarm uncorrected_, not_static_;
   double body_squared_frequency_ = 0.0;            // in this step [1/time^2]
   double squared_time_ = 0.0, squared_way_ = 0.0;  // in this step: see squared_travel()
 };

@@ -29,23 +29,52 @@ void ContactLoop::answer(const ParticleView& particles, const StepInfo& step, Co
     are_plain &= !contact->inside & contact->touches;
   }
   if (!not_finite.isZero(0.0)) fail_as_not_finite(particles, step, begin, end);
-  if (!are_plain) look_at(particles, step, observer, first);
+  if (!are_plain) look_at(particles, step, model, observer, first);
+}
+
+double ContactLoop::ask_again(const ParticleView& particles, long step, ContactModel& model,
+                              Contact& contact) const {
+  if (correction_) correction_->before(particles, step, model, &contact, &contact + 1);
+  model.evaluate(&contact, 1);
+  const double overlap = contact.overlap;
+  if (correction_) correction_->after(&contact, &contact + 1);
+  return overlap;
 }
 
 // What is neither touch nor force is none; who else has to know of the others.
-void ContactLoop::look_at(const ParticleView& particles, const StepInfo& step, ContactObserver* observer,
-                          std::size_t first) {
+void ContactLoop::look_at(const ParticleView& particles, const StepInfo& step, const ContactModel& model,
+                          ContactObserver* observer, std::size_t first) {
   const auto is_none = [](const Contact& contact) { return !contact.touches && contact.force.isZero(0.0); };
   contacts_.erase(
       std::remove_if(contacts_.begin() + static_cast<std::ptrdiff_t>(first), contacts_.end(), is_none),
       contacts_.end());
   for (std::size_t k = first; k < contacts_.size(); ++k) {
-    const Contact& contact = contacts_[k];
+    Contact& contact = contacts_[k];
     const int i = contact.particle;
+    if (mesh_) look_at_mesh(particles, step, model.hertz_constant(i), contact);
     if (wall_.needs_forces()) push_body(particles, step, contact);
     if (contact.inside) inside_.raise(contact.tag, particles.radius[i], particles.velocity(i).norm());
     if (observer) observer->see(contact);
   }
+}
+
+// The speed of the impact is that of the first step of a touch.
+inline void ContactLoop::look_at_mesh(const ParticleView& particles, const StepInfo& step,
+                                      double hertz_constant, Contact& contact) {
+  contact.missing = mesh_->missing(contact, hertz_constant);
+  const auto raise = [&](MeshAlarm& alarm, double value) {
+    alarm.raise(contact.tag, contact.centre - contact.delta, mesh_->size(contact.foot), value);
+  };
+  if (!correction_) {
+    if (contact.missing > kMissing) raise(uncorrected_, contact.missing);
+    return;
+  }
+  constexpr double kFirst = 1.01;  // of the way of a step
+  const int i = contact.particle;
+  const double approach = contact.delta.dot(contact.wall_velocity - particles.velocity(i)) / contact.distance;
+  if (!particles.mass || !(kFirst * approach * step.dt > contact.overlap) || !(contact.overlap > 0.0)) return;
+  const double waves = mesh_->waves(contact, hertz_constant, particles.mass[i], approach);
+  if (waves > 1.0) raise(not_static_, waves);
 }
 
 void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact) {

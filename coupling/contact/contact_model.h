@@ -27,6 +27,7 @@ struct Contact {
   Vector3 wall_velocity;     ///< at the foot [length/time]
   double* history;           ///< what the model keeps of this contact, in this step; null if it keeps nothing
   double tangent;            ///< d(force)/d(overlap), if it is known beside the answer; else 0 [force/length]
+  double missing;            ///< share of the force, as MeshEstimate has it; 0 where there is none [-]
 
   // The model's answer:
   Vector3 force;   ///< on the particle [force]

@@ -22,6 +22,7 @@ void ContactRows::add(const Contact& contact) {
   Vector3::Map(row.point) = x - contact.delta;
   Vector3::Map(row.force) = -F;
   row.overlap = contact.overlap;
+  row.missing = contact.missing;
   Vector3::Map(row.torque) = -(contact.torque + x.cross(F));
   row.power = stands_ ? 0.0 : power_of(contact, row);
   row.slot = contact.slot;

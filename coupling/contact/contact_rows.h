@@ -16,6 +16,7 @@ struct WallContact {
   double point[3];   ///< foot [length]
   double force[3];   ///< on the wall [force]
   double overlap;    ///< [length]
+  double missing;    ///< share of the force (mesh_estimate.h) [-]
   double torque[3];  ///< on the wall, about the origin [force length]
   double power;      ///< that the wall gives to the particle [energy/time]
   double slot;

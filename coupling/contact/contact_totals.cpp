@@ -18,6 +18,7 @@ ContactTotals ContactSums::over_ranks(const std::vector<WallContact>& contacts, 
     totals.contacts += 1.0;
     totals.overlap = std::max(totals.overlap, row.overlap);
     totals.power += row.power;
+    totals.missing = std::max(totals.missing, row.missing);
   }
   MPI_Bcast(&totals, sizeof totals / sizeof(double), MPI_DOUBLE, 0, comm);
   return totals;

@@ -16,6 +16,7 @@ struct ContactTotals {
   double contacts;
   double overlap;  ///< largest; 0 without contact [length]
   double power;    ///< that the wall gives to the particles [energy/time]
+  double missing;  ///< largest share of a contact's force (mesh_estimate.h); 0 without contact [-]
 };
 
 /// Adds up in the order of (tag, slot), so that the sums are the same to the last bit on any number of ranks.

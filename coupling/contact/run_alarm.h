@@ -4,7 +4,20 @@
 
 #include <mpi.h>
 
+#include "nurbs/types.h"
+
 namespace contact {
+
+/// The first of those ranks where it is (collective).
+inline int rank_of_largest(double value, MPI_Comm world) {
+  struct {
+    double value;
+    int rank;
+  } mine{value, 0}, largest;
+  MPI_Comm_rank(world, &mine.rank);
+  MPI_Allreduce(&mine, &largest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
+  return largest.rank;
+}
 
 struct RunAlarm {
   long count = 0;
@@ -20,16 +33,38 @@ struct RunAlarm {
 
   /// Over all ranks (collective).
   RunAlarm of_all_ranks(MPI_Comm world) const {
-    struct {
-      double speed;
-      int rank;
-    } mine{speed, 0}, fastest;
-    MPI_Comm_rank(world, &mine.rank);
-    MPI_Allreduce(&mine, &fastest, 1, MPI_DOUBLE_INT, MPI_MAXLOC, world);
+    const int fastest = rank_of_largest(speed, world);
     RunAlarm all = *this;
-    MPI_Bcast(&all.speed, 1, MPI_DOUBLE, fastest.rank, world);
-    MPI_Bcast(&all.radius, 1, MPI_DOUBLE, fastest.rank, world);
-    MPI_Bcast(&all.tag, 1, MPI_LONG, fastest.rank, world);
+    MPI_Bcast(&all.speed, 1, MPI_DOUBLE, fastest, world);
+    MPI_Bcast(&all.radius, 1, MPI_DOUBLE, fastest, world);
+    MPI_Bcast(&all.tag, 1, MPI_LONG, fastest, world);
+    MPI_Allreduce(&count, &all.count, 1, MPI_LONG, MPI_SUM, world);
+    return all;
+  }
+};
+
+/// The same of a contact and the elements below it.
+struct MeshAlarm {
+  long count = 0;
+  // Of the worst contact:
+  double value = 0.0;  ///< [-]
+  double size = 0.0;   ///< of the element [length]
+  nurbs::Vector3 foot = nurbs::Vector3::Zero();
+  long tag = 0;
+
+  void raise(long of_tag, const nurbs::Vector3& at, double of_size, double of_value) {
+    ++count;
+    if (of_value > value) value = of_value, size = of_size, foot = at, tag = of_tag;
+  }
+
+  /// Over all ranks (collective).
+  MeshAlarm of_all_ranks(MPI_Comm world) const {
+    const int worst = rank_of_largest(value, world);
+    MeshAlarm all = *this;
+    double numbers[] = {value, size, foot[0], foot[1], foot[2]};
+    MPI_Bcast(numbers, 5, MPI_DOUBLE, worst, world);
+    all.value = numbers[0], all.size = numbers[1], all.foot = {numbers[2], numbers[3], numbers[4]};
+    MPI_Bcast(&all.tag, 1, MPI_LONG, worst, world);
     MPI_Allreduce(&count, &all.count, 1, MPI_LONG, MPI_SUM, world);
     return all;
   }

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """`compliance corrected` in decks: the same digits on any number of ranks and over restarts, momentum, forces on two meshes, and
-elements that are too small."""
+elements that are too small; without it, what the fix says of the mesh."""
 
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -10,6 +11,7 @@ import numpy as np
 
 import ball_on_block as bob
 import decks
+from test_wall_local import entries
 
 CORRECTED = "structure block.yaml surface top compliance corrected"
 GLASS = (74.6e9, 0.2285)
@@ -66,6 +68,37 @@ class Restart(unittest.TestCase):
             self.assertTrue((whole[column] == rest[column]).all(), column)
 
 
+class OneByOne(unittest.TestCase):
+    def test_the_compute_of_liggghts_has_the_forces_that_acted(self):
+        """Without damping and friction they do not depend on velocities.  The force along the surface, and the heat that goes
+        through the law's own overlap, too."""
+        heat = """
+fix h1 all property/global thermalConductivity peratomtype 100. 50.
+fix h2 all property/global thermalCapacity peratomtype 10. 10.
+fix heat all heat/gran initial_temperature 300.
+"""
+        of_compute, of_fix = (1, 2, 3, 7, 8, 9, 10), (5, 6, 7, 8, 9, 10, 11)
+        columns = [f"c_contacts[{k}]" for k in of_compute] + [f"f_plate[{k}]" for k in of_fix] + ["c_contacts[11]"]
+        balls = ((0.06e-3, 0.05e-3, 1e-3),)
+        deck = bob.prelude(balls=balls, **SETTINGS | dict(restitution=1.0, friction=0.0, velocity=(0, 0, -1))) + heat
+        deck += bob.wall(MODELS, CORRECTED + " temperature 400.") + "compute contacts all wall/gran/local pos force delta heatFlux\n"
+        deck += f"dump rows all local 1 rows.* {' '.join(columns)}\ndump_modify rows format \"{' '.join(['%.17g'] * 15)}\"\n"
+        deck += "compute heat all reduce sum f_heatFlux\nthermo_style custom step c_heat\nthermo_modify format float %.17g norm no\nthermo 1\n"
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "block.yaml").write_text(glass((4e-3, 4e-3, 2e-3), (16, 16, 8)))
+            run = decks.run_in(Path(folder), deck + "run 250\n")
+            self.assertEqual(run.code, 0, run.text[-2000:])
+            (row,) = entries(Path(folder) / "rows.250", 15)
+        compute, fix = row[:7], row[7:14]
+        fix[3:6] *= -1.0  # on the wall
+        self.assertGreater(compute[5], 1.0)
+        # along the surface the slope of c and that of the dented mesh push the ball to opposite sides: 1.5e-3 N each
+        np.testing.assert_allclose(compute, fix, rtol=1e-12, atol=1e-16)
+        self.assertGreater(abs(row[14]), 0.0)
+        # the ball is warmer by a step; through the geometric overlap it would be 6 % less
+        self.assertAlmostEqual(row[14] / run.table["heat"][-1], 1.0, delta=1e-5)
+
+
 class Meshes(unittest.TestCase):
     def peak(self, elements, words=CORRECTED):
         deck = bob.prelude(**SETTINGS | dict(restitution=1.0, friction=0.0, velocity=(0, 0, -1))) + bob.wall(MODELS, words)
@@ -83,6 +116,102 @@ class Meshes(unittest.TestCase):
         run = decks.run(deck + "run 4000\n", files={"block.yaml": glass((1e-3, 1e-3, 0.5e-3), (12, 12, 6))})
         self.assertNotEqual(run.code, 0)
         self.assertRegex(run.errors[0], "elements at .* too small for the contact of particle 1 .* or 'compliance none'")
+
+
+def missing(overlap, size):
+    """0.8 (E*/E') a/h of a ball and a block of the same glass: E* = E'/2."""
+    return 0.8 * 0.5 * np.sqrt(bob.RADIUS * overlap) / size
+
+
+class Estimate(unittest.TestCase):
+    """Of the force that is missing where nothing is corrected."""
+
+    SIZE = np.sqrt(0.25e-3 * 0.5e-3)  # of elements that are not square
+    BLOCK = glass((4e-3, 4e-3, 2e-3), (16, 8, 4))
+    FREE = dict(restitution=1.0, friction=0.0)
+
+    def deck(self, velocity=1.0, models=MODELS, words="none", **more):
+        balls = ((0.0, 0.0, 1.001e-3), (-1.6e-3, 1.5e-3, 1.0002e-3), (1.5e-3, -1.6e-3, 1.0005e-3))
+        words = CORRECTED.replace("corrected", words)
+        settings = SETTINGS | self.FREE | dict(velocity=(0, 0, -velocity), balls=balls, models=models) | more
+        return bob.prelude(**settings) + bob.wall(models, words)
+
+    def test_it_is_a_column_and_one_of_each_contact(self):
+        form = '"' + " ".join(["%.17g"] * 2) + '"'
+        deck = self.deck() + bob.output((7, 8, 29)) + f"dump d all local 60 rows.* f_plate[11] f_plate[12]\ndump_modify d format {form}\n"
+        tables = []
+        for ranks in (1, 2):
+            with tempfile.TemporaryDirectory() as folder:
+                (Path(folder) / "block.yaml").write_text(self.BLOCK)
+                run = decks.run_in(Path(folder), deck + "run 480\n", ranks=ranks)
+                self.assertEqual(run.code, 0, run.text[-2000:])
+                rows = [entries(file, 2) for file in Path(folder).glob("rows.*")]
+            overlap, share = np.concatenate(rows).T
+            np.testing.assert_allclose(share, missing(overlap, self.SIZE), rtol=1e-12)
+            self.assertGreater(max(len(table) for table in rows), 1)
+            table = run.table
+            touches = table["plate7"] > 0
+            np.testing.assert_allclose(table["plate29"][touches], missing(table["plate8"][touches], self.SIZE), rtol=1e-12)
+            self.assertEqual(np.abs(table["plate29"][~touches]).max(), 0.0)
+            self.assertGreater(table["plate29"].max(), 0.03)
+            tables.append(table)
+        np.testing.assert_array_equal(tables[0]["plate29"], tables[1]["plate29"])
+
+    def warnings(self, deck, ranks=1, block=BLOCK):
+        run = decks.good(deck, files={"block.yaml": block}, ranks=ranks)
+        return [line for line in run.text.splitlines() if "WARNING: Fix wall/nurbs (id plate): " in line], run
+
+    def test_it_warns_once(self):
+        """Of the largest: the ball at (-1.6, 1.5) mm, which is on the first of two ranks and deepest after the first run."""
+        deck = self.deck() + bob.output((8,)) + "run 320\nrun 160\n"
+        for ranks in (1, 2):
+            found, run = self.warnings(deck, ranks)
+            (line,) = found
+            share = missing(run.tables[0]["plate8"].max(), self.SIZE)
+            told = re.search(r"elements of size ([\d.e-]+) give way under particle (\d) at \((\S+), (\S+), \S+\).* about ([\d.]+) % of "
+                             r"the force is missing .* use 'compliance corrected', or elements of at least ([\d.e-]+)", line)  # fmt: skip
+            size, particle, x, y, percent, advised = map(float, told.groups())
+            self.assertEqual(particle, 2)
+            np.testing.assert_allclose((x, y), (-1.6e-3, 1.5e-3), atol=1e-6)
+            self.assertAlmostEqual(size, self.SIZE, delta=1e-2 * size)
+            self.assertAlmostEqual(percent, 100.0 * share, delta=0.051)
+            self.assertAlmostEqual(advised, self.SIZE * share / 0.02, delta=0.05 * advised)
+
+    def test_it_is_quiet_where_it_should_be(self):
+        """Below 2 %, where contacts are corrected, and with a law that is not Hertz'."""
+        for name, velocity, models, words, expected in (
+            ("slow", 0.05, MODELS, "none", 0), ("corrected", 1.0, MODELS, "corrected", 0), ("given", 1.0, MODELS, "none", 1),
+            ("hooke", 1.0, "model hooke tangential history", "none", 0),
+        ):  # fmt: skip
+            deck = self.deck(velocity, models, words, restitution=0.95)
+            if name == "hooke":
+                deck = deck.replace("fix plate", "fix speed all property/global characteristicVelocity scalar 1.0\nfix plate")
+            found, run = self.warnings(deck + bob.output((7,)) + f"run {1500 if name == 'slow' else 320}\n")
+            self.assertGreater(run.table["plate7"].max(), 0)
+            self.assertEqual(len(found), expected, f"{name}: {found}")
+
+
+class Statics(unittest.TestCase):
+    def test_a_contact_that_is_too_short_is_named(self):
+        """Shorter than a shear wave takes through three elements: 2.87 (m^2/(r E*^2 V))^(1/5) (Johnson 1985, eq. 11.25)."""
+        E, nu = GLASS
+        E_star, mass = 0.5 * E / (1.0 - nu * nu), 4.0 / 3.0 * np.pi * bob.RADIUS**3 * bob.DENSITY
+        velocity = 2.0
+        duration = 2.87 * (mass**2 / (bob.RADIUS * E_star**2 * velocity)) ** 0.2
+        limit = duration * np.sqrt(0.5 * E / (1.0 + nu) / 2480.0) / 3.0
+        self.assertGreater(limit, 3e-3)
+        for words, ratio, expected in (("corrected", 0.98, 0), ("corrected", 1.02, 1), ("none", 1.02, 0)):
+            h = ratio * limit
+            block = glass((4 * h, 4 * h, h), (4, 4, 1))
+            settings = SETTINGS | dict(restitution=1.0, friction=0.0, velocity=(0, 0, -velocity))
+            deck = bob.prelude(**settings) + bob.wall(MODELS, CORRECTED.replace("corrected", words)) + bob.output((7,)) + "run 20\n"
+            text = decks.good(deck, files={"block.yaml": block}).text
+            found = re.findall(r"WARNING: .*the contact of particle 1 at \(.*\) is too short for 'compliance corrected', which is static: .* "
+                               r"three elements of size ([\d.e-]+) \(1 contacts.* elements of at most ([\d.e-]+) there", text)  # fmt: skip
+            self.assertEqual(len(found), expected, f"{words} {ratio}")
+            for size, advised in found:
+                self.assertAlmostEqual(float(size), h, delta=0.01 * h)
+                self.assertAlmostEqual(float(advised), limit, delta=0.03 * limit)
 
 
 if __name__ == "__main__":

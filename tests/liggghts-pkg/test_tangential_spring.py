@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The last column: what a tangential spring gains or loses as the overlap changes under it (Elata & Berryman 1996).
+"""The last column but one: what a tangential spring gains or loses as the overlap changes under it (Elata & Berryman 1996).
 
 A ball that nothing moves, but has a velocity v along a floor, stretches its spring to xi = v t, while the floor rises or sinks,
 d = d_0 + w t.  With k_t = 8 G* sqrt(R d) the column is the integral of xi^2/2 dk_t.

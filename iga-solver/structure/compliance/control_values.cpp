@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "structure/compliance/control_values.h"
 
+#include <algorithm>
+#include <limits>
+
 namespace structure {
 
 namespace {
@@ -48,19 +51,28 @@ ControlValues::Place ControlValues::place(int patch, const nurbs::Parameter<3>& 
 }
 
 // Of a rational patch W u is a spline whose control values are w_A u_A.
-void ControlValues::add(Id node) {
+std::vector<ControlValues::Term> ControlValues::terms_of(Id node) {
   const auto [patch, control_point] = body_.nodes.place(node);
   const nurbs::Space<3>& space = body_.patches[patch].space;
   std::vector<DirectionTerm> terms[3];
   for (int d = 0, rest = control_point; d < 3; rest /= space.control_point_count(d++))
     terms[d] = direction_terms(space.knots(d), rest % space.control_point_count(d));
-  std::vector<Term>& sum = sums_.emplace_back();
+  std::vector<Term> sum;
   for (const auto& [zeta, in_zeta] : terms[2])
     for (const auto& [eta, in_eta] : terms[1])
       for (const auto& [xi, in_xi] : terms[0]) {
         const Place at = place(patch, {xi, eta, zeta});
         sum.push_back({at.point, in_xi * in_eta * in_zeta * at.W / space.weight(control_point)});
       }
+  return sum;
+}
+
+void ControlValues::add(Id node) { sums_.push_back(terms_of(node)); }
+
+double ControlValues::nearest(Id node, const Vector3& to) {
+  double distance = std::numeric_limits<double>::infinity();
+  for (const Term& term : terms_of(node)) distance = std::min(distance, (points_[term.point] - to).norm());
+  return distance;
 }
 
 }  // namespace structure

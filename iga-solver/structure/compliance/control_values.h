@@ -20,6 +20,8 @@ class ControlValues {
   /// The next node.
   void add(Id node);
   int count() const { return static_cast<int>(sums_.size()); }
+  /// How near to a place the field would be asked for by a node's sum [length].
+  double nearest(Id node, const Vector3& to);
 
   /// Undeformed places that the field is asked for [length].
   const std::vector<Vector3>& points() const { return points_; }
@@ -39,6 +41,7 @@ class ControlValues {
     double W;  // sum of weighted functions
   };
   Place place(int patch, const nurbs::Parameter<3>& xi);
+  std::vector<Term> terms_of(Id node);
 
   const ReferenceBody& body_;
   std::vector<std::vector<Term>> sums_;

@@ -77,15 +77,36 @@ Matrix3& LocalProblem::block(int free_place, int held_place) {
   return blocks_[block];
 }
 
+namespace {
+
+/// From an element's centre to its farthest corner [length].
+double half_diagonal(const nurbs::Volume& volume, int element) {
+  const nurbs::Space<3>& space = volume.space;
+  const nurbs::Indices<3> at = space.element_indices(element);
+  const Vector3 centre = nurbs::interpolate(space, volume.control_points, space.element_centre(element));
+  double farthest = 0.0;
+  for (int corner = 0; corner < 8; ++corner) {
+    nurbs::Parameter<3> xi;
+    for (int d = 0; d < 3; ++d) xi[d] = space.knots(d).breaks()[at[d] + (corner >> d & 1)];
+    farthest = std::max(farthest, (nurbs::interpolate(space, volume.control_points, xi) - centre).norm());
+  }
+  return farthest;
+}
+
+}  // namespace
+
 // A whole body is smaller than that.  Springs on its farther half take up its rigid motions; they rest at the
-// half-space's displacements, so they bear nothing else.
+// half-space's displacements, so they bear nothing else.  Near the foot
+// these are beyond what a mesh can follow, so nodes there have none.
 void LocalProblem::hold_by_springs() {
-  constexpr double kFar = 0.5, kStiffness = 0.1;
+  constexpr double kFar = 0.5, kNear = 1.01, kStiffness = 0.1;
+  constexpr std::size_t kFewest = 4;
   const ReferenceBody& body = patch_.body();
   const BodyElement& hit = patch_.hit();
   const nurbs::Volume& volume = body.patches[hit.patch];
   const Vector3 centre =
       nurbs::interpolate(volume.space, volume.control_points, volume.space.element_centre(hit.element));
+  const double near = kNear * half_diagonal(volume, hit.element);
   std::vector<double> distance;
   for (const Id node : patch_.nodes()) {
     const auto [p, control_point] = body.nodes.place(node);
@@ -93,10 +114,14 @@ void LocalProblem::hold_by_springs() {
   }
   const double farthest = *std::max_element(distance.begin(), distance.end());
   for (std::size_t place = 0; place < distance.size(); ++place)
-    if (distance[place] >= kFar * farthest) {
+    if (distance[place] >= kFar * farthest && held_.nearest(patch_.nodes()[place], centre) > near) {
       held_.add(patch_.nodes()[place]);
       sprung_.push_back(static_cast<int>(place));
     }
+  if (sprung_.size() < kFewest)
+    throw std::invalid_argument(
+        fmt::format("a body of {} elements has too few of them beside the one that is hit, expected more",
+                    patch_.elements().size()));
   spring_ = kStiffness * E_ * farthest / static_cast<double>(sprung_.size());
   for (const int place : sprung_)
     for (int i = 3 * place; i < 3 * place + 3; ++i) K_.at(i, i) += spring_;

@@ -11,6 +11,7 @@
 #include "models.h"
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
+#include "point_force.h"
 #include "structure/compliance/compliance_tables.h"
 #include "structure/weld.h"
 
@@ -21,24 +22,17 @@ using models::NodalVectors;
 using models::Vector3;
 using nurbs::KnotVector;
 using nurbs::Volume;
+using point_force::block_body;
+using point_force::body_of;
+using point_force::kNu;
+using point_force::kTop;
+using point_force::mesh_compliance;
 using structure::ComplianceTable;
 using structure::ComplianceTables;
-using structure::HalfSpace;
 using structure::Quadrature;
 using structure::ReferenceBody;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-constexpr double kNu = 0.286;
-
-ReferenceBody body_of(const Volume& patch, double E = 1.0, Quadrature quadrature = Quadrature::full) {
-  return {{patch}, {models::elastic(E, kNu)}, structure::without_welds({patch}), quadrature};
-}
-ReferenceBody block_body(const Vector3& size, const std::array<int, 3>& elements, int degree,
-                         Quadrature quadrature = Quadrature::full) {
-  return body_of(models::block(size, elements, degree), 1.0, quadrature);
-}
-const std::vector<structure::SkinPiece> kTop = {{0, nurbs::Face::zeta_plus}};
 
 /// A point of a top, parameters from 0 to 1.
 struct Top {
@@ -60,108 +54,6 @@ struct Top {
     return tables.of(0, element(xi)).at(component, low, high, xi);
   }
 };
-
-/// Normal displacement of the foot by a unit force there, the body held where `is_held(X)`: by conjugate
-/// gradients on the solid's own internal force.
-template <class IsHeld>
-double mesh_compliance(const ReferenceBody& body, const nurbs::Parameter<2>& xi, IsHeld is_held,
-                       const structure::SkinPiece& piece = kTop[0]) {
-  const Volume& patch = body.patches[0];
-  const structure::Solid solid(patch, body.materials[0], {body.quadrature});
-  const structure::FaceSurface top(body, piece);
-  const structure::SkinPoint foot = top.at(top.space().element_at(xi), xi);
-  NodalVectors load = NodalVectors::Zero(3, solid.node_count()), free = load;
-  for (std::size_t a = 0; a < foot.R.size(); ++a) load.col(foot.nodes[a]) = foot.R[a] * foot.outward_normal;
-  for (int a = 0; a < solid.node_count(); ++a)
-    if (!is_held(patch.control_points.col(a))) free.col(a).setOnes();
-  NodalVectors r = load.cwiseProduct(free), u = 0.0 * r, d = r, q = r;
-  const double goal = 1e-20 * r.squaredNorm();
-  for (double rr = r.squaredNorm(); rr > goal;) {
-    solid.internal_force(d, q);
-    q = q.cwiseProduct(free);
-    const double step = rr / d.cwiseProduct(q).sum();
-    u += step * d;
-    r -= step * q;
-    const double next = r.squaredNorm();
-    d = r + next / rr * d;
-    rr = next;
-  }
-  return u.cwiseProduct(load).sum();
-}
-
-TEST(HalfSpace, IsInEquilibriumUnderTheForce) {
-  const Vector3 n = Vector3(1, -2, 3).normalized();
-  const HalfSpace half_space(2.0, kNu, n);
-  // deep enough that the plane through it has no force of its own: tractions on a sphere around the point of
-  // the force, as far as it is in the body, bear the force
-  Matrix3 sum = Matrix3::Zero();
-  const Matrix3 axes = nurbs::frame(Vector3::Zero(), -n).axes;
-  const nurbs::QuadratureRule polar = nurbs::gauss_legendre(8, 0.0, 1.0);
-  constexpr int kAround = 24;
-  for (int i = 0; i < 8; ++i)
-    for (int k = 0; k < kAround; ++k) {
-      const double z = polar.points[i], r = std::sqrt(1.0 - z * z), angle = nurbs::kTwoPi * k / kAround;
-      const Vector3 m = axes * Vector3(r * std::cos(angle), r * std::sin(angle), z);
-      sum += polar.weights[i] * nurbs::kTwoPi / kAround * half_space.traction(m, m);
-    }
-  EXPECT_LT((sum + Matrix3::Identity()).norm(), 1e-4);
-  // the surface is free
-  const Vector3 along = n.cross(Vector3(0, 1, 0));
-  EXPECT_LT(half_space.traction(along, n).norm(), 1e-14);
-  // and sinks by (1 - nu^2) / (pi E r) (Johnson 1985, eq. 3.22b)
-  EXPECT_NEAR(n.dot(half_space.displacement(2.0 * along) * n),
-              (1 - kNu * kNu) / (nurbs::kPi * 2.0 * 2.0 * along.norm()), 1e-15);
-}
-
-TEST(HalfSpace, TractionIsThatOfTheDisplacement) {
-  const HalfSpace half_space(2.0, kNu, Vector3::UnitZ());
-  const double mu = 1.0 / (1.0 + kNu), lambda = 2.0 * mu * kNu / (1.0 - 2.0 * kNu), step = 1e-4;
-  const auto stress = [&](const Vector3& x, int force) -> Matrix3 {
-    Matrix3 H;
-    for (int k = 0; k < 3; ++k)
-      H.col(k) = (half_space.displacement(x + step * Vector3::Unit(k)).col(force) -
-                  half_space.displacement(x - step * Vector3::Unit(k)).col(force)) /
-                 (2.0 * step);
-    return lambda * H.trace() * Matrix3::Identity() + mu * (H + H.transpose());
-  };
-  const Vector3 x(0.3, -0.5, -0.4), m = Vector3(1, 2, -2) / 3.0;
-  for (int force = 0; force < 3; ++force) {
-    EXPECT_LT((half_space.traction(x, m).col(force) - stress(x, force) * m).norm(), 1e-7);
-    Vector3 divergence = Vector3::Zero();
-    for (int k = 0; k < 3; ++k)
-      divergence += (half_space.traction(x + step * Vector3::Unit(k), Vector3::Unit(k)) -
-                     half_space.traction(x - step * Vector3::Unit(k), Vector3::Unit(k)))
-                        .col(force) /
-                    (2.0 * step);
-    EXPECT_LT(divergence.norm(), 1e-6);
-  }
-}
-
-// Blocks of a factor are 48 rows: one block, whole ones, a last one of one row; bands narrower and wider than
-// a block.
-TEST(BandMatrix, SolvesAsADenseFactorDoes) {
-  for (const auto& [rows, half_width] :
-       {std::pair{5, 2}, {48, 7}, {97, 1}, {97, 60}, {150, 149}, {200, 20}}) {
-    Eigen::MatrixXd A = Eigen::MatrixXd::Zero(rows, rows);
-    structure::BandMatrix band;
-    band.reset(rows, half_width);
-    for (int j = 0; j < rows; ++j)
-      for (int i = j; i <= std::min(j + half_width, rows - 1); ++i)
-        band.at(i, j) = A(i, j) = A(j, i) = i == j ? 2.0 * half_width + 3.0 : std::sin(3.0 * i + 7.0 * j);
-    const Eigen::MatrixXd b = Eigen::MatrixXd::Random(rows, 4);
-    Eigen::MatrixXd x = b;
-    ASSERT_TRUE(band.factorise());
-    band.solve(x);
-    EXPECT_LT((x - A.llt().solve(b)).norm(), 1e-13 * b.norm()) << rows << " rows, " << half_width;
-  }
-}
-
-TEST(BandMatrix, SaysWhatIsNotPositiveDefinite) {
-  structure::BandMatrix band;
-  band.reset(60, 3);
-  for (int i = 0; i < 60; ++i) band.at(i, i) = i == 55 ? -1.0 : 1.0;
-  EXPECT_FALSE(band.factorise());
-}
 
 TEST(GradientProducts, IntegratesAnElementOnceWhilePatchesHaveIt) {
   const ReferenceBody body = block_body({3, 3, 3}, {3, 3, 3}, 2);
@@ -319,6 +211,35 @@ TEST(Compliance, OfAWholeBodyIsThatOfAPieceOfALargerOne) {
   for (const double x : {0.0, 0.5})
     EXPECT_NEAR(small.table(of_small, {(3 + x) / 7, 3.5 / 7}),
                 large.table(of_large, {(7 + x) / 15, 7.5 / 15}), 0.008 * 1.2);
+}
+
+// Cubes of a few elements, held at their bases: feet are where springs' rest would be infinite.
+TEST(Compliance, OfAFewElementsLeavesWhatAFinerMeshDoes) {
+  const double plane_modulus = 1.0 / (1.0 - kNu * kNu);
+  for (const auto& [n, place] : {std::pair{std::array<int, 3>{3, 3, 1}, 0.5},
+                                 {{3, 3, 3}, 0.5},
+                                 {{3, 3, 3}, 0.75},
+                                 {{2, 2, 2}, 0.5},
+                                 {{2, 2, 2}, 0.75}}) {
+    std::vector<double> left;
+    for (const int finer : {1, 2, 4}) {
+      const Top top{block_body(Vector3(n[0], n[1], n[2]), {finer * n[0], finer * n[1], finer * n[2]}, 2)};
+      ComplianceTables tables(top.body, kTop);
+      const nurbs::Parameter<2> xi = {place, place};
+      const auto on_base = [](const Vector3& X) { return X[2] < 1e-9; };
+      const double c = tables.direct(0, top.element(xi), xi)(2, 2);
+      EXPECT_TRUE(std::isfinite(top.table(tables, xi)));
+      left.push_back(plane_modulus * (mesh_compliance(top.body, xi, on_base) - c));
+    }
+    EXPECT_NEAR(left[0], left[2], 0.036) << n[0] << ' ' << n[2] << ' ' << place;
+    EXPECT_NEAR(left[1], left[2], 0.021) << n[0] << ' ' << n[2] << ' ' << place;
+  }
+}
+
+TEST(Compliance, OfASingleElementIsRefused) {
+  ComplianceTables tables(block_body({1, 1, 1}, {1, 1, 1}, 2), kTop);
+  EXPECT_THAT([&] { tables.of(0, 0); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("a body of 1 elements has too few")));
 }
 
 TEST(Compliance, GoesAcrossWelds) {

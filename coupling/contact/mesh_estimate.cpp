@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/contact/mesh_estimate.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+namespace contact {
+
+namespace {
+
+/// From its area by the midpoint rule [length].
+double size_of(const nurbs::Space<2>& space, int element, const nurbs::NodalVectors& control_points,
+               int first) {
+  const nurbs::Indices<2> at = space.element_indices(element);
+  nurbs::RationalBasis<2> basis;
+  nurbs::evaluate_on_element(space, element, space.element_centre(element), 1, basis);
+  Vector3 edges[2];
+  for (int d = 0; d < 2; ++d) {
+    edges[d].setZero();
+    for (int a = 0; a < basis.count; ++a)
+      edges[d] += basis.dR[d][a] * control_points.col(first + basis.control_point[a]);
+    edges[d] *= space.knots(d).breaks()[at[d] + 1] - space.knots(d).breaks()[at[d]];
+  }
+  return std::sqrt(edges[0].cross(edges[1]).norm());
+}
+
+}  // namespace
+
+std::unique_ptr<MeshEstimate> MeshEstimate::of(const coupling::StructureSolver& structure,
+                                               const nurbs::NodalVectors& control_points) {
+  const nurbs::MultiPatch& surface = structure.surface().topology;
+  std::vector<coupling::MeshedSolid> solids;
+  for (int p = 0; p < surface.patch_count(); ++p) {
+    const std::optional<coupling::MeshedSolid> solid = structure.solid_below(p);
+    if (!solid) return nullptr;
+    solids.push_back(*solid);
+  }
+  return std::unique_ptr<MeshEstimate>(new MeshEstimate(surface, std::move(solids), control_points));
+}
+
+MeshEstimate::MeshEstimate(const nurbs::MultiPatch& surface, std::vector<coupling::MeshedSolid> solids,
+                           const nurbs::NodalVectors& control_points)
+    : surface_(surface), solids_(std::move(solids)) {
+  for (int p = 0; p < surface.patch_count(); ++p)
+    for (int e = 0; e < surface.patch(p).element_count(); ++e)
+      size_.push_back(size_of(surface.patch(p), e, control_points, surface.first_control_point(p)));
+}
+
+double MeshEstimate::missing(const Contact& contact, double hertz_constant) const {
+  constexpr double kCorner = 0.8;  // of quadratic elements
+  const double a = std::sqrt(contact.effective_radius * contact.overlap), E_star = 0.75 * hertz_constant;
+  const double modulus = solids_[contact.foot.patch].plane_modulus;
+  return std::max(0.0, kCorner * E_star * a / (modulus * size(contact.foot)));
+}
+
+double MeshEstimate::waves(const Contact& contact, double hertz_constant, double mass, double speed) const {
+  constexpr double kLayers = 3.0, kDuration = 2.943;
+  const double K = hertz_constant * std::sqrt(contact.effective_radius),
+               deepest = std::pow(1.25 * mass * speed * speed / K, 0.4);
+  const double waves = kLayers * size(contact.foot) / solids_[contact.foot.patch].shear_speed;
+  return std::max(0.0, waves * speed / (kDuration * deepest));
+}
+
+}  // namespace contact

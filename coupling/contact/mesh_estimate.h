@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What a meshed body makes of contacts after Hertz, estimated from the size of its elements: how much of the
+// force is missing where the mesh's give is not taken off (compliance.h), and whether a contact is too short
+// for a give that is static (iga-solver/structure/compliance/README.md has both).
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "coupling/contact/contact_model.h"
+#include "coupling/structure_solver.h"
+
+namespace contact {
+
+class MeshEstimate {
+ public:
+  /// Of the surface as it is now; null unless the structure knows what is below all of it.
+  static std::unique_ptr<MeshEstimate> of(const coupling::StructureSolver& structure,
+                                          const nurbs::NodalVectors& control_points);
+
+  /// 0.8 (E*/E') a/h, a = (r* overlap)^(1/2): the share of the force that is missing [-].  `hertz_constant`:
+  /// ContactModel's, 4/3 E*; 0 if that is not a number, and without overlap.
+  double missing(const Contact& contact, double hertz_constant) const;
+  /// 3 h/c_s over the time that a sphere of this mass is in contact after an impact at a speed, 2.943 delta/V
+  /// with delta = (5 m V^2 / (4 K))^(2/5) (Johnson 1985, sec. 11.4) [-]; 0 if the constant is not a number.
+  double waves(const Contact& contact, double hertz_constant, double mass, double speed) const;
+  /// h: side of a square as large as the element that the foot is on [length].
+  double size(const nurbs::SurfacePoint& foot) const { return size_[element(foot)]; }
+
+ private:
+  MeshEstimate(const nurbs::MultiPatch& surface, std::vector<coupling::MeshedSolid> solids,
+               const nurbs::NodalVectors& control_points);
+  int element(const nurbs::SurfacePoint& foot) const {
+    return surface_.first_element(foot.patch) + surface_.patch(foot.patch).element_at(foot.xi);
+  }
+
+  const nurbs::MultiPatch& surface_;
+  std::vector<coupling::MeshedSolid> solids_;  // below each patch
+  std::vector<double> size_;                   // of each element
+};
+
+}  // namespace contact
