@@ -284,9 +284,42 @@ def draw(path: Path, results: Mapping[str, Result]) -> None:
     save(picture, path)
 
 
+def draw_plate(path: Path, results: Mapping[str, Result]) -> None:
+    """Z1's peak force less that of elasticity, over the size of the elements, by layers; and what meshes should have."""
+    picture = Picture(figsize=(9.0, 4.6), layout="constrained")
+    axes, plate = picture.subplots(), PLATES["Z1"]
+
+    def error(F: np.ndarray | float) -> np.ndarray | float:
+        return 100.0 * (F / plate.peak - 1.0)
+
+    for layers, colour, marker in zip((1, 2, 4), COLOURS, MARKERS):
+        ratios = sorted(ratio for ratio, n in ALL_MESHES if n == layers)
+        found = [results[plate_case("Z1", ratio, layers, "corner").name] for ratio in ratios]
+        meshes = [MeshedPlate(*plate.constants, plate.thickness, ratio * plate.thickness, layers, "corner", 2.0 * plate.half)
+                  for ratio in ratios]  # fmt: skip
+        expected = [mesh.impact(impact(found[0].values), found[0].values["dt"])[1] for mesh in meshes]
+        words = f"{layers} layer{'s' if layers > 1 else ''}"
+        axes.plot(ratios, error(np.array(expected)), color=colour, linewidth=1.2)
+        axes.plot(ratios, [error(peak_force(of)) for of in found], marker, color=colour, label=f"corrected, {words}")
+    off = [plate_case("Z1", *mesh, "corner", "none") for mesh in PLATE_MESHES]
+    axes.plot([ratio for ratio, _ in PLATE_MESHES], [error(peak_force(results[case.name])) for case in off], "k--",
+              marker="D", markerfacecolor="none", linewidth=1.2, label="compliance none; 1, 2, 4 layers")  # fmt: skip
+    axes.plot([], [], color="0.4", linewidth=1.2, label="independent program, equal elements")
+    axes.axhline(0.0, color="k", linewidth=1.0, label="three-dimensional elasticity")
+    axes.set(xscale="log", xlabel="size of the elements over the plate's thickness, $h/T$",
+             ylabel="peak force less elasticity's [%]", title="A glass ball on 1 mm of glass (Z1), hit in a corner of elements")  # fmt: skip
+    axes.set_xticks([1.0, 0.5, 0.25, 0.125], ["1", "1/2", "1/4", "1/8"])
+    axes.minorticks_off()
+    axes.legend(frameon=False, loc="lower right")
+    axes.grid(color="0.92", linewidth=0.6)
+    axes.set_axisbelow(True)
+    save(picture, path)
+
+
+ON_PLATE = [case.name for case in CASES if case.name.removeprefix("none_").startswith("Z1_") and "corner" in case.name]
 ON_BLOCKS = [case.name for case in CASES if case.name.removeprefix("none_")[0].isdigit()]
 STUDY = Study(
     cases=CASES,
-    figures=[Figure("force.png", ON_BLOCKS, draw)],
+    figures=[Figure("force.png", ON_BLOCKS, draw), Figure("plate.png", ON_PLATE, draw_plate)],
     comparisons=[spread(name) for name in PLATES],
 )
