@@ -80,27 +80,53 @@ def force_figure(
 
 @dataclass(frozen=True)
 class Mark:
-    """One computed impact: Zener's inelasticity [-] and the restitution [-]."""
+    """One impact: Zener's inelasticity [-], and the restitution [-] without and with correction."""
 
     label: str
     inelasticity: float
-    restitution: float
+    uncorrected: float
+    corrected: float
 
 
-def restitution_figure(path: Path, marks: Sequence[Mark], inelasticity: np.ndarray, restitution: np.ndarray) -> None:
-    """Computed restitutions over the theory's curve restitution(inelasticity)."""
-    figure = Figure(figsize=(9.0, 4.6), layout="constrained")
-    axes = figure.subplots()
-    axes.plot(inelasticity, restitution, "k-", linewidth=1.2, label="Zener (1941)")
+@dataclass(frozen=True)
+class Theory:
+    """A curve restitution(inelasticity), in black."""
+
+    label: str
+    inelasticity: np.ndarray
+    restitution: np.ndarray
+    style: str
+
+
+def restitution_figure(path: Path, marks: Sequence[Mark], curves: Sequence[Theory]) -> None:
+    """Computed restitutions over those of theories; below, how far from the first of these all are."""
+    figure = Figure(figsize=(10.5, 6.0), layout="constrained")
+    axes, below = figure.subplots(2, 1, sharex=True, height_ratios=(3.0, 2.0))
+    first = curves[0]
+
+    def difference(x: np.ndarray | float, e: np.ndarray | float) -> np.ndarray:
+        return e - np.interp(x, first.inelasticity, first.restitution)
+
+    for curve in curves:
+        line = dict(color="k", linewidth=1.2, linestyle=curve.style)
+        axes.plot(curve.inelasticity, curve.restitution, label=curve.label, **line)
+        below.plot(curve.inelasticity, difference(curve.inelasticity, curve.restitution), **line)
     looks = [(marker, colour) for marker in MARKERS for colour in COLOURS]
     for mark, (marker, colour) in zip(marks, looks):
-        style = dict(linestyle="none", marker=marker, markersize=7.0, markerfacecolor="none", color=colour)
-        axes.plot(mark.inelasticity, mark.restitution, label=mark.label, **style)
-    axes.legend(frameon=False, loc="upper right")
-    axes.set(title="Thin plates: how much of its speed a ball keeps", ylabel="restitution")
-    axes.set(xlabel=r"inelasticity $\lambda = \alpha m/T$", xlim=(0.0, inelasticity[-1]), ylim=(0.0, 1.0))
-    axes.grid(color="0.92", linewidth=0.6)
-    axes.set_axisbelow(True)
+        style = dict(linestyle="none", marker=marker, markersize=7.0, color=colour)
+        axes.plot(mark.inelasticity, mark.corrected, label=mark.label, **style)
+        below.plot(mark.inelasticity, difference(mark.inelasticity, mark.corrected), **style)
+        style["markerfacecolor"] = "none"
+        axes.plot(mark.inelasticity, mark.uncorrected, **style)
+        below.plot(mark.inelasticity, difference(mark.inelasticity, mark.uncorrected), **style)
+    beside = dict(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    legend = axes.legend(frameon=False, title="filled: corrected\nhollow: uncorrected, coarse mesh", **beside)
+    legend.set_alignment("left")
+    axes.set(title="Thin plates: how much of its speed a ball keeps", ylabel="restitution", ylim=(0.0, 1.0))
+    below.set(xlabel=r"inelasticity $\lambda = \alpha m/T$", ylabel="less Zener's", xlim=(0.0, first.inelasticity[-1]))
+    for each in (axes, below):
+        each.grid(color="0.92", linewidth=0.6)
+        each.set_axisbelow(True)
     save(figure, path)
 
 

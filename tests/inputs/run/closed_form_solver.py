@@ -24,7 +24,7 @@ if os.environ.get("FAIL_AT") == values["lambda"]:
     print("ERROR: Fix wall/nurbs (id plate): given nothing, expected something")
     sys.exit(1)
 
-v = {name: float(word) for name, word in values.items() if name not in ("law", "plate")}
+v = {name: float(word) for name, word in values.items() if name not in ("law", "plate", "compliance")}
 E_star = hertz.effective_modulus(v["E_ball"], v["nu_ball"], 210.6e9, 0.286)
 sphere = (v["r"], v["rho"], v["V"])
 impact = hertz.penalty_impact(values.get("law", "hertz"), v["lambda"], E_star, *sphere)
