@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""`compliance corrected` in decks: the same digits on any number of ranks and over restarts, momentum, forces on two meshes, and
-elements that are too small."""
+"""`compliance corrected` in decks: the same digits on any number of ranks and over restarts, momentum, forces on two meshes,
+coefficients of restitution, and elements that are too small."""
 
 import tempfile
 import unittest
@@ -12,9 +12,9 @@ import ball_on_block as bob
 import decks
 
 CORRECTED = "structure block.yaml surface top compliance corrected"
-GLASS = (74.6e9, 0.2285)
+GLASS, STEEL = (74.6e9, 0.2285), (210.6e9, 0.286)
 MODELS = "model hertz tangential history"
-SETTINGS = dict(ball=GLASS, wall=GLASS, restitution=0.95, friction=0.3, models=MODELS, timestep=1e-8, velocity=(0.4, -0.3, -1.0))
+SETTINGS = dict(ball=GLASS, wall=GLASS, restitution=0.6, friction=0.3, models=MODELS, timestep=1e-8, velocity=(0.4, -0.3, -1.0))
 BALLS = ((0.0, 0.0, 1e-3), (-4e-3, 3e-3, 1.0003e-3), (5e-3, 3.1e-3, 1.0008e-3), (4e-3, -3e-3, 1.0005e-3))
 COLUMNS = tuple(range(1, 22))
 
@@ -83,6 +83,22 @@ class Meshes(unittest.TestCase):
         run = decks.run(deck + "run 4000\n", files={"block.yaml": glass((1e-3, 1e-3, 0.5e-3), (12, 12, 6))})
         self.assertNotEqual(run.code, 0)
         self.assertRegex(run.errors[0], "elements at .* too small for the contact of particle 1 .* or 'compliance none'")
+
+
+class Damping(unittest.TestCase):
+    """The law's own coefficient of restitution, as on a rigid wall; a steel block hardly takes waves from a ball of glass."""
+
+    BLOCK = bob.block(size=(3e-3, 3e-3, 2e-3), elements=(12, 12, 8), youngs_modulus=STEEL[0], nu=STEEL[1], density=7850.0)
+
+    def restitution(self, law, words=CORRECTED):
+        deck = bob.prelude(**SETTINGS | dict(wall=STEEL, restitution=law, friction=0.0, velocity=(0, 0, -1))) + bob.wall(MODELS, words)
+        table = decks.good(deck + bob.output((7,)) + "run 800\n", files={"block.yaml": self.BLOCK}).table
+        self.assertEqual(table["plate7"][-1], 0.0)
+        return table["vz"][-1]
+
+    def test_the_ball_leaves_as_fast_as_its_law_says(self):
+        for law in (0.3, 0.6, 0.95):
+            self.assertLess(abs(self.restitution(law) / law - 1.0), 0.01, law)
 
 
 if __name__ == "__main__":

@@ -38,7 +38,7 @@ class Ripples final : public coupling::LocalCompliance {
   double c0_, ripple_;
 };
 
-/// F = K x^(3/2) along delta.
+/// F = K x^(3/2) along delta, damped by `damping` x^(1/4) of what it does not look at here.
 class Hertz final : public contact::ContactModel {
  public:
   void evaluate(contact::Contact* contacts, int count) override {
@@ -50,6 +50,8 @@ class Hertz final : public contact::ContactModel {
     }
   }
   double hertz_constant(int) const override { return kConstant; }
+  double hertz_damping(int) const override { return damping; }
+  double damping = 0.0;
   contact::Contact seen;
 };
 
@@ -58,7 +60,8 @@ struct Scene {
       : dt(dt),
         sheet(nurbs::plane({-4, -4, 0}, {kSide, 0, 0}, {0, kSide, 0},
                            {nurbs::KnotVector::uniform(2, 8), nurbs::KnotVector::uniform(2, 8)}),
-              0.0) {
+              0.0),
+        balls(2, contact::ComplianceCorrection::kMemory) {
     sheet.compliance = &compliance;
     sheet.set_time_step(dt);
     balls.add(centre, kRadius, velocity);
@@ -176,6 +179,36 @@ TEST(ComplianceCorrection, IsAsStiffAsItIsToTheTimeStep) {
       EXPECT_THAT([&] { scene.begin(inverse_mass); },
                   ThrowsMessage<std::runtime_error>(HasSubstr("too stiff")));
   }
+}
+
+// k dt^2 + 2 gamma dt = 4 for a mass of 1.
+TEST(ComplianceCorrection, DampingHasItsShareOfTheTimeStep) {
+  const double overlap = 0.02, c = 1.5e-4, damping = 200.0;
+  const double gamma = damping * std::pow(kRadius * overlap, 0.25),
+               k = 1.5 * kK * std::sqrt(overlap) / (1.0 - corrected_overlap(overlap, c, kK, 0.7).s);
+  const double stable = 4.0 / (gamma + std::sqrt(gamma * gamma + 4.0 * k));
+  EXPECT_LT(stable, 0.8 * 2.0 / std::sqrt(k));
+  for (const bool is_stable : {true, false}) {
+    Ripples compliance(c, 0.0);
+    Scene scene(compliance, {0.3, 0.2, kRadius - overlap}, {0, 0, 0}, (is_stable ? 0.999 : 1.001) * stable);
+    scene.model.damping = damping;
+    const nurbs::NodalVectors inverse_mass = nurbs::NodalVectors::Zero(3, 100);
+    if (is_stable)
+      EXPECT_NO_THROW(scene.begin(inverse_mass));
+    else
+      EXPECT_THAT([&] { scene.begin(inverse_mass); },
+                  ThrowsMessage<std::runtime_error>(HasSubstr("too stiff")));
+  }
+}
+
+TEST(ComplianceCorrection, DampedContactsNeedRoomInTheMemory) {
+  Ripples compliance(1e-5, 0.0);
+  Scene scene(compliance, {0.3, 0.2, kRadius - 0.01}, {0, 0, 0}, 1e-5);
+  scene.balls = test::Balls();
+  scene.balls.add({0.3, 0.2, kRadius - 0.01}, kRadius);
+  scene.model.damping = 1.0;
+  EXPECT_THAT([&] { scene.begin(); },
+              ThrowsMessage<std::logic_error>(HasSubstr("room for 0 numbers, expected 2 more")));
 }
 
 TEST(ComplianceCorrection, SaysWhereElementsAreTooSmall) {
