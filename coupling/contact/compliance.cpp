@@ -32,7 +32,7 @@ namespace {
 
 [[noreturn]] void fail_as_too_fine(const ParticleView& particles, long step, const Contact& contact,
                                    double s) {
-  constexpr double kSafe = 0.6;
+  constexpr double kSafe = 0.8;
   const int i = contact.particle;
   const Vector3 foot = particles.centre(i) - contact.delta;
   throw std::runtime_error(fmt::format(

@@ -30,8 +30,9 @@ CorrectedOverlap corrected_overlap(double overlap, double c, double K, double li
 
 class ComplianceCorrection {
  public:
-  /// Beyond this s a point force is not the contact any more, and near 1 there is no equilibrium.
-  static constexpr double kLargest = 0.7;
+  /// Up to this s a point force will do, as the mesh cannot tell it from the contact's disc (theory.md); near
+  /// 1 there is no equilibrium.
+  static constexpr double kLargest = 0.9;
 
   /// Keeps references to both.
   ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall)

@@ -78,6 +78,21 @@ class Meshes(unittest.TestCase):
         without = CORRECTED.replace("corrected", "none")
         self.assertLess(self.peak(fine, without) / self.peak(coarse, without), 0.975)
 
+    def rigid_ball(self, elements, x):
+        """What a ball that gives way by nothing does to a small steel block: the peak of its force, and the speed that it leaves by."""
+        settings = SETTINGS | dict(ball=(1e20, 0.2), wall=STEEL, restitution=1.0, friction=0.0, velocity=(0, 0, -1), timestep=5e-9)
+        deck = bob.prelude(balls=((x, x, bob.RADIUS),), **settings) + bob.wall(MODELS, CORRECTED)
+        block = bob.block(size=(1.2e-3, 1.2e-3, 0.8e-3), elements=elements, youngs_modulus=STEEL[0], nu=STEEL[1], density=7850.0)
+        table = decks.good(deck + bob.output((3,)) + "run 1000\n", files={"block.yaml": block}).table
+        return -table["plate3"].min(), table["vz"][-1]
+
+    def test_a_point_force_will_do_up_to_the_limit(self):
+        """Elements of 2.9 contact radii, hit in the middle: s comes to 0.86."""
+        coarse, fine = self.rigid_ball((6, 6, 4), 1e-4), self.rigid_ball((12, 12, 8), 5e-5)
+        self.assertLess(abs(fine[0] / coarse[0] - 1.0), 4e-3)
+        self.assertLess(abs(fine[1] / coarse[1] - 1.0), 4e-3)
+        self.assertLess(fine[1], 1.0)
+
     def test_elements_that_are_too_small_stop_the_run(self):
         deck = bob.prelude(**SETTINGS | dict(timestep=1e-9, velocity=(0, 0, -20))) + bob.wall(MODELS, CORRECTED) + bob.output(())
         run = decks.run(deck + "run 4000\n", files={"block.yaml": glass((1e-3, 1e-3, 0.5e-3), (12, 12, 6))})
