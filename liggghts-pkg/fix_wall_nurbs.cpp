@@ -142,7 +142,7 @@ int FixWallNurbs::modify_param(int narg, char** arg) { return modify_drive(lmp, 
 
 void FixWallNurbs::post_create() {
   or_fail([&] {
-    memory_.create(dnum_);
+    memory_.create(history_count());
     restart_.reserve(origin(), output_.get());
   });
   fix_wallforce_ = memory_.force();
@@ -172,8 +172,7 @@ void FixWallNurbs::init() {
     if (!options_.material_independent)
       liggghts_pkg::check_wall_material(*modify, atom_type_wall_, structure_.material(), options_.file);
     if (structure_.solid_below(0))
-      model_.read_constants(lmp, liggghts_pkg::model_of(options_.model_words).normal, atom_type_wall_,
-                            options_.solid.corrects_contacts);
+      model_.read_constants(lmp, liggghts_pkg::model_of(options_.model_words).normal, atom_type_wall_);
     if (observer_) observer_->begin_run(style);
   });
   reset_dt();
@@ -329,10 +328,15 @@ double FixWallNurbs::compute_vector(int column) {
   return value;
 }
 
+// Of the models, then of the correction of their contacts.
+int FixWallNurbs::history_count() const {
+  return dnum_ + (options_.solid.corrects_contacts ? contact::ComplianceCorrection::kMemory : 0);
+}
+
 liggghts_pkg::WallState::Origin FixWallNurbs::origin() const {
   coupling::Fingerprint fingerprint = structure_.fingerprint();
   fingerprint.push_back(coupling::word_part("units", geometry_io::units_name(opened_.units)));
-  return {std::move(fingerprint), options_.slots, dnum_};
+  return {std::move(fingerprint), options_.slots, history_count()};
 }
 
 void FixWallNurbs::write_restart(FILE* file) {

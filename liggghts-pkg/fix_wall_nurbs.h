@@ -81,6 +81,7 @@ class FixWallNurbs : public WallNurbsSetup, public FixWallGran {
   void describe();
   void open_files();
   void write_files(bool fields, bool triangles);
+  int history_count() const;
   liggghts_pkg::WallState::Origin origin() const;
 
   liggghts_pkg::WallMessages messages_;

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "hertz_constants.h"
 
-#include <fmt/format.h>
-
-#include <limits>
-#include <stdexcept>
+#include <cmath>
 
 #include "atom.h"
 #include "contact_laws.h"
@@ -15,8 +12,16 @@
 
 namespace liggghts_pkg {
 
-void HertzConstants::read(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model, int wall_type,
-                          bool corrected) {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+
+/// zeta of a coefficient of restitution e, as LIGGGHTS has it.
+double damping_ratio(double e) { return -std::log(e) / std::hypot(std::log(e), kPi); }
+
+}  // namespace
+
+void HertzConstants::read(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model) {
   if (!is_hertzian(normal_model)) return;
   const auto property = [&](const char* name, const char* shape) {
     return static_cast<LAMMPS_NS::FixPropertyGlobal*>(
@@ -26,28 +31,26 @@ void HertzConstants::read(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_mode
                                                                 property("poissonsRatio", "peratomtype");
   const LawProperty& factor = HertzLaw::properties[0];
   auto* const lambda = normal_model == HertzLaw::word ? property(factor.name, "peratomtypepair") : nullptr;
+  auto* const restitution = property("coefficientRestitution", "peratomtypepair");
   types_ = lmp->atom->ntypes;
-  auto* const restitution = corrected ? property("coefficientRestitution", "peratomtypepair") : nullptr;
-  for (int i = 0; restitution && i < types_; ++i)
-    if (const double e = restitution->compute_array(i, wall_type - 1); e < kLeastRestitution)
-      throw std::invalid_argument(fmt::format(
-          "'compliance corrected' is for contacts that lose little, given coefficientRestitution {:g} "
-          "of atom types {} and {}, expected {:g} or more, or 'compliance none'",
-          e, i + 1, wall_type, kLeastRestitution));
-  values_.assign(types_ * types_, 0.0);
-  const auto compliance = [&](int type) {
+  values_.clear();
+  const auto of_both = [&](int i, int j, auto of_one) { return 1.0 / (of_one(i) + of_one(j)); };
+  const auto plane = [&](int type) {
     const double ratio = nu->compute_vector(type);
     return (1.0 - ratio * ratio) / E->compute_vector(type);
   };
+  const auto shear = [&](int type) {
+    const double ratio = nu->compute_vector(type);
+    return 2.0 * (2.0 - ratio) * (1.0 + ratio) / E->compute_vector(type);
+  };
   for (int i = 0; i < types_; ++i)
-    for (int j = 0; j < types_; ++j)
-      values_[i * types_ + j] = 4.0 / 3.0 / (compliance(i) + compliance(j)) *
-                                (lambda ? lambda->compute_array(i, j) : 1.0) / lmp->force->nktv2p;
-}
-
-double HertzConstants::of_types(int i, int j) const {
-  if (values_.empty()) return std::numeric_limits<double>::quiet_NaN();
-  return values_[(i - 1) * types_ + (j - 1)];
+    for (int j = 0; j < types_; ++j) {
+      const double E_star = of_both(i, j, plane) * (lambda ? lambda->compute_array(i, j) : 1.0),
+                   zeta = damping_ratio(restitution->compute_array(i, j));
+      values_.push_back({4.0 / 3.0 * E_star / lmp->force->nktv2p,
+                         2.0 * HertzLaw::damping_factor * zeta * std::sqrt(2.0 * E_star),
+                         8.0 * of_both(i, j, shear) / lmp->force->nktv2p});
+    }
 }
 
 }  // namespace liggghts_pkg

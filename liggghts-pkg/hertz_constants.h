@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// K / sqrt(r*) of contacts between two atom types whose elastic force is K x^(3/2).
+// What contacts between two atom types have in common whose elastic force is K x^(3/2).
 #pragma once
 
 #include <string>
@@ -9,20 +9,24 @@
 
 namespace liggghts_pkg {
 
+/// Of a particle of mass m and effective radius r*, at the overlap x.
+struct PairConstants {
+  double normal;   ///< K / sqrt(r*) = 4/3 lambda E* [pressure]
+  double damping;  ///< gamma / (sqrt(m) (r* x)^(1/4)) [pressure^(1/2)]
+  double shear;    ///< k_t / sqrt(r* x) = 8 G* [pressure]
+};
+
 class HertzConstants {
  public:
-  /// 4/3 lambda E* from the deck's property/global, as the model has it.  Of other models it knows nothing.
-  /// `corrected`: throws std::invalid_argument if contacts with the wall's type are damped by more than
-  /// kLeastRestitution: with a correction of the elastic force alone they lose too little (at 0.9 as much as
-  /// at 0.906, at 0.6 as at 0.62).
-  void read(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model, int wall_type, bool corrected);
-  static constexpr double kLeastRestitution = 0.9;
-  /// [pressure]; types from 1; not a number before read().
-  double of_types(int i, int j) const;
+  /// From the deck's property/global, as the model has them.  Of other models it knows nothing.
+  void read(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model);
+  bool are_known() const { return !values_.empty(); }
+  /// Types from 1; after read() of such a model.
+  const PairConstants& of_types(int i, int j) const { return values_[(i - 1) * types_ + (j - 1)]; }
 
  private:
   int types_ = 0;
-  std::vector<double> values_;
+  std::vector<PairConstants> values_;
 };
 
 }  // namespace liggghts_pkg

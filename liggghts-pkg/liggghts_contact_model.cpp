@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "liggghts_contact_model.h"
 
+#include <cmath>
+
 #include "atom.h"
 #include "setting.h"
 
@@ -52,6 +54,14 @@ void LiggghtsContactModel::compute_with_effective_radius(Contact& contact, LCM::
   models_.compute_force(&wall_, data, contact.touches, contact.wall_velocity.data());
   omega = omega_before;
   torque *= arm;
+}
+
+// Its mass is that of the body that it is part of, as for the models.
+double LiggghtsContactModel::hertz_damping(int particle) const {
+  if (!constants_.are_known()) return ContactModel::hertz_damping(particle);
+  const bool in_body = wall_.fix_rigid() && wall_.body(particle) >= 0;
+  const double mass = in_body ? wall_.masstotal(wall_.body(particle)) : atom_.rmass[particle];
+  return of_pair(particle).damping * std::sqrt(mass);
 }
 
 }  // namespace liggghts_pkg

@@ -23,12 +23,12 @@ class LiggghtsContactModel final : public contact::ContactModel {
   void evaluate(contact::Contact* contacts, int count) override;
   /// Of a normal model whose constants were read, with a wall of this type.
   double hertz_constant(int particle) const override {
-    return constants_.of_types(atom_.type[particle], wall_type_);
+    return constants_.are_known() ? of_pair(particle).normal : ContactModel::hertz_constant(particle);
   }
+  double hertz_damping(int particle) const override;
   /// Before each run.
-  void read_constants(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model, int wall_type,
-                      bool corrected) {
-    constants_.read(lmp, normal_model, wall_type, corrected);
+  void read_constants(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model, int wall_type) {
+    constants_.read(lmp, normal_model);
     wall_type_ = wall_type;
   }
   void end_step(bool setup) { springs_.end_step(setup); }
@@ -36,6 +36,9 @@ class LiggghtsContactModel final : public contact::ContactModel {
   const TangentialSprings& springs() const { return springs_; }
 
  private:
+  const PairConstants& of_pair(int particle) const {
+    return constants_.of_types(atom_.type[particle], wall_type_);
+  }
   void compute(contact::Contact& contact, LCM::SurfacesIntersectData& data);
   void compute_with_spring(contact::Contact& contact, LCM::SurfacesIntersectData& data);
   void compute_with_effective_radius(contact::Contact& contact, LCM::SurfacesIntersectData& data);

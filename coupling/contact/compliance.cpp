@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace contact {
@@ -30,7 +32,7 @@ namespace {
 
 [[noreturn]] void fail_as_too_fine(const ParticleView& particles, long step, const Contact& contact,
                                    double s) {
-  constexpr double kSafe = 0.6;
+  constexpr double kSafe = 0.8;
   const int i = contact.particle;
   const Vector3 foot = particles.centre(i) - contact.delta;
   throw std::runtime_error(fmt::format(
@@ -112,34 +114,96 @@ Vector3 ComplianceCorrection::gradient(const Contact& contact, const std::array<
   return wall_.to_space_direction(tangents * along);
 }
 
-void ComplianceCorrection::correct(const ParticleView& particles, long step, double K, Contact& contact,
-                                   Before& before) {
-  const coupling::LocalCompliance::Value c = compliance_.at(contact.foot);
-  const auto [x, s] = corrected_overlap(contact.overlap, c.normal, K, kLargest);
-  if (s >= kLargest) fail_as_too_fine(particles, step, contact, s);
-  const double F = K * x * std::sqrt(x), tangent = 1.5 * K * std::sqrt(x) / (1.0 - s);
-  before.along = -0.5 * F * F * gradient(contact, c.change);
-  before.tangent = tangent;
-  // dx/dt = d(overlap)/dt / (1 - s), for what depends on it
-  const Vector3 n = contact.delta / contact.distance;
-  const double approach = n.dot(contact.wall_velocity - particles.velocity(contact.particle));
-  contact.wall_velocity += approach * s / (1.0 - s) * n;
-  const double distance = contact.distance + contact.overlap - x;
-  contact.delta *= distance / contact.distance;
-  contact.distance = distance;
-  contact.overlap = x;
+namespace {
+
+/// What a contact keeps.
+double* memory_of(const ParticleView& particles, const Contact& contact) {
+  const int kept = particles.memory.history_count - ComplianceCorrection::kMemory;
+  if (kept < 0)
+    throw std::logic_error(
+        fmt::format("slots of contacts have room for {} numbers, expected {} more than the contact model "
+                    "keeps, for those "
+                    "that are damped and corrected",
+                    particles.memory.history_count, ComplianceCorrection::kMemory));
+  return contact.history + kept;
 }
 
-void ComplianceCorrection::before(const ParticleView& particles, long step, const ContactModel& model,
+}  // namespace
+
+double ComplianceCorrection::held_gap(const ParticleSlots& slots, int history_count) {
+  double gap = 0.0;
+  if (history_count < kMemory) return gap;
+  for (int s = 0; s < slots.used(); ++s)
+    if (ContactSlot slot = slots.slot(s); !slot.empty())
+      gap = std::max(gap, DampedApproach::held_gap(slot.history() + history_count - kMemory));
+  return gap;
+}
+
+// dx/dt = d(overlap)/dt / (1 - s), for what depends on it.
+ComplianceCorrection::Seen ComplianceCorrection::elastic(double approach, double K, double c,
+                                                         const Contact& contact) const {
+  const auto [x, s] = corrected_overlap(contact.overlap, c, K, kLargest);
+  return {x, approach / (1.0 - s), x, s, K * x * std::sqrt(x), 0.0};
+}
+
+// The law is called with the x that is kept, and with a rate by which its force is that of both.
+bool ComplianceCorrection::damped(const ParticleView& particles, const Time& now, const DampedLaw& law,
+                                  double approach, const Contact& contact, Seen& seen) const {
+  const Vector3 n = contact.delta / contact.distance;
+  const double of_surface = n.dot(contact.wall_velocity), dt = now.is_setup ? 0.0 : now.dt;
+  double* const memory = memory_of(particles, contact);
+  DampedApproach kept(memory);
+  kept.advance(contact.overlap, approach - of_surface, of_surface, dt);
+  if (kept.is_on()) {
+    const double damping = kept.damping(law), left = contact.overlap + law.give * damping;
+    const CorrectedOverlap own =
+        left > 0.0 ? corrected_overlap(left, law.give, law.K, kLargest) : CorrectedOverlap{0.0, 0.0};
+    seen = {kept.x(), 0.0, own.x, own.s, law.K * own.x * std::sqrt(own.x) + damping, kept.dashpot(law)};
+    seen.rate = (seen.force - law.K * seen.x * std::sqrt(seen.x)) / seen.dashpot;
+    if (!now.is_setup) kept.observe(law, contact.overlap + law.give * seen.force, dt);
+  }
+  if (!now.is_setup) kept.keep(memory);
+  return kept.is_on();
+}
+
+void ComplianceCorrection::correct(const ParticleView& particles, const Time& now, const ContactModel& model,
+                                   Contact& contact, Before& before) {
+  const int i = contact.particle;
+  const double root = std::sqrt(contact.effective_radius), K = model.hertz_constant(i) * root,
+               D = model.hertz_damping(i) * std::sqrt(root);
+  if (!(contact.overlap > 0.0) && !(D > 0.0 && DampedApproach::held_gap(memory_of(particles, contact)) > 0.0))
+    return;
+  const coupling::LocalCompliance::Value c = compliance_.at(contact.foot);
+  const Vector3 n = contact.delta / contact.distance;
+  const double approach = n.dot(contact.wall_velocity - particles.velocity(i));
+  Seen seen;
+  if (D > 0.0) {
+    const double mass = particles.mass ? particles.mass[i] : std::numeric_limits<double>::infinity();
+    contact.touches = damped(particles, now, {K, D, mass, c.normal}, approach, contact, seen);
+    if (!contact.touches) return;
+  } else {
+    seen = elastic(approach, K, c.normal, contact);
+  }
+  if (seen.s >= kLargest) fail_as_too_fine(particles, now.step, contact, seen.s);
+  before.along = -0.5 * seen.force * seen.force * gradient(contact, c.change);
+  before.tangent = 1.5 * K * std::sqrt(std::max(seen.x, now.dt * std::abs(seen.rate))) / (1.0 - seen.s);
+  before.dashpot = seen.dashpot;
+  contact.wall_velocity += (seen.rate - approach) * n;
+  const double distance = contact.distance + contact.overlap - seen.x;
+  contact.delta *= distance / contact.distance;
+  contact.distance = distance;
+  contact.overlap = seen.x;
+}
+
+void ComplianceCorrection::before(const ParticleView& particles, const Time& now, const ContactModel& model,
                                   Contact* begin, Contact* end) {
   before_.clear();
   for (Contact* c = begin; c < end; ++c) {
     Contact& contact = *c;
-    Before& before = before_.emplace_back(Before{contact.overlap, contact.distance, contact.delta,
-                                                 contact.wall_velocity, Vector3::Zero(), 0.0});
-    if (!(contact.overlap > 0.0)) continue;
-    const double K = model.hertz_constant(contact.particle) * std::sqrt(contact.effective_radius);
-    correct(particles, step, K, contact, before);
+    Before& before =
+        before_.emplace_back(Before{contact.overlap, contact.distance, contact.touches, contact.delta,
+                                    contact.wall_velocity, Vector3::Zero(), 0.0, 0.0});
+    correct(particles, now, model, contact, before);
   }
 }
 
@@ -149,10 +213,12 @@ void ComplianceCorrection::after(Contact* begin, Contact* end) {
     const Before& before = before_[c - begin];
     contact.overlap = before.overlap;
     contact.distance = before.distance;
+    contact.touches = before.touches;
     contact.delta = before.delta;
     contact.wall_velocity = before.wall_velocity;
     contact.force += before.along;
     contact.tangent = before.tangent;
+    contact.dashpot = before.dashpot;
   }
 }
 

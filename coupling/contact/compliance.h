@@ -6,12 +6,14 @@
 //
 // so the two in series are stiffer than the law, by 1 / (1 - s), s = c dF/dx.  Their potential,
 // 2/5 K x^(5/2) - 1/2 c F^2, changes with the foot, too: a force -1/2 F^2 grad c along the surface belongs to
-// it, without which a contact that slides over elements is not conservative.
+// it, without which a contact that slides over elements is not conservative.  A law with damping keeps x from
+// step to step (damped_approach.h).
 #pragma once
 
 #include <vector>
 
 #include "coupling/contact/contact_model.h"
+#include "coupling/contact/damped_approach.h"
 #include "coupling/contact/particle_view.h"
 #include "coupling/contact/wall.h"
 #include "coupling/local_compliance.h"
@@ -28,29 +30,53 @@ CorrectedOverlap corrected_overlap(double overlap, double c, double K, double li
 
 class ComplianceCorrection {
  public:
-  /// Beyond this s a point force is not the contact any more, and near 1 there is no equilibrium.
-  static constexpr double kLargest = 0.7;
+  /// Up to this s a point force will do, as the mesh cannot tell it from the contact's disc (theory.md); near
+  /// 1 there is no equilibrium.
+  static constexpr double kLargest = 0.9;
 
   /// Keeps references to both.
   ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall)
       : compliance_(compliance), wall_(wall) {}
 
+  /// Numbers that a contact keeps behind those of the model, in each slot of the particles' memory.
+  static constexpr int kMemory = DampedApproach::kMemory;
+  struct Time {
+    long step;
+    double dt;      ///< [time]
+    bool is_setup;  ///< nothing has moved
+  };
   /// Gives contacts the overlaps, and the rates of overlap, that the model shall see.  Throws
-  /// std::runtime_error: particle, place, step, if s is too large.
-  void before(const ParticleView& particles, long step, const ContactModel& model, Contact* begin,
+  /// std::runtime_error: particle, place, step, if s is too large; std::logic_error if damped contacts have
+  /// no memory for it.
+  void before(const ParticleView& particles, const Time& now, const ContactModel& model, Contact* begin,
               Contact* end);
   /// Takes the model's answers: contacts are what they were, forces have their part along the surface, and
-  /// Contact::tangent is known.
+  /// Contact::tangent and Contact::dashpot are known.
   void after(Contact* begin, Contact* end);
+  /// How far a particle's surface may be from its feet while a contact in one of these slots goes on
+  /// [length].
+  static double held_gap(const ParticleSlots& slots, int history_count);
 
  private:
   struct Before {
     double overlap, distance;
+    bool touches;
     Vector3 delta, wall_velocity;
-    Vector3 along;   // force [force]
-    double tangent;  // [force/length]
+    Vector3 along;            // force [force]
+    double tangent, dashpot;  // [force/length], [force time/length]
   };
-  void correct(const ParticleView& particles, long step, double K, Contact& contact, Before& before);
+  /// What a law is called with, and what it is to answer.
+  struct Seen {
+    double x, rate;  // of approach [length/time]
+    double own, s;   // overlap of the elastic force, and s there
+    double force;    // [force]
+    double dashpot;  // [force time/length]
+  };
+  Seen elastic(double approach, double K, double c, const Contact& contact) const;
+  bool damped(const ParticleView& particles, const Time& now, const DampedLaw& law, double approach,
+              const Contact& contact, Seen& seen) const;
+  void correct(const ParticleView& particles, const Time& now, const ContactModel& model, Contact& contact,
+               Before& before);
   Vector3 gradient(const Contact& contact, const std::array<double, 2>& change) const;
 
   coupling::LocalCompliance& compliance_;

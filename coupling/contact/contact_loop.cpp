@@ -119,13 +119,12 @@ inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo
   const int end = static_cast<int>(candidates_.candidates().size());
   SteadyFeet* const steady = tracker_->steady();
   const ParticleView p = particles;
-  const double touch_factor = step.touch_factor;
   int seen = 0;
   if (steady) steady->begin_block(wall_.frame(), wall_.is_turned());
   for (; candidate < end && seen <= FeetTracker::kBlock - SteadyFeet::kMostFeet; ++candidate) {
     const std::ptrdiff_t i = candidates[candidate].particle;
     if (!p.meets_wall(static_cast<int>(i))) continue;
-    const double touch_reach = p.radius[i] * touch_factor;
+    const double touch_reach = this->touch_reach(particles, step, static_cast<int>(i));
     if (steady) {
       const int lines = steady->add(candidate, static_cast<int>(i), p.x + 3 * i, p.v + 3 * i, touch_reach);
       seen += lines;
@@ -137,6 +136,15 @@ inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo
     ++seen;
   }
   return candidate;
+}
+
+// Contacts that are corrected may go on where the surfaces have lost touch.
+inline double ContactLoop::touch_reach(const ParticleView& particles, const StepInfo& step, int i) const {
+  const double reach = particles.radius[i] * step.touch_factor;
+  if (!correction_) return reach;
+  const ContactMemory& memory = particles.memory;
+  int used = used_slots_[i];
+  return reach + ComplianceCorrection::held_gap(memory.of(i, used), memory.history_count);
 }
 
 // Those that may be steady become contacts, or queries.
@@ -163,7 +171,7 @@ FeetTracker::Query ContactLoop::query_of(const ParticleView& particles, const St
   return {candidate,
           i,
           wall_.to_frame(particles.centre(i)),
-          particles.radius[i] * step.touch_factor,
+          touch_reach(particles, step, i),
           list_reach_[i],
           squared_travel(particles, i)};
 }
@@ -311,7 +319,7 @@ inline Contact& ContactLoop::add_contact(const ParticleView& particles, int i,
   contact.centre = particles.centre(i);
   contact.delta = delta;
   contact.wall_velocity = v_wall;
-  contact.tangent = contact.missing = 0.0;
+  contact.tangent = contact.dashpot = contact.missing = 0.0;
   return contact;
 }
 

@@ -118,6 +118,7 @@ class ContactLoop {
                  FeetTracker::Query* queries, int& count);
   FeetTracker::Query query_of(const ParticleView& particles, const StepInfo& step, int candidate) const;
   double squared_travel(const ParticleView& particles, int particle) const;
+  double touch_reach(const ParticleView& particles, const StepInfo& step, int particle) const;
   void take_steady(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady,
                    FeetTracker::Query* queries, int& count);
   bool settle(const ParticleView& particles, SteadyFeet& steady, const SteadyFeet::Group& lines);

@@ -15,7 +15,7 @@ void ContactLoop::answer(const ParticleView& particles, const StepInfo& step, Co
                          ContactObserver* observer, std::size_t first) {
   if (first == contacts_.size()) return;
   Contact *const begin = &contacts_[first], *const end = contacts_.data() + contacts_.size();
-  if (correction_) correction_->before(particles, step.number, model, begin, end);
+  if (correction_) correction_->before(particles, {step.number, step.dt, step.is_setup}, model, begin, end);
   model.evaluate(begin, static_cast<int>(end - begin));
   if (correction_) correction_->after(begin, end);
   bool are_plain = !wall_.needs_forces() && !observer;
@@ -34,7 +34,7 @@ void ContactLoop::answer(const ParticleView& particles, const StepInfo& step, Co
 
 double ContactLoop::ask_again(const ParticleView& particles, long step, ContactModel& model,
                               Contact& contact) const {
-  if (correction_) correction_->before(particles, step, model, &contact, &contact + 1);
+  if (correction_) correction_->before(particles, {step, 0.0, true}, model, &contact, &contact + 1);
   model.evaluate(&contact, 1);
   const double overlap = contact.overlap;
   if (correction_) correction_->after(&contact, &contact + 1);
@@ -91,25 +91,29 @@ void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step,
 // the body's own stiffness only adds to the largest (Rayleigh's quotient), at most its own largest (Weyl):
 // beyond 4 / dt^2 the run blows up whatever the body, and below it together with the body's it does not.  k
 // is the secant of the law, no more than its tangent as overlaps grow; in the first step of a touch it is
-// that over the way of a step.
+// that over the way of a step.  A dashpot that sees half-step velocities takes 2 gamma / (m dt) of 4 / dt^2.
 void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
   const nurbs::NodalVectors& inverse_masses = wall_.inverse_masses();
   if (inverse_masses.cols() == 0) return;
   const int i = contact.particle;
   const Vector3 n = contact.delta / contact.distance, v = particles.velocity(i) - contact.wall_velocity;
   const double depth = std::max(contact.overlap, step.dt * std::abs(n.dot(v)));
-  const double stiffness = std::max(n.dot(contact.force) / depth, contact.tangent),
-               limit = 4.0 / (step.dt * step.dt);
-  const double of_particle = particles.mass ? 1.0 / particles.mass[i] : 0.0;
+  const double stiffness = contact.tangent > 0.0 ? contact.tangent : n.dot(contact.force) / depth;
+  const double of_particle = particles.mass ? 1.0 / particles.mass[i] : 0.0,
+               rate = contact.dashpot * of_particle, limit = 4.0 / (step.dt * step.dt) - 2.0 * rate / step.dt;
   expect_long(particles, step, contact, stiffness * of_particle, n.dot(v));
   const double of_body = body_squared_frequency_;
   if (!(stiffness * (wall_.largest_inverse_mass() + of_particle) + of_body > limit)) return;
   const double of_wall = coupling::FootBasis(wall_.surface(), contact.foot).sum_of_squares(n, inverse_masses);
   const double squared_frequency = stiffness * (of_wall + of_particle);
   if (!(squared_frequency + of_body > limit)) return;
+  const auto stable_step = [&](double squared) {
+    return 4.0 / (rate + std::sqrt(rate * rate + 4.0 * squared));
+  };
   if (!(squared_frequency > limit))
-    return stiff_.raise(particles.tag[i], particles.radius[i], std::sqrt(squared_frequency + of_body));
-  const double stable = 2.0 / std::sqrt(squared_frequency);
+    return stiff_.raise(particles.tag[i], particles.radius[i],
+                        2.0 / stable_step(squared_frequency + of_body));
+  const double stable = stable_step(squared_frequency);
   throw std::runtime_error(
       fmt::format("the contact of particle {} is too stiff for the timestep {:.6g} at step {}: stiffness "
                   "{:.4g} between a particle of mass {:.4g} and a surface that gives way there like a mass "

@@ -28,6 +28,7 @@ struct Contact {
   double* history;           ///< what the model keeps of this contact, in this step; null if it keeps nothing
   double tangent;            ///< d(force)/d(overlap), if it is known beside the answer; else 0 [force/length]
   double missing;            ///< share of the force, as MeshEstimate has it; 0 where there is none [-]
+  double dashpot;  ///< likewise by the particle's speed: damping, not in `tangent` [force time/length]
 
   // The model's answer:
   Vector3 force;   ///< on the particle [force]
@@ -43,6 +44,8 @@ class ContactModel {
   /// K / sqrt(r*) [pressure] of a particle whose elastic force is K x^(3/2), as Hertz' 4/3 E*; not a number
   /// of other laws.
   virtual double hertz_constant(int /*particle*/) const { return std::numeric_limits<double>::quiet_NaN(); }
+  /// D / r*^(1/4) [force time/length^(3/2)] of such a particle whose damping is D x^(1/4) dx/dt.
+  virtual double hertz_damping(int /*particle*/) const { return 0.0; }
 };
 
 /// Hears of contacts that touch or have a force, after they have it.

@@ -227,10 +227,6 @@ DECKS = {
         f"fix w2 all wall/nurbs {GOOD.replace('block', 'soft')}\n", "run 100\n",
         ["id w2", "'soft.yaml': step 1:", "blown up at time", "control node .* undeformed at", "likely cause: .*loads.*time step"],
     ),
-    "compliance of contacts that lose much": (
-        "unfix m3\nfix m3 all property/global coefficientRestitution peratomtypepair 2 1 0.5 0.5 1\n"
-        f"fix w2 all wall/nurbs {GOOD.replace('block', 'soft')}{CORRECTED}\n", "run 1\n",
-        ["id w2", "given coefficientRestitution 0.5 of atom types 1 and 2, expected 0.9 or more"]),
     "minimize": ("", "minimize 1e-4 1e-6 10 10\n", ["id plate", "minimize"]),
     "respa": ("run_style respa 2 2\n", "run 1\n", ["respa"]),
     "id in use": ("", f"fix plate all wall/nurbs {GOOD}\nrun 1\n", ["plate|style"]),

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""`compliance corrected` in decks: the same digits on any number of ranks and over restarts, momentum, forces on two meshes, and
-elements that are too small; without it, what the fix says of the mesh."""
+"""`compliance corrected` in decks: the same digits on any number of ranks and over restarts, momentum, forces on two meshes,
+coefficients of restitution, and elements that are too small; without it, what the fix says of the mesh."""
 
 import re
 import tempfile
@@ -14,9 +14,9 @@ import decks
 from test_wall_local import entries
 
 CORRECTED = "structure block.yaml surface top compliance corrected"
-GLASS = (74.6e9, 0.2285)
+GLASS, STEEL = (74.6e9, 0.2285), (210.6e9, 0.286)
 MODELS = "model hertz tangential history"
-SETTINGS = dict(ball=GLASS, wall=GLASS, restitution=0.95, friction=0.3, models=MODELS, timestep=1e-8, velocity=(0.4, -0.3, -1.0))
+SETTINGS = dict(ball=GLASS, wall=GLASS, restitution=0.6, friction=0.3, models=MODELS, timestep=1e-8, velocity=(0.4, -0.3, -1.0))
 BALLS = ((0.0, 0.0, 1e-3), (-4e-3, 3e-3, 1.0003e-3), (5e-3, 3.1e-3, 1.0008e-3), (4e-3, -3e-3, 1.0005e-3))
 COLUMNS = tuple(range(1, 22))
 
@@ -111,11 +111,42 @@ class Meshes(unittest.TestCase):
         without = CORRECTED.replace("corrected", "none")
         self.assertLess(self.peak(fine, without) / self.peak(coarse, without), 0.975)
 
+    def rigid_ball(self, elements, x):
+        """What a ball that gives way by nothing does to a small steel block: the peak of its force, and the speed that it leaves by."""
+        settings = SETTINGS | dict(ball=(1e20, 0.2), wall=STEEL, restitution=1.0, friction=0.0, velocity=(0, 0, -1), timestep=5e-9)
+        deck = bob.prelude(balls=((x, x, bob.RADIUS),), **settings) + bob.wall(MODELS, CORRECTED)
+        block = bob.block(size=(1.2e-3, 1.2e-3, 0.8e-3), elements=elements, youngs_modulus=STEEL[0], nu=STEEL[1], density=7850.0)
+        table = decks.good(deck + bob.output((3,)) + "run 1000\n", files={"block.yaml": block}).table
+        return -table["plate3"].min(), table["vz"][-1]
+
+    def test_a_point_force_will_do_up_to_the_limit(self):
+        """Elements of 2.9 contact radii, hit in the middle: s comes to 0.86."""
+        coarse, fine = self.rigid_ball((6, 6, 4), 1e-4), self.rigid_ball((12, 12, 8), 5e-5)
+        self.assertLess(abs(fine[0] / coarse[0] - 1.0), 4e-3)
+        self.assertLess(abs(fine[1] / coarse[1] - 1.0), 4e-3)
+        self.assertLess(fine[1], 1.0)
+
     def test_elements_that_are_too_small_stop_the_run(self):
         deck = bob.prelude(**SETTINGS | dict(timestep=1e-9, velocity=(0, 0, -20))) + bob.wall(MODELS, CORRECTED) + bob.output(())
         run = decks.run(deck + "run 4000\n", files={"block.yaml": glass((1e-3, 1e-3, 0.5e-3), (12, 12, 6))})
         self.assertNotEqual(run.code, 0)
         self.assertRegex(run.errors[0], "elements at .* too small for the contact of particle 1 .* or 'compliance none'")
+
+
+class Damping(unittest.TestCase):
+    """The law's own coefficient of restitution, as on a rigid wall; a steel block hardly takes waves from a ball of glass."""
+
+    BLOCK = bob.block(size=(3e-3, 3e-3, 2e-3), elements=(12, 12, 8), youngs_modulus=STEEL[0], nu=STEEL[1], density=7850.0)
+
+    def restitution(self, law, words=CORRECTED):
+        deck = bob.prelude(**SETTINGS | dict(wall=STEEL, restitution=law, friction=0.0, velocity=(0, 0, -1))) + bob.wall(MODELS, words)
+        table = decks.good(deck + bob.output((7,)) + "run 800\n", files={"block.yaml": self.BLOCK}).table
+        self.assertEqual(table["plate7"][-1], 0.0)
+        return table["vz"][-1]
+
+    def test_the_ball_leaves_as_fast_as_its_law_says(self):
+        for law in (0.3, 0.6, 0.95):
+            self.assertLess(abs(self.restitution(law) / law - 1.0), 0.01, law)
 
 
 def missing(overlap, size):

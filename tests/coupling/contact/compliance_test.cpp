@@ -23,6 +23,7 @@ using testing::ThrowsMessage;
 
 constexpr double kRadius = 0.5, kConstant = 1e4, kSide = 8.0;
 const double kK = kConstant * std::sqrt(kRadius);
+constexpr double kLargest = contact::ComplianceCorrection::kLargest;
 
 /// c = c0 (1 + ripple sin(2 pi x) cos(2 pi y)), one wave per element of length 1.
 class Ripples final : public coupling::LocalCompliance {
@@ -38,7 +39,7 @@ class Ripples final : public coupling::LocalCompliance {
   double c0_, ripple_;
 };
 
-/// F = K x^(3/2) along delta.
+/// F = K x^(3/2) along delta, damped by `damping` x^(1/4) of what it does not look at here.
 class Hertz final : public contact::ContactModel {
  public:
   void evaluate(contact::Contact* contacts, int count) override {
@@ -50,6 +51,8 @@ class Hertz final : public contact::ContactModel {
     }
   }
   double hertz_constant(int) const override { return kConstant; }
+  double hertz_damping(int) const override { return damping; }
+  double damping = 0.0;
   contact::Contact seen;
 };
 
@@ -58,7 +61,8 @@ struct Scene {
       : dt(dt),
         sheet(nurbs::plane({-4, -4, 0}, {kSide, 0, 0}, {0, kSide, 0},
                            {nurbs::KnotVector::uniform(2, 8), nurbs::KnotVector::uniform(2, 8)}),
-              0.0) {
+              0.0),
+        balls(2, contact::ComplianceCorrection::kMemory) {
     sheet.compliance = &compliance;
     sheet.set_time_step(dt);
     balls.add(centre, kRadius, velocity);
@@ -104,11 +108,11 @@ TEST(CorrectedOverlap, SolvesForTheLawsOwn) {
 // x (1 - 2 s/3) has its largest value where s = 1: nothing beyond that has a solution, and nothing beyond the
 // limit is looked for.
 TEST(CorrectedOverlap, StopsAtTheLimit) {
-  const double c = 3e-4, at_limit = std::pow(0.7 / (1.5 * c * kK), 2),
-               overlap = at_limit * (1.0 - 2.0 / 3.0 * 0.7);
-  EXPECT_LT(corrected_overlap(0.999 * overlap, c, kK, 0.7).s, 0.7);
-  EXPECT_GE(corrected_overlap(1.001 * overlap, c, kK, 0.7).s, 0.7);
-  EXPECT_GE(corrected_overlap(100.0 * overlap, c, kK, 0.7).s, 0.7);
+  const double c = 3e-4, at_limit = std::pow(kLargest / (1.5 * c * kK), 2),
+               overlap = at_limit * (1.0 - 2.0 / 3.0 * kLargest);
+  EXPECT_LT(corrected_overlap(0.999 * overlap, c, kK, kLargest).s, kLargest);
+  EXPECT_GE(corrected_overlap(1.001 * overlap, c, kK, kLargest).s, kLargest);
+  EXPECT_GE(corrected_overlap(100.0 * overlap, c, kK, kLargest).s, kLargest);
 }
 
 // m V^2/2 = 2/5 K x^(5/2) - c F^2/2 where the ball turns back.
@@ -144,13 +148,43 @@ TEST(ComplianceCorrection, ASlidingContactIsConservative) {
   }
 }
 
+/// Sends the ball back where it is farther than that from the sheet, or from its middle.
+void keep_above(Scene& scene, double height, double way) {
+  const Vector3 x = scene.balls.centre(0);
+  auto v = scene.balls.velocity(0);
+  if (x[2] > height) v[2] = -std::abs(v[2]);
+  for (int d = 0; d < 2; ++d)
+    if (std::abs(x[d]) > way) v[d] = -std::copysign(v[d], x[d]);
+}
+
+// Where 1/2 m V^2 = 2/5 K x^(5/2) (1 - 5 s/6).
+TEST(ComplianceCorrection, ManyBouncesGainNothingUpToTheLimit) {
+  for (const double s : {0.5, 0.7, 0.83}) {
+    const double x = std::pow(1.25 / kK / (1.0 - 5.0 / 6.0 * s), 0.4), c = s / (1.5 * kK * std::sqrt(x));
+    Ripples compliance(c, 0.02);
+    Scene scene(compliance, {-2.1, -1.2, kRadius}, {0.3, 0.2, -1}, 4e-5);
+    scene.begin();
+    double height = kRadius + 0.02, stiffest = 0.0;
+    for (int bounces = 0; bounces < 200;) {
+      const bool falls = scene.balls.velocity(0)[2] < 0.0;
+      scene.step();
+      if (falls && scene.balls.velocity(0)[2] >= 0.0) ++bounces;
+      if (!scene.loop->contacts().empty()) stiffest = std::max(stiffest, scene.model.seen.overlap);
+      keep_above(scene, height, 3.0);
+    }
+    while (!scene.is_over()) scene.step();
+    EXPECT_NEAR(scene.balls.velocity(0).squaredNorm() / 1.13, 1.0, 1e-4) << s;
+    EXPECT_NEAR(1.5 * c * kK * std::sqrt(stiffest), s, 0.06);
+  }
+}
+
 TEST(ComplianceCorrection, ModelsSeeTheirOwnOverlapAndItsRate) {
   const double c = 1.5e-4, overlap = 0.02;
   Ripples compliance(c, 0.0);
   Scene scene(compliance, {0.3, 0.2, kRadius - overlap}, {0.5, 0, -2}, 1e-5);
   scene.begin();
   const contact::Contact& seen = scene.model.seen;
-  const auto [x, s] = corrected_overlap(overlap, c, kK, 0.7);
+  const auto [x, s] = corrected_overlap(overlap, c, kK, kLargest);
   EXPECT_NEAR(seen.overlap, x, 1e-15);
   EXPECT_NEAR(seen.delta.norm(), kRadius - x, 1e-15);
   EXPECT_NEAR(seen.wall_velocity[2], 2.0 / (1.0 - s) - 2.0, 1e-12);
@@ -163,7 +197,7 @@ TEST(ComplianceCorrection, ModelsSeeTheirOwnOverlapAndItsRate) {
 
 TEST(ComplianceCorrection, IsAsStiffAsItIsToTheTimeStep) {
   const double overlap = 0.02, c = 1.5e-4;
-  const auto [x, s] = corrected_overlap(overlap, c, kK, 0.7);
+  const auto [x, s] = corrected_overlap(overlap, c, kK, kLargest);
   const double tangent = 1.5 * kK * std::sqrt(x) / (1.0 - s);
   for (const bool is_stable : {true, false}) {
     Ripples compliance(c, 0.0);
@@ -178,13 +212,43 @@ TEST(ComplianceCorrection, IsAsStiffAsItIsToTheTimeStep) {
   }
 }
 
+// k dt^2 + 2 gamma dt = 4 for a mass of 1.
+TEST(ComplianceCorrection, DampingHasItsShareOfTheTimeStep) {
+  const double overlap = 0.02, c = 1.5e-4, damping = 200.0;
+  const double gamma = damping * std::pow(kRadius * overlap, 0.25),
+               k = 1.5 * kK * std::sqrt(overlap) / (1.0 - corrected_overlap(overlap, c, kK, kLargest).s);
+  const double stable = 4.0 / (gamma + std::sqrt(gamma * gamma + 4.0 * k));
+  EXPECT_LT(stable, 0.8 * 2.0 / std::sqrt(k));
+  for (const bool is_stable : {true, false}) {
+    Ripples compliance(c, 0.0);
+    Scene scene(compliance, {0.3, 0.2, kRadius - overlap}, {0, 0, 0}, (is_stable ? 0.999 : 1.001) * stable);
+    scene.model.damping = damping;
+    const nurbs::NodalVectors inverse_mass = nurbs::NodalVectors::Zero(3, 100);
+    if (is_stable)
+      EXPECT_NO_THROW(scene.begin(inverse_mass));
+    else
+      EXPECT_THAT([&] { scene.begin(inverse_mass); },
+                  ThrowsMessage<std::runtime_error>(HasSubstr("too stiff")));
+  }
+}
+
+TEST(ComplianceCorrection, DampedContactsNeedRoomInTheMemory) {
+  Ripples compliance(1e-5, 0.0);
+  Scene scene(compliance, {0.3, 0.2, kRadius - 0.01}, {0, 0, 0}, 1e-5);
+  scene.balls = test::Balls();
+  scene.balls.add({0.3, 0.2, kRadius - 0.01}, kRadius);
+  scene.model.damping = 1.0;
+  EXPECT_THAT([&] { scene.begin(); },
+              ThrowsMessage<std::logic_error>(HasSubstr("room for 0 numbers, expected 2 more")));
+}
+
 TEST(ComplianceCorrection, SaysWhereElementsAreTooSmall) {
   Ripples compliance(1e-3, 0.0);
   Scene scene(compliance, {0.3, 0.2, kRadius - 0.01}, {0, 0, 0}, 1e-5);
   EXPECT_THAT([&] { scene.begin(); },
               ThrowsMessage<std::runtime_error>(
                   AllOf(HasSubstr("elements at (0.3, 0.2, 0)"), HasSubstr("particle 1 at step 1"),
-                        HasSubstr("expected at most 0.7"), HasSubstr("or 'compliance none'"))));
+                        HasSubstr("expected at most 0.9"), HasSubstr("or 'compliance none'"))));
 }
 
 }  // namespace

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// A ball on a spring with a mass, which stands for a mesh that gives way, as damped contacts are corrected by
+// it: the same as the ball on a rigid wall, whose law is integrated here by itself.
+#include "coupling/contact/damped_approach.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "coupling/contact/compliance.h"
+
+namespace {
+
+using contact::DampedApproach;
+using contact::DampedLaw;
+
+constexpr double kK = 1.0, kMass = 1.0, kSpeed = 0.9;  // the ball goes in by about 1 where nothing is damped
+constexpr double kPi = 3.14159265358979323846;
+
+/// Of a coefficient of restitution.
+double damping_of(double e) {
+  const double zeta = -std::log(e) / std::hypot(std::log(e), kPi);
+  return 2.0 * zeta * std::sqrt(5.0 / 6.0 * 1.5 * kK * kMass);
+}
+
+struct Answer {
+  double restitution, peak;
+};
+
+constexpr double kStands = 1e99;
+
+/// Of a rigid body of a mass.
+Answer rigid(double e, double dt, double mass = kStands) {
+  const double both = 1.0 / (1.0 / kMass + 1.0 / mass);
+  double x = 0.0, v = kSpeed, F = 0.0, peak = 0.0;
+  do {
+    v -= 0.5 * dt * F / both;
+    x += dt * v;
+    F = x > 0.0 ? kK * x * std::sqrt(x) + damping_of(e) * std::sqrt(std::sqrt(x)) * v : 0.0;
+    v -= 0.5 * dt * F / both;
+    peak = std::max(peak, F);
+  } while (x > 0.0);
+  return {-v / kSpeed, peak};
+}
+
+/// What contact does in a step (compliance.cpp).
+class Contact {
+ public:
+  Contact(double e, double c) : law_{kK, damping_of(e), kMass, c} {}
+  double step(double overlap, double of_particle, double of_surface, double dt) {
+    const double gap = DampedApproach::held_gap(memory_);
+    if (overlap <= -gap) {
+      memory_[0] = memory_[1] = 0.0;
+      return 0.0;
+    }
+    DampedApproach kept(memory_);
+    kept.advance(overlap, of_particle, of_surface, dt);
+    double F = 0.0;
+    if (kept.is_on()) {
+      const double damping = kept.damping(law_), left = overlap + law_.give * damping;
+      const double x = left > 0.0 ? contact::corrected_overlap(left, law_.give, kK, 0.99).x : 0.0;
+      F = kK * x * std::sqrt(x) + damping;
+      kept.observe(law_, overlap + law_.give * F, dt);
+    }
+    kept.keep(memory_);
+    return F;
+  }
+  double x() const { return memory_[0]; }
+
+ private:
+  DampedLaw law_;
+  double memory_[DampedApproach::kMemory] = {0.0, 0.0};
+};
+
+/// Ball and mesh; all speeds are towards the body, which itself comes at `body`.
+struct Scene {
+  Scene(double e, double s, double body, double dt, double mass = kStands)
+      : c(s / 1.5 / kK), contact(e, c), body(body), dt(dt), mass(mass) {}
+  void step(double pressed = 0.0) {
+    constexpr double kSpringMass = 3e-4, kLoss = 0.3;
+    ball += 0.5 * dt * (pressed - F) / kMass;
+    const double spring = dent / c + 2.0 * kLoss * std::sqrt(kSpringMass / c) * dent_speed;
+    dent_speed += dt * (F - spring) / kSpringMass;
+    body -= dt * spring / mass;
+    dent += dt * dent_speed;
+    x += dt * (ball + body);
+    F = contact.step(x - dent, ball, body - dent_speed, dt);
+    ball += 0.5 * dt * (pressed - F) / kMass;
+  }
+  double c;
+  Contact contact;
+  double body, dt, mass, ball = 0.0, x = 0.0, dent = 0.0, dent_speed = 0.0, F = 0.0;
+};
+
+constexpr double kStep = 4e-4;
+
+TEST(DampedApproach, ABallLeavesAsFastAsARigidWall) {
+  for (const double e : {0.1, 0.3, 0.5, 0.7, 0.95})
+    for (const double s : {0.1, 0.3, 0.5}) {
+      Scene scene(e, s, 0.0, kStep);
+      scene.ball = kSpeed;
+      double peak = 0.0;
+      while (scene.x > -0.3) {
+        scene.step();
+        peak = std::max(peak, scene.F);
+        ASSERT_LT(peak, 2.0) << e << " " << s << " x " << scene.x;
+      }
+      const Answer expected = rigid(e, kStep);
+      EXPECT_NEAR(-scene.ball / kSpeed / expected.restitution, 1.0, 0.01) << e << ' ' << s;
+      EXPECT_NEAR(peak / expected.peak, 1.0, 0.01) << e << ' ' << s;
+    }
+}
+
+TEST(DampedApproach, ItIsTheSameIfTheBodyComesToTheBall) {
+  Scene scene(0.5, 0.3, kSpeed, kStep);
+  while (scene.x > -0.3) scene.step();
+  EXPECT_NEAR(-(scene.ball + kSpeed) / kSpeed, rigid(0.5, kStep).restitution, 0.005);
+}
+
+// Nobody tells it how the body moves beyond the dent.
+TEST(DampedApproach, ABodyIsPushedAway) {
+  for (const double e : {0.5, 0.9}) {
+    constexpr double kBody = 4.0;
+    Scene scene(e, 0.2, 0.0, kStep, kBody);
+    scene.ball = kSpeed;
+    while (scene.x > -0.3) scene.step();
+    EXPECT_NEAR(-(scene.ball + scene.body) / kSpeed / rigid(e, kStep, kBody).restitution, 1.0, 0.03) << e;
+  }
+}
+
+TEST(DampedApproach, UnderAWeightItComesToTheLawsOwnOverlap) {
+  constexpr double kWeight = 0.4;
+  for (const double e : {0.3, 0.7}) {
+    Scene scene(e, 0.4, 0.0, kStep);
+    for (int k = 0; k < 400000; ++k) scene.step(kWeight);
+    const double x = std::pow(kWeight / kK, 2.0 / 3.0);
+    EXPECT_NEAR(scene.F, kWeight, 1e-6 * kWeight);
+    EXPECT_NEAR(scene.contact.x(), x, 1e-6);
+    EXPECT_NEAR(scene.x, x, 1e-6);
+  }
+}
+
+// The dent of the beginning is deeper than the bodies have come together.
+TEST(DampedApproach, ItGoesOnWhereSurfacesLoseTouch) {
+  Scene scene(0.3, 0.3, 0.0, kStep);
+  scene.ball = kSpeed;
+  double deepest_gap = 0.0, least = 1.0;
+  while (scene.x < 0.2) {
+    scene.step();
+    if (scene.x > 2e-3) least = std::min(least, scene.F);
+    deepest_gap = std::max(deepest_gap, scene.dent - scene.x);
+  }
+  EXPECT_GT(deepest_gap, 0.01);
+  EXPECT_GT(least, 0.1);
+}
+
+TEST(DampedApproach, ASetupMovesNothing) {
+  double memory[DampedApproach::kMemory] = {0.25, 0.125};
+  DampedApproach kept(memory);
+  kept.advance(0.1, 1.0, 7.0, 0.0);
+  EXPECT_EQ(kept.x(), 0.25);
+  EXPECT_EQ(kept.rate(), 1.125);
+  EXPECT_TRUE(kept.is_on());
+}
+
+}  // namespace
