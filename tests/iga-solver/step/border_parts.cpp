@@ -3,6 +3,7 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepFilletAPI_MakeChamfer.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepGProp.hxx>
@@ -17,6 +18,7 @@
 #include <TopExp_Explorer.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
 #include <cmath>
 
@@ -109,6 +111,17 @@ TopoDS_Shape standing_faces() {
                    rectangle(gp_Pnt(120, 10, -20), gp_Vec(0, 30, 0), gp_Vec(0, 0, 45))});
 }
 
+/// The sides of a box, each by itself.
+TopoDS_Shape loose_faces() {
+  TopoDS_Compound all;
+  BRep_Builder builder;
+  builder.MakeCompound(all);
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(40.0, 30.0, 20.0).Shape();
+  for (TopExp_Explorer face(box, TopAbs_FACE); face.More(); face.Next())
+    builder.Add(all, BRepBuilderAPI_Transform(face.Current(), gp_Trsf(), true).Shape());
+  return all;
+}
+
 double height(const TopoDS_Shape& shape) {
   GProp_GProps properties;
   BRepGProp::LinearProperties(shape, properties);
@@ -157,6 +170,7 @@ std::vector<Part> border_parts() {
   return {{"tiny_faces.step", "faces 1e-3 of the part wide, a triangle of 1e-3 in a corner", tiny_faces},
           {"gaps.step", "faces that miss each other by 1e-4 of the size", gaps},
           {"unequal_plates.step", "faces side by side of which one goes on beyond the other", unequal_plates},
+          {"loose_faces.step", "sides of a box that are sheets of their own", loose_faces},
           {"tee.step", "a face that stands on another, over a gap", tee},
           {"standing_faces.step", "feet of faces that cross borders, end inside, go round", standing_faces},
           {"parallel_plates.step", "faces that lie 1e-4 of the size above each other", parallel_plates},

@@ -105,6 +105,17 @@ TEST_F(Sewing, UnequalBordersAreSewn) {
   for (const CadFace& face : model.faces) check_borders(model, face);
 }
 
+// Sheets that touch are sewn to each other, and are still what they were.
+TEST_F(Sewing, LooseFacesAreSewn) {
+  const CadModel model = read_part("loose_faces.step");
+  const Edges edges = edges_of(model);
+  EXPECT_EQ(edges.sharp, 12);
+  EXPECT_EQ(edges.free, 0);
+  EXPECT_EQ(model.vertices.size(), 8u);
+  ASSERT_EQ(model.solids.size(), 6u);
+  for (int f = 0; f < 6; ++f) EXPECT_EQ(model.faces[f].solid, f);
+}
+
 TEST_F(Sewing, PagesOfABookAreNotSewn) {
   const CadModel model = read_part("parallel_plates.step");
   EXPECT_EQ(model.edges.size(), 12u);
