@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "brep/minima.h"
 
@@ -40,6 +41,16 @@ void faces_at(const Surface& surface, const Foot& foot, std::vector<int>& faces)
   }
 }
 
+// By distance; feet that are as far by their places, so that pieces which are too far do not change the
+// order.
+bool comes_before(const Foot& a, const Foot& b) {
+  if (a.distance != b.distance) return a.distance < b.distance;
+  const auto place = [](const Foot& foot) {
+    return std::make_tuple(foot.patch, foot.status, foot.entity, foot.side, foot.xi[0], foot.xi[1]);
+  };
+  return place(a) < place(b);
+}
+
 }  // namespace
 
 // Where the concave edge between them bends by much less than they are apart, as round-off in a plane does,
@@ -64,7 +75,7 @@ bool Minima::repeats(const Foot& foot, const Foot& other) const {
 // them may give way is not the same, so they are joined last.  The face's stays.
 void Minima::choose(const SmoothNeighbours& neighbours) {
   const auto begin = out_.begin() + static_cast<std::ptrdiff_t>(begin_);
-  std::sort(begin, out_.end(), [](const Foot& a, const Foot& b) { return a.distance < b.distance; });
+  std::sort(begin, out_.end(), comes_before);
   auto end = begin;  // of those that stay; what has gone makes others go as well
   for (auto foot = begin; neighbours.any() && foot != out_.end(); ++foot) {
     bool gone = false;

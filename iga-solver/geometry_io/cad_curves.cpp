@@ -121,6 +121,11 @@ nurbs::Parameter<2> BorderCurve::parameters(double t) const {
 Vector3 BorderCurve::point(double t) const { return point_of(model_, face_, parameters(t)); }
 
 double BorderCurve::beside(const Vector3& point, const Vector3& tangent) const {
+  if (face_.shape.kind == brep::Kind::plane && curve_.points.cols() == 2 &&
+      curve_.points(2, 0) == curve_.points(2, 1)) {  // a straight line
+    const Vector3 from = this->point(curve_.begin()), way = this->point(curve_.end()) - from;
+    return at_part(std::clamp(way.dot(point - from) / way.squaredNorm(), 0.0, 1.0));
+  }
   const int places = std::clamp<int>(8 * static_cast<int>(curve_.points.cols()), 24, 400);
   int best = 0;
   double least = 1e300;

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "geometry_io/any_spline.h"
@@ -179,13 +180,17 @@ std::optional<brep::Spline<2>> curve_on(const brep::Face& face, const CadEdge& e
     return at(t_of(part), steps[std::lround(part * kSteps)]);
   };
   const double fine = 1e-5 * tolerance;
-  AnySpline fit = fitted(point, 0.0, 1.0, [&](double part, const Eigen::VectorXd& p) {
-    const Eigen::VectorXd q = point(part);
-    return (face.point({p(0), p(1)}) - face.point({q(0), q(1)})).norm() / fine;
-  });
-  fit.points.conservativeResize(3, Eigen::NoChange);
-  fit.points.row(2).setOnes();
-  return finished<2>(fit);
+  try {
+    AnySpline fit = fitted(point, 0.0, 1.0, [&](double part, const Eigen::VectorXd& p) {
+      const Eigen::VectorXd q = point(part);
+      return (face.point({p(0), p(1)}) - face.point({q(0), q(1)})).norm() / fine;
+    });
+    fit.points.conservativeResize(3, Eigen::NoChange);
+    fit.points.row(2).setOnes();
+    return finished<2>(fit);
+  } catch (const std::runtime_error&) {  // it takes too many pieces: the file is as good without
+    return {};
+  }
 }
 
 void lay_in(CadModel& model, int number, int edge, brep::Spline<2> curve) {

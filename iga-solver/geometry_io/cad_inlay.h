@@ -9,7 +9,8 @@
 namespace geometry_io {
 
 /// The curve of an edge in the parameters of a face that is no patch, from where it is nearest to the face,
-/// within `tolerance` [length]; none if it goes round a pole or further than a turn.
+/// within `tolerance` [length]; none if it goes round a pole or further than a turn, or takes too many
+/// pieces.
 std::optional<brep::Spline<2>> curve_on(const brep::Face& face, const brep::CadEdge& edge, double tolerance);
 
 /// Puts an edge into the loops of a face, along `curve` and back: as a slit, as a bridge between loops, or so

@@ -41,8 +41,8 @@ struct Joint {
 
 class Joiner {
  public:
-  Joiner(CadModel& model, int solid, double tolerance)
-      : model_(model), solid_(solid), tolerance_(tolerance), uses_(uses_of_edges(model)) {}
+  Joiner(CadModel& model, const std::vector<int>& solids, double tolerance)
+      : model_(model), solids_(solids), tolerance_(tolerance), uses_(uses_of_edges(model)) {}
 
   Sewn join() {
     take_edges();
@@ -56,9 +56,13 @@ class Joiner {
  private:
   bool is_free(int i) const { return uses_[edges_[i]].size() == 1; }
 
+  bool is_of_sheets(const brep::CadFace& face) const {
+    return std::find(solids_.begin(), solids_.end(), face.solid) != solids_.end();
+  }
+
   void take_edges() {
     for (size_t e = 0; e < uses_.size(); ++e) {
-      if (uses_[e].empty() || model_.faces[uses_[e].front().face].solid != solid_) continue;
+      if (uses_[e].empty() || !is_of_sheets(model_.faces[uses_[e].front().face])) continue;
       edges_.push_back(static_cast<int>(e));
       curves_.emplace_back(model_.edges[e]);
       const EdgeCurve& curve = curves_.back();
@@ -165,7 +169,7 @@ class Joiner {
     constexpr double kFlat = 0.02;  // [rad]
     const brep::CadFace& face = model_.faces[f];
     const TrimPlace& own = uses_[edges_[i]].front();
-    if (face.solid != solid_ || face.shape.kind == brep::Kind::nurbs || own.face == f) return false;
+    if (!is_of_sheets(face) || face.shape.kind == brep::Kind::nurbs || own.face == f) return false;
     for (int k = 0; k < kInner; ++k) {
       const double t =
           from + (to - from) * ((k + kInner / 2) % kInner + 1) / (kInner + 1);  // the middle first
@@ -240,7 +244,7 @@ class Joiner {
   }
 
   CadModel& model_;
-  const int solid_;
+  const std::vector<int>& solids_;
   const double tolerance_;
   const std::vector<std::vector<TrimPlace>> uses_;  // before anything is cut
   std::vector<int> edges_;                          // of the sheet; what follows has numbers of these
@@ -255,8 +259,8 @@ class Joiner {
 
 }  // namespace
 
-Sewn join_to_faces(CadModel& model, int solid, double tolerance) {
-  const Sewn joined = Joiner(model, solid, tolerance).join();
+Sewn join_to_faces(CadModel& model, const std::vector<int>& solids, double tolerance) {
+  const Sewn joined = Joiner(model, solids, tolerance).join();
   drop_unused(model);
   return joined;
 }

@@ -2,6 +2,8 @@
 // Borders of sheets that stand on other faces become edges of these, too: the foot of a T.
 #pragma once
 
+#include <vector>
+
 #include "brep/cad_model.h"
 #include "geometry_io/cad_sewing.h"
 
@@ -12,6 +14,6 @@ namespace geometry_io {
 /// are cut where they cross its border, which is cut there as well.  Left as they are: faces that lie flat on
 /// the other one (within 0.02 rad), and edges on patches, which have no closed form.  Edges and vertices get
 /// new numbers.
-Sewn join_to_faces(brep::CadModel& model, int solid, double tolerance);
+Sewn join_to_faces(brep::CadModel& model, const std::vector<int>& solids, double tolerance);
 
 }  // namespace geometry_io

@@ -60,8 +60,8 @@ search::Box box_of(const Points& points, double by) {
 
 class Sewer {
  public:
-  Sewer(CadModel& model, int solid, double tolerance)
-      : model_(model), solid_(solid), tolerance_(tolerance), uses_(uses_of_edges(model)) {}
+  Sewer(CadModel& model, const std::vector<int>& solids, double tolerance)
+      : model_(model), solids_(solids), tolerance_(tolerance), uses_(uses_of_edges(model)) {}
 
   Sewn sew() {
     take_edges();
@@ -78,9 +78,13 @@ class Sewer {
  private:
   bool is_free(int edge) const { return uses_[edge].size() == 1; }
 
+  bool is_of_sheets(const brep::CadFace& face) const {
+    return std::find(solids_.begin(), solids_.end(), face.solid) != solids_.end();
+  }
+
   void take_edges() {
     for (size_t e = 0; e < uses_.size(); ++e) {
-      const auto of_sheet = [&](const TrimPlace& use) { return model_.faces[use.face].solid == solid_; };
+      const auto of_sheet = [&](const TrimPlace& use) { return is_of_sheets(model_.faces[use.face]); };
       if (!std::any_of(uses_[e].begin(), uses_[e].end(), of_sheet)) continue;
       edges_.push_back(static_cast<int>(e));
       curves_.emplace_back(model_.edges[e]);
@@ -290,7 +294,7 @@ class Sewer {
   }
 
   CadModel& model_;
-  const int solid_;
+  const std::vector<int>& solids_;
   const double tolerance_;
   const std::vector<std::vector<TrimPlace>> uses_;  // before anything is cut
   std::vector<int> edges_;                          // of the sheet; what follows has numbers of these
@@ -307,8 +311,8 @@ class Sewer {
 
 }  // namespace
 
-Sewn sew(CadModel& model, int solid, double tolerance) {
-  const Sewn sewn = Sewer(model, solid, tolerance).sew();
+Sewn sew(CadModel& model, const std::vector<int>& solids, double tolerance) {
+  const Sewn sewn = Sewer(model, solids, tolerance).sew();
   drop_unused(model);
   return sewn;
 }

@@ -2,6 +2,8 @@
 // Borders of sheets that run side by side become common edges.
 #pragma once
 
+#include <vector>
+
 #include "brep/cad_model.h"
 
 namespace geometry_io {
@@ -11,11 +13,11 @@ struct Sewn {
   double widest = 0.0;  ///< how far what was joined is apart [length]
 };
 
-/// Joins free edges of the faces of one solid of the model, which is a sheet, with other edges of it where
-/// they run side by side no farther apart than `tolerance`: the nearest first, those in one place before all.
-/// An edge that goes on beside a shorter one is cut there.  Left free are borders of which one lies back on
-/// the other as the pages of a book do (faces within 0.02 rad of each other), and what would make an edge
-/// vanish or a face narrower than `tolerance` a seam.  Edges and vertices get new numbers.
-Sewn sew(brep::CadModel& model, int solid, double tolerance);
+/// Joins free edges of the faces of some solids of the model, which are sheets, with other edges of them
+/// where they run side by side no farther apart than `tolerance`: the nearest first, those in one place
+/// before all. An edge that goes on beside a shorter one is cut there.  Left free are borders of which one
+/// lies back on the other as the pages of a book do (faces within 0.02 rad of each other), and what would
+/// make an edge vanish or a face narrower than `tolerance` a seam.  Edges and vertices get new numbers.
+Sewn sew(brep::CadModel& model, const std::vector<int>& solids, double tolerance);
 
 }  // namespace geometry_io

@@ -17,6 +17,7 @@
 #include <TopoDS_Vertex.hxx>
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "geometry_io/cad_joints.h"
@@ -90,34 +91,45 @@ class ModelMaker {
     if (!closed)
       for (size_t f = first; f < model_.faces.size(); ++f) model_.faces[f].outward = 0;
     model_.solids.push_back({body.name, body.colour, closed});
-    sizes_.push_back(size_of(body.shape));
+    boxes_.emplace_back();
+    BRepBndLib::Add(body.shape, boxes_.back(), false);
   }
 
-  // Faces that lie side by side without a common edge get one: those of one border, and free edges that miss
-  // each other by little.
+  // Faces that lie side by side without a common edge get one: what touches, be it of one sheet or of
+  // several, then what misses each other by little, of sheets of one name.
   void sew_sheets() {
+    std::vector<int> all;
+    std::map<std::string, std::vector<int>> named;
     for (size_t s = 0; s < model_.solids.size(); ++s) {
       if (model_.solids[s].closed) continue;
-      Sewn sewn;
-      for (const double relative : {kSewing, kSewingOfGaps}) {
-        const Sewn more = sew(model_, static_cast<int>(s), relative * sizes_[s]);
-        sewn = {sewn.edges + more.edges, std::max(sewn.widest, more.widest)};
-      }
-      report(s, "sewn along", sewn);
-      report(s, "joined to faces that it stands on along",
-             join_to_faces(model_, static_cast<int>(s), kSewingOfGaps * sizes_[s]));
+      all.push_back(static_cast<int>(s));
+      named[model_.solids[s].name].push_back(all.back());
     }
-  }
-  void report(size_t solid, const char* what, const Sewn& sewn) {
-    if (sewn.edges > 0)
-      model_.healed.push_back(
-          fmt::format("sheet '{}': {} {} edges, over gaps up to {:.3g} mm ({:.2g} of its size)",
-                      model_.solids[solid].name, what, sewn.edges, sewn.widest, sewn.widest / sizes_[solid]));
+    if (named.size() > 1) sew_together(all, "sheets", {kSewing});
+    for (const auto& [name, sheets] : named)
+      sew_together(sheets, fmt::format("sheet '{}'", name), {kSewing, kSewingOfGaps});
   }
 
-  static double size_of(const TopoDS_Shape& shape) {
+  void sew_together(const std::vector<int>& sheets, const std::string& what,
+                    const std::vector<double>& within) {
+    const double size = size_of(sheets);
+    Sewn sewn;
+    for (const double relative : within) {
+      const Sewn more = sew(model_, sheets, relative * size);
+      sewn = {sewn.edges + more.edges, std::max(sewn.widest, more.widest)};
+    }
+    const auto report = [&](const char* how, const Sewn& done) {
+      if (done.edges > 0)
+        model_.healed.push_back(fmt::format("{}: {} {} edges, over gaps up to {:.3g} mm ({:.2g} of its size)",
+                                            what, how, done.edges, done.widest, done.widest / size));
+    };
+    report("sewn along", sewn);
+    report("joined to faces that it stands on along", join_to_faces(model_, sheets, within.back() * size));
+  }
+
+  double size_of(const std::vector<int>& sheets) const {
     Bnd_Box box;
-    BRepBndLib::Add(shape, box, false);
+    for (const int sheet : sheets) box.Add(boxes_[sheet]);
     return std::sqrt(std::max(box.SquareExtent(), 0.0));
   }
 
@@ -249,7 +261,7 @@ class ModelMaker {
   StepDocument document_;
   const StepOptions options_;
   brep::CadModel model_;
-  std::vector<double> sizes_;  // of solids [mm]
+  std::vector<Bnd_Box> boxes_;  // of solids [mm]
   TopTools_IndexedMapOfShape edges_, vertices_;
 };
 

@@ -130,11 +130,8 @@ std::string Trial::try_point(int number, long& count) {
   search_.feet(d, reach, active_.data(), active, from_active_);
   if (lies_on_an_axis()) return {};
   if (from_active_.size() != feet_.size()) return "other feet from an active subset of " + text(d);
-  // Pieces that are too far may change the way to a foot on a patch, so its last digit.
-  const double same = surface_.patches ? 1e-14 * surface_.size : 0.0;
   for (size_t k = 0; k < feet_.size(); ++k)
-    if (!((feet_[k].point - from_active_[k].point).norm() <= same))
-      return "other feet from an active subset of " + text(d);
+    if (feet_[k].point != from_active_[k].point) return "other feet from an active subset of " + text(d);
   return {};
 }
 

@@ -3,6 +3,7 @@
 #include <BRepBuilderAPI_MakeFace.hxx>
 #include <BRepBuilderAPI_MakePolygon.hxx>
 #include <BRepBuilderAPI_MakeWire.hxx>
+#include <BRepBuilderAPI_Transform.hxx>
 #include <BRepFilletAPI_MakeChamfer.hxx>
 #include <BRepFilletAPI_MakeFillet.hxx>
 #include <BRepGProp.hxx>
@@ -17,8 +18,10 @@
 #include <TopExp_Explorer.hxx>
 #include <TopTools_ListOfShape.hxx>
 #include <TopoDS.hxx>
+#include <TopoDS_Compound.hxx>
 #include <TopoDS_Shell.hxx>
 #include <cmath>
+#include <gp_Circ.hxx>
 
 #include "edges_between.h"
 #include "parts.h"
@@ -109,6 +112,29 @@ TopoDS_Shape standing_faces() {
                    rectangle(gp_Pnt(120, 10, -20), gp_Vec(0, 30, 0), gp_Vec(0, 0, 45))});
 }
 
+/// A disc in a hole that is wider by 1e-4 of the size; their circles begin elsewhere.
+TopoDS_Shape patched_hole() {
+  const auto circle = [](double radius, double turned, bool forward) {
+    const gp_Ax2 axes(gp_Pnt(50, 30, 0), gp_Dir(0, 0, forward ? 1 : -1),
+                      gp_Dir(std::cos(turned), std::sin(turned), 0));
+    return BRepBuilderAPI_MakeWire(BRepBuilderAPI_MakeEdge(gp_Circ(axes, radius)).Edge()).Wire();
+  };
+  const TopoDS_Face plate = rectangle(gp_Pnt(0, 0, 0), gp_Vec(100, 0, 0), gp_Vec(0, 60, 0));
+  return sheet_of({BRepBuilderAPI_MakeFace(plate, circle(15.0, 0.0, false)).Face(),
+                   BRepBuilderAPI_MakeFace(circle(14.99, 0.7, true), true).Face()});
+}
+
+/// The sides of a box, each by itself.
+TopoDS_Shape loose_faces() {
+  TopoDS_Compound all;
+  BRep_Builder builder;
+  builder.MakeCompound(all);
+  const TopoDS_Shape box = BRepPrimAPI_MakeBox(40.0, 30.0, 20.0).Shape();
+  for (TopExp_Explorer face(box, TopAbs_FACE); face.More(); face.Next())
+    builder.Add(all, BRepBuilderAPI_Transform(face.Current(), gp_Trsf(), true).Shape());
+  return all;
+}
+
 double height(const TopoDS_Shape& shape) {
   GProp_GProps properties;
   BRepGProp::LinearProperties(shape, properties);
@@ -157,6 +183,8 @@ std::vector<Part> border_parts() {
   return {{"tiny_faces.step", "faces 1e-3 of the part wide, a triangle of 1e-3 in a corner", tiny_faces},
           {"gaps.step", "faces that miss each other by 1e-4 of the size", gaps},
           {"unequal_plates.step", "faces side by side of which one goes on beyond the other", unequal_plates},
+          {"patched_hole.step", "a disc in a hole, circles that begin elsewhere", patched_hole},
+          {"loose_faces.step", "sides of a box that are sheets of their own", loose_faces},
           {"tee.step", "a face that stands on another, over a gap", tee},
           {"standing_faces.step", "feet of faces that cross borders, end inside, go round", standing_faces},
           {"parallel_plates.step", "faces that lie 1e-4 of the size above each other", parallel_plates},

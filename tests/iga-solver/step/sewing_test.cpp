@@ -105,6 +105,32 @@ TEST_F(Sewing, UnequalBordersAreSewn) {
   for (const CadFace& face : model.faces) check_borders(model, face);
 }
 
+// Closed borders are cut where those beside them begin.
+TEST_F(Sewing, AHoleIsPatched) {
+  const CadModel model = read_part("patched_hole.step");
+  const Edges edges = edges_of(model);
+  EXPECT_EQ(edges.smooth, 2);
+  EXPECT_EQ(edges.free, 4);
+  EXPECT_NEAR(edges.free_length, 320.0, 1e-9);
+  double area = 0.0;
+  for (const CadFace& face : model.faces) {
+    check_borders(model, face);
+    area += geometry_io::area_of(model, face);
+  }
+  EXPECT_NEAR(area, 6000.0 - M_PI * (15.0 * 15.0 - 14.99 * 14.99), 1e-6);
+}
+
+// Sheets that touch are sewn to each other, and are still what they were.
+TEST_F(Sewing, LooseFacesAreSewn) {
+  const CadModel model = read_part("loose_faces.step");
+  const Edges edges = edges_of(model);
+  EXPECT_EQ(edges.sharp, 12);
+  EXPECT_EQ(edges.free, 0);
+  EXPECT_EQ(model.vertices.size(), 8u);
+  ASSERT_EQ(model.solids.size(), 6u);
+  for (int f = 0; f < 6; ++f) EXPECT_EQ(model.faces[f].solid, f);
+}
+
 TEST_F(Sewing, PagesOfABookAreNotSewn) {
   const CadModel model = read_part("parallel_plates.step");
   EXPECT_EQ(model.edges.size(), 12u);
