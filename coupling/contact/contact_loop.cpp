@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "coupling/force_distribution.h"
 #include "nurbs/assert.h"
@@ -82,9 +83,9 @@ double ContactLoop::wall_motion() {
 }
 
 bool ContactLoop::has_outgrown_list(const ParticleView& particles) const {
-  bool outgrown = false;  // no way out of the loop, so that it is vectorised
-  for (int i = 0; i < particles.count; ++i) outgrown |= particles.radius[i] > radius_limit_[i];
-  return wall_.any(outgrown);
+  std::int64_t outgrown = 0;  // as wide as what is compared, so that the loop is vectorised
+  for (int i = 0; i < particles.count; ++i) outgrown += particles.radius[i] > radius_limit_[i];
+  return wall_.any(outgrown > 0);
 }
 
 /* ---------------------------------------------------------------------- one step */

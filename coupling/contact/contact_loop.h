@@ -145,8 +145,8 @@ class ContactLoop {
   /// `squared_frequency` of the particle on the spring of the contact; `speed` along the normal.
   void expect_long(const ParticleView& particles, const StepInfo& step, const Contact& contact,
                    double squared_frequency, double speed);
-  [[noreturn]] static void fail_as_not_finite(const ParticleView& particles, const StepInfo& step,
-                                              const Contact* contacts, const Contact* end);
+  static void expect_finite(const ParticleView& particles, const StepInfo& step, const Contact* contacts,
+                            const Contact* end);
 
   Options options_;
   Wall wall_;

@@ -19,16 +19,16 @@ void ContactLoop::answer(const ParticleView& particles, const StepInfo& step, Co
   model.evaluate(begin, static_cast<int>(end - begin));
   if (correction_) correction_->after(begin, end);
   bool are_plain = !wall_.needs_forces() && !observer;
-  Vector3 not_finite = Vector3::Zero();
+  Vector3 sum = Vector3::Zero();  // not finite if one of them is not
   for (const Contact* contact = begin; contact < end; ++contact) {
     const std::ptrdiff_t row = 3 * static_cast<std::ptrdiff_t>(contact->particle);
     const Vector3 &F = contact->force, &T = contact->torque;
     Eigen::Map<Vector3>(particles.f + row) += F;
     Eigen::Map<Vector3>(particles.torque + row) += T;
-    not_finite += 0.0 * (F + T);
+    sum += F + T;
     are_plain &= !contact->inside & contact->touches;
   }
-  if (!not_finite.isZero(0.0)) fail_as_not_finite(particles, step, begin, end);
+  if (!sum.allFinite()) expect_finite(particles, step, begin, end);
   if (!are_plain) look_at(particles, step, model, observer, first);
 }
 
@@ -133,10 +133,12 @@ inline void ContactLoop::expect_long(const ParticleView& particles, const StepIn
   brief_.raise(particles.tag[i], particles.radius[i], std::sqrt(squared_frequency) / kTurn);
 }
 
-void ContactLoop::fail_as_not_finite(const ParticleView& particles, const StepInfo& step,
-                                     const Contact* contacts, const Contact* end) {
-  const Contact& contact = *std::find_if(
+void ContactLoop::expect_finite(const ParticleView& particles, const StepInfo& step, const Contact* contacts,
+                                const Contact* end) {
+  const Contact* const found = std::find_if(
       contacts, end, [](const Contact& c) { return !std::isfinite(c.force.sum() + c.torque.sum()); });
+  if (found == end) return;
+  const Contact& contact = *found;
   const int i = contact.particle;
   const Vector3 x = particles.centre(i), v = particles.velocity(i);
   const Vector3& F = contact.force;
