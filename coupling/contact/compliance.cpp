@@ -46,16 +46,6 @@ namespace {
 
 using Tangents = Eigen::Matrix<double, 3, 2>;
 
-Tangents tangents_of_rational(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi,
-                              const nurbs::NodalVectors& X, int first) {
-  nurbs::RationalBasis<2> basis;
-  nurbs::evaluate(space, xi, 1, basis);
-  Tangents tangents = Tangents::Zero();
-  for (int a = 0; a < basis.count; ++a)
-    for (int d = 0; d < 2; ++d) tangents.col(d) += basis.dR[d][a] * X.col(first + basis.control_point[a]);
-  return tangents;
-}
-
 /// Functions of one direction at xi, and their derivatives, from their powers on the element.
 struct DirectionValues {
   DirectionValues(const nurbs::Space<2>& space, int d, double xi) {
@@ -80,23 +70,36 @@ struct DirectionValues {
   double N[nurbs::kMaxDegree + 1], dN[nurbs::kMaxDegree + 1];
 };
 
-/// dS/dxi and dS/deta of a patch whose control points are columns of X from `first` on.
+/// dS/dxi and dS/deta of a patch whose control points are columns of X from `first` on: of S = A/W those are
+/// (dA - S dW)/W.
+template <bool rational>
 Tangents tangents_at(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi,
                      const nurbs::NodalVectors& X, int first) {
-  if (space.rational()) return tangents_of_rational(space, xi, X, first);
   const DirectionValues u(space, 0, xi[0]), v(space, 1, xi[1]);
-  Tangents tangents = Tangents::Zero();
+  Tangents dA = Tangents::Zero();
+  Vector3 A = Vector3::Zero();
+  double W = 0.0, dW[2] = {0.0, 0.0};
   for (int j = 0; j < v.count; ++j) {
-    const auto row = X.middleCols(first + u.first + space.control_point_count(0) * (v.first + j), u.count);
+    const int begin = u.first + space.control_point_count(0) * (v.first + j);
     Vector3 along = Vector3::Zero(), value = Vector3::Zero();
+    double w_along = 0.0, w_value = 0.0;
     for (int i = 0; i < u.count; ++i) {
-      along += u.dN[i] * row.col(i);
-      value += u.N[i] * row.col(i);
+      const double w = rational ? space.weights()[begin + i] : 1.0, N = w * u.N[i], dN = w * u.dN[i];
+      along += dN * X.col(first + begin + i);
+      value += N * X.col(first + begin + i);
+      if constexpr (rational) w_along += dN, w_value += N;
     }
-    tangents.col(0) += v.N[j] * along;
-    tangents.col(1) += v.dN[j] * value;
+    dA.col(0) += v.N[j] * along;
+    dA.col(1) += v.dN[j] * value;
+    if constexpr (!rational) continue;
+    A += v.N[j] * value;
+    W += v.N[j] * w_value;
+    dW[0] += v.N[j] * w_along;
+    dW[1] += v.dN[j] * w_value;
   }
-  return tangents;
+  if constexpr (rational)
+    for (int d = 0; d < 2; ++d) dA.col(d) = (dA.col(d) - dW[d] / W * A) / W;
+  return dA;
 }
 
 }  // namespace
@@ -105,8 +108,10 @@ Tangents tangents_at(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi
 Vector3 ComplianceCorrection::gradient(const Contact& contact, const std::array<double, 2>& change) const {
   const nurbs::MultiPatch& surface = wall_.surface();
   const int patch = contact.foot.patch;
-  const Tangents tangents = tangents_at(surface.patch(patch), contact.foot.xi, wall_.control_points(),
-                                        surface.first_control_point(patch));
+  const nurbs::Space<2>& space = surface.patch(patch);
+  const auto at = space.rational() ? &tangents_at<true> : &tangents_at<false>;
+  const Tangents tangents =
+      at(space, contact.foot.xi, wall_.control_points(), surface.first_control_point(patch));
   const Eigen::Matrix2d metric = tangents.transpose() * tangents;
   const Eigen::Vector2d along = metric.inverse() * Eigen::Vector2d(change[0], change[1]);
   return wall_.to_space_direction(tangents * along);
