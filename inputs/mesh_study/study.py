@@ -18,7 +18,7 @@ from matplotlib.figure import Figure as Picture
 
 from study.build.graded_block import PLACES, GradedBlock
 from study.reference import hertz
-from study.run.case import Case, Figure, Result, Study, Values, index_variables, numbers
+from study.run.case import Case, Comparison, Figure, Result, Study, Values, index_variables, numbers
 from study.run.figures import COLOURS, MARKERS, save
 from study.run.pulse import measure
 from study.run.summary import Row
@@ -33,7 +33,7 @@ PEAK, RESTITUTION = 6.679, 0.998
 PEAK_TOLERANCE, RESTITUTION_TOLERANCE = 1e-3, 5e-4
 COARSE_TOLERANCE = 5e-3  # of elements that are too large for the waves
 CUBIC_TOLERANCE = 2e-3
-SLIDING_TOLERANCE = 1e-6
+SLIDING_TOLERANCE, SLIDING_ENERGY_TOLERANCE = 1e-6, 1e-4
 RIGID = {"E_ball": 1e20}  # the ball gives way by nothing: E* is the block's own
 RIGID_TOLERANCE = 3e-3
 RIGID_SIZE = 3.7  # contact radii
@@ -141,6 +141,17 @@ def sliding_rows(result: Result) -> list[Row]:
     ]
 
 
+def sliding_energy(results: Mapping[str, Result]) -> list[Row]:
+    """Kinetic energy that the ball keeps, less what it has by the restitution of the same ball that does not slide, over that of
+    its impact."""
+    slide, still = (results[name] for name in ("slide", "0.125mm_corner"))
+    V, along = slide.values["V"], slide.values["slide"]
+    after, restitution = slide.state, still.state["v"][-1] / still.values["V"]
+    change = (after["along"][-1] ** 2 + after["v"][-1] ** 2 - along**2) / V**2 - restitution**2
+    known = slide.as_published and still.as_published
+    return [Row("slide", "change_of_energy", change, "1", *((0.0, SLIDING_ENERGY_TOLERANCE) if known else ()))]
+
+
 def sliding_case(compliance: str) -> Case:
     """Over one and a half elements of 2.8 contact radii."""
     name = "slide" if compliance == "corrected" else "none_slide"
@@ -203,4 +214,8 @@ def draw(path: Path, results: Mapping[str, Result]) -> None:
 
 
 ON_BLOCKS = [case.name for case in CASES if case.name.removeprefix("none_")[0].isdigit()]
-STUDY = Study(cases=CASES, figures=[Figure("force.png", ON_BLOCKS, draw)])
+STUDY = Study(
+    cases=CASES,
+    figures=[Figure("force.png", ON_BLOCKS, draw)],
+    comparisons=[Comparison(["slide", "0.125mm_corner"], sliding_energy)],
+)
