@@ -3,9 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
+
+#include "coupling/contact/foot_motion.h"
 
 namespace contact {
 
@@ -42,79 +43,14 @@ namespace {
 
 }  // namespace
 
-namespace {
-
-using Tangents = Eigen::Matrix<double, 3, 2>;
-
-/// Functions of one direction at xi, and their derivatives, from their powers on the element.
-struct DirectionValues {
-  DirectionValues(const nurbs::Space<2>& space, int d, double xi) {
-    const nurbs::KnotVector& knots = space.knots(d);
-    const int element = knots.element_at(xi);
-    const double low = knots.breaks()[element], high = knots.breaks()[element + 1],
-                 scale = 2.0 / (high - low);
-    const double s = scale * (xi - low) - 1.0;
-    const nurbs::ElementFunctions& functions = space.functions(d, element);
-    count = knots.degree() + 1;
-    first = knots.span_of_element(element) - knots.degree();
-    for (int j = 0; j < count; ++j) {
-      N[j] = dN[j] = 0.0;
-      for (int k = count - 1; k >= 0; --k) {
-        dN[j] = dN[j] * s + N[j];
-        N[j] = N[j] * s + functions.power[k][j];
-      }
-      dN[j] *= scale;
-    }
-  }
-  int first, count;
-  double N[nurbs::kMaxDegree + 1], dN[nurbs::kMaxDegree + 1];
-};
-
-/// dS/dxi and dS/deta of a patch whose control points are columns of X from `first` on: of S = A/W those are
-/// (dA - S dW)/W.
-template <bool rational>
-Tangents tangents_at(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi,
-                     const nurbs::NodalVectors& X, int first) {
-  const DirectionValues u(space, 0, xi[0]), v(space, 1, xi[1]);
-  Tangents dA = Tangents::Zero();
-  Vector3 A = Vector3::Zero();
-  double W = 0.0, dW[2] = {0.0, 0.0};
-  for (int j = 0; j < v.count; ++j) {
-    const int begin = u.first + space.control_point_count(0) * (v.first + j);
-    Vector3 along = Vector3::Zero(), value = Vector3::Zero();
-    double w_along = 0.0, w_value = 0.0;
-    for (int i = 0; i < u.count; ++i) {
-      const double w = rational ? space.weights()[begin + i] : 1.0, N = w * u.N[i], dN = w * u.dN[i];
-      along += dN * X.col(first + begin + i);
-      value += N * X.col(first + begin + i);
-      if constexpr (rational) w_along += dN, w_value += N;
-    }
-    dA.col(0) += v.N[j] * along;
-    dA.col(1) += v.dN[j] * value;
-    if constexpr (!rational) continue;
-    A += v.N[j] * value;
-    W += v.N[j] * w_value;
-    dW[0] += v.N[j] * w_along;
-    dW[1] += v.dN[j] * w_value;
-  }
-  if constexpr (rational)
-    for (int d = 0; d < 2; ++d) dA.col(d) = (dA.col(d) - dW[d] / W * A) / W;
-  return dA;
-}
-
-}  // namespace
-
-/// Of c along the surface as it now is.
+/// Of c with the centre's place.
 Vector3 ComplianceCorrection::gradient(const Contact& contact, const std::array<double, 2>& change) const {
   const nurbs::MultiPatch& surface = wall_.surface();
   const int patch = contact.foot.patch;
-  const nurbs::Space<2>& space = surface.patch(patch);
-  const auto at = space.rational() ? &tangents_at<true> : &tangents_at<false>;
-  const Tangents tangents =
-      at(space, contact.foot.xi, wall_.control_points(), surface.first_control_point(patch));
-  const Eigen::Matrix2d metric = tangents.transpose() * tangents;
-  const Eigen::Vector2d along = metric.inverse() * Eigen::Vector2d(change[0], change[1]);
-  return wall_.to_space_direction(tangents * along);
+  const Eigen::Matrix<double, 3, 2> motion =
+      foot_motion(surface.patch(patch), contact.foot.xi, wall_.control_points(),
+                  surface.first_control_point(patch), wall_.to_frame_direction(contact.delta));
+  return wall_.to_space_direction(motion * Eigen::Vector2d(change[0], change[1]));
 }
 
 void ComplianceCorrection::correct(const ParticleView& particles, long step, double K, Contact& contact,
