@@ -48,7 +48,7 @@ Vector3 ComplianceCorrection::gradient(const Contact& contact, const std::array<
   const nurbs::MultiPatch& surface = wall_.surface();
   const int patch = contact.foot.patch;
   const Eigen::Matrix<double, 3, 2> motion =
-      foot_motion(surface.patch(patch), contact.foot.xi, wall_.control_points(),
+      foot_motion(surface.patch(patch), contact.foot.xi, {wall_.control_points(), undeformed_},
                   surface.first_control_point(patch), wall_.to_frame_direction(contact.delta));
   return wall_.to_space_direction(motion * Eigen::Vector2d(change[0], change[1]));
 }

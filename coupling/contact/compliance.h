@@ -31,9 +31,9 @@ class ComplianceCorrection {
   /// Beyond this s a point force is not the contact any more, and near 1 there is no equilibrium.
   static constexpr double kLargest = 0.7;
 
-  /// Keeps references to both.
+  /// Keeps references to both.  The wall is undeformed, all of it.
   ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall)
-      : compliance_(compliance), wall_(wall) {}
+      : compliance_(compliance), wall_(wall), undeformed_(wall.control_points()) {}
 
   /// Gives contacts the overlaps, and the rates of overlap, that the model shall see.  Throws
   /// std::runtime_error: particle, place, step, if s is too large.
@@ -55,6 +55,7 @@ class ComplianceCorrection {
 
   coupling::LocalCompliance& compliance_;
   const Wall& wall_;
+  nurbs::NodalVectors undeformed_;
   std::vector<Before> before_;
 };
 
