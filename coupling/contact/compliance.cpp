@@ -3,11 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+
+#include "coupling/contact/foot_motion.h"
 
 namespace contact {
 
@@ -44,74 +45,14 @@ namespace {
 
 }  // namespace
 
-namespace {
-
-using Tangents = Eigen::Matrix<double, 3, 2>;
-
-Tangents tangents_of_rational(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi,
-                              const nurbs::NodalVectors& X, int first) {
-  nurbs::RationalBasis<2> basis;
-  nurbs::evaluate(space, xi, 1, basis);
-  Tangents tangents = Tangents::Zero();
-  for (int a = 0; a < basis.count; ++a)
-    for (int d = 0; d < 2; ++d) tangents.col(d) += basis.dR[d][a] * X.col(first + basis.control_point[a]);
-  return tangents;
-}
-
-/// Functions of one direction at xi, and their derivatives, from their powers on the element.
-struct DirectionValues {
-  DirectionValues(const nurbs::Space<2>& space, int d, double xi) {
-    const nurbs::KnotVector& knots = space.knots(d);
-    const int element = knots.element_at(xi);
-    const double low = knots.breaks()[element], high = knots.breaks()[element + 1],
-                 scale = 2.0 / (high - low);
-    const double s = scale * (xi - low) - 1.0;
-    const nurbs::ElementFunctions& functions = space.functions(d, element);
-    count = knots.degree() + 1;
-    first = knots.span_of_element(element) - knots.degree();
-    for (int j = 0; j < count; ++j) {
-      N[j] = dN[j] = 0.0;
-      for (int k = count - 1; k >= 0; --k) {
-        dN[j] = dN[j] * s + N[j];
-        N[j] = N[j] * s + functions.power[k][j];
-      }
-      dN[j] *= scale;
-    }
-  }
-  int first, count;
-  double N[nurbs::kMaxDegree + 1], dN[nurbs::kMaxDegree + 1];
-};
-
-/// dS/dxi and dS/deta of a patch whose control points are columns of X from `first` on.
-Tangents tangents_at(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi,
-                     const nurbs::NodalVectors& X, int first) {
-  if (space.rational()) return tangents_of_rational(space, xi, X, first);
-  const DirectionValues u(space, 0, xi[0]), v(space, 1, xi[1]);
-  Tangents tangents = Tangents::Zero();
-  for (int j = 0; j < v.count; ++j) {
-    const auto row = X.middleCols(first + u.first + space.control_point_count(0) * (v.first + j), u.count);
-    Vector3 along = Vector3::Zero(), value = Vector3::Zero();
-    for (int i = 0; i < u.count; ++i) {
-      along += u.dN[i] * row.col(i);
-      value += u.N[i] * row.col(i);
-    }
-    tangents.col(0) += v.N[j] * along;
-    tangents.col(1) += v.dN[j] * value;
-  }
-  return tangents;
-}
-
-}  // namespace
-
-/// Of c along the surface as it now is.
+/// Of c with the centre's place.
 Vector3 ComplianceCorrection::gradient(const Contact& contact, const std::array<double, 2>& change) const {
   const nurbs::MultiPatch& surface = wall_.surface();
   const int patch = contact.foot.patch;
-  const Tangents tangents = tangents_at(surface.patch(patch), contact.foot.xi, wall_.control_points(),
-                                        surface.first_control_point(patch));
-  const Eigen::Matrix2d metric = tangents.transpose() * tangents;
-  const Eigen::Vector2d along = metric.inverse() * Eigen::Vector2d(change[0], change[1]);
-  return wall_.to_space_direction(tangents * along);
+  const Eigen::Matrix<double, 3, 2> motion =
+      foot_motion(surface.patch(patch), contact.foot.xi, {wall_.control_points(), undeformed_},
+                  surface.first_control_point(patch), wall_.to_frame_direction(contact.delta));
+  return wall_.to_space_direction(motion * Eigen::Vector2d(change[0], change[1]));
 }
 
 namespace {

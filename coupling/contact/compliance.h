@@ -34,9 +34,9 @@ class ComplianceCorrection {
   /// 1 there is no equilibrium.
   static constexpr double kLargest = 0.9;
 
-  /// Keeps references to both.
+  /// Keeps references to both.  The wall is undeformed, all of it.
   ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall)
-      : compliance_(compliance), wall_(wall) {}
+      : compliance_(compliance), wall_(wall), undeformed_(wall.control_points()) {}
 
   /// Numbers that a contact keeps behind those of the model, in each slot of the particles' memory.
   static constexpr int kMemory = DampedApproach::kMemory;
@@ -81,6 +81,7 @@ class ComplianceCorrection {
 
   coupling::LocalCompliance& compliance_;
   const Wall& wall_;
+  nurbs::NodalVectors undeformed_;
   std::vector<Before> before_;
 };
 

@@ -63,6 +63,9 @@ class Wall {
     const Vector3 from_origin = x - frame_.origin;
     return is_turned_ ? Vector3(frame_.rotation.transpose() * from_origin) : from_origin;
   }
+  Vector3 to_frame_direction(const Vector3& x) const {
+    return is_turned_ ? Vector3(frame_.rotation.transpose() * x) : x;
+  }
   Vector3 to_space_direction(const Vector3& X) const { return is_turned_ ? Vector3(frame_.rotation * X) : X; }
   /// At most, of any of its points [length/time].
   double max_speed() const;

@@ -35,7 +35,7 @@ PEAK, RESTITUTION = 6.679, 0.998
 PEAK_TOLERANCE, RESTITUTION_TOLERANCE = 1e-3, 5e-4
 COARSE_TOLERANCE = 5e-3  # of elements that are too large for the waves
 CUBIC_TOLERANCE = 2e-3
-SLIDING_TOLERANCE = 1e-6
+SLIDING_TOLERANCE, SLIDING_ENERGY_TOLERANCE = 1e-6, 1e-4
 RIGID = {"E_ball": 1e20}  # the ball gives way by nothing: E* is the block's own
 RIGID_TOLERANCE = 3e-3
 RIGID_SIZE = 3.7  # contact radii
@@ -171,6 +171,17 @@ def sliding_rows(result: Result) -> list[Row]:
         *rows(*(((PEAK, PEAK_TOLERANCE), (RESTITUTION, RESTITUTION_TOLERANCE)) if known else ((), ())), result),
         Row(result.case, "change_of_sliding_speed", change, "1", *((0.0, SLIDING_TOLERANCE) if known else ())),
     ]
+
+
+def sliding_energy(results: Mapping[str, Result]) -> list[Row]:
+    """Kinetic energy that the ball keeps, less what it has by the restitution of the same ball that does not slide, over that of
+    its impact."""
+    slide, still = (results[name] for name in ("slide", "0.125mm_corner"))
+    V, along = slide.values["V"], slide.values["slide"]
+    after, restitution = slide.state, still.state["v"][-1] / still.values["V"]
+    change = (after["along"][-1] ** 2 + after["v"][-1] ** 2 - along**2) / V**2 - restitution**2
+    known = slide.as_published and still.as_published
+    return [Row("slide", "change_of_energy", change, "1", *((0.0, SLIDING_ENERGY_TOLERANCE) if known else ()))]
 
 
 def sliding_case(compliance: str) -> Case:
@@ -321,5 +332,5 @@ ON_BLOCKS = [case.name for case in CASES if case.name.removeprefix("none_")[0].i
 STUDY = Study(
     cases=CASES,
     figures=[Figure("force.png", ON_BLOCKS, draw), Figure("plate.png", ON_PLATE, draw_plate)],
-    comparisons=[spread(name) for name in PLATES],
+    comparisons=[*(spread(name) for name in PLATES), Comparison(["slide", "0.125mm_corner"], sliding_energy)],
 )

@@ -7,6 +7,7 @@ import unittest
 import numpy as np
 from scipy.spatial.distance import pdist
 
+import compliance
 import wall_shapes
 import walls
 from wall_runs import DECKS, touching, touching_rows
@@ -32,6 +33,20 @@ class Shapes(unittest.TestCase):
             gap = wall_shapes.RADIUS - np.hypot(y, z - wall_shapes.RADIUS) if hollow else z
             self.assertGreater((gap - 0.5 * diameter).min(), 0.0)
             self.assertGreater(pdist(np.transpose(centres)).min(), diameter.max())
+
+
+class Compliance(unittest.TestCase):
+    def test_spheres_overlap_the_solid_and_not_each_other(self):
+        for name, body in compliance.BODIES.items():
+            centres = body.centres(compliance.OVERLAP)
+            height = centres[2] if name == "plate" else np.hypot(centres[0], centres[2]) - compliance.RING
+            np.testing.assert_allclose(compliance.RADIUS - height, compliance.OVERLAP, rtol=1e-6)
+            self.assertLess(np.abs(centres[1]).max(), 0.03)
+            self.assertGreater(pdist(centres.T).min(), 2 * compliance.RADIUS - 2 * compliance.OVERLAP)
+
+    def test_the_ratio_has_a_bound(self):
+        for corrected, passes in ((1.49e-7, True), (1.51e-7, False)):
+            self.assertEqual(compliance.rows("plate", 1e-7, corrected)[-1].passes, passes)
 
 
 def prism(sides: int) -> float:

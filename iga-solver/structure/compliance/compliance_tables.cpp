@@ -67,19 +67,23 @@ ComplianceTable::ComplianceTable(const std::array<int, 2>& counts,
                                  const std::vector<std::vector<double>>& values)
     : counts_(counts), largest_normal_(*std::max_element(values[normal].begin(), values[normal].end())) {
   const Eigen::MatrixXd of_s = to_powers(counts[0]), of_t = to_powers(counts[1]);
+  double* next = powers_.data();
   for (const std::vector<double>& component : values) {
     const Eigen::MatrixXd powers =
         of_s * Eigen::MatrixXd::Map(component.data(), counts[0], counts[1]) * of_t.transpose();
-    powers_.insert(powers_.end(), powers.data(), powers.data() + powers.size());
+    next = std::copy_n(powers.data(), powers.size(), next);
   }
 }
 
 ComplianceTable::Value ComplianceTable::at(Component component, const nurbs::Parameter<2>& low,
                                            const nurbs::Parameter<2>& high,
                                            const nurbs::Parameter<2>& xi) const {
+  constexpr int kLine = 64 / sizeof(double);
+  const double* const first = powers_.data() + static_cast<std::size_t>(component) * counts_[0] * counts_[1];
+  for (int k = 0; k < counts_[0] * counts_[1]; k += kLine) __builtin_prefetch(first + k);
   const double in_s = 2.0 / (high[0] - low[0]), in_t = 2.0 / (high[1] - low[1]);
   const double s = in_s * (xi[0] - low[0]) - 1.0, t = in_t * (xi[1] - low[1]) - 1.0;
-  const double* row = powers_.data() + static_cast<std::size_t>(component + 1) * counts_[0] * counts_[1];
+  const double* row = first + counts_[0] * counts_[1];
   double c = 0.0, by_s = 0.0, by_t = 0.0;
   for (int j = counts_[1] - 1; j >= 0; --j) {
     row -= counts_[0];

@@ -37,9 +37,12 @@ class ComplianceTable {
   double largest_normal() const { return largest_normal_; }
 
  private:
+  static constexpr int kMost = 7 * 7;  // values of a component: of degree 3
+
+  // In one piece: who asks for a table in a time step finds it in memory, seldom in a cache.
   std::array<int, 2> counts_;
-  std::vector<double> powers_;  // [component][of t][of s] in s, t from -1 to 1
   double largest_normal_;
+  std::array<double, kComponents * kMost> powers_;  // [component][of t][of s] in s, t from -1 to 1
 };
 
 /// Chebyshev's points with both ends of [-1, 1], rising.

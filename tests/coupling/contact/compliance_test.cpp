@@ -56,13 +56,25 @@ class Hertz final : public contact::ContactModel {
   contact::Contact seen;
 };
 
+/// The plane z = 0 of 8 x 8 elements; or one whose weights draw its parameters together here and there; or a
+/// hill or a hollow, of a radius of about eight of the balls', rational, too.
+enum class Sheet { plane, rational, hill, hollow };
+nurbs::Surface sheet_of(Sheet kind) {
+  nurbs::Surface sheet = nurbs::plane({-4, -4, 0}, {kSide, 0, 0}, {0, kSide, 0},
+                                      {nurbs::KnotVector::uniform(2, 8), nurbs::KnotVector::uniform(2, 8)});
+  if (kind == Sheet::plane) return sheet;
+  std::vector<double> weights;
+  for (int c = 0; c < sheet.space.control_point_count(); ++c) weights.push_back(1.0 + 0.1 * (c * c % 7));
+  sheet.space = nurbs::Space<2>(sheet.space.knots(), weights);
+  const double bend = kind == Sheet::hill ? -0.125 : kind == Sheet::hollow ? 0.125 : 0.0;
+  sheet.control_points.row(2) = bend * sheet.control_points.topRows(2).colwise().squaredNorm();
+  return sheet;
+}
+
 struct Scene {
-  Scene(coupling::LocalCompliance& compliance, const Vector3& centre, const Vector3& velocity, double dt)
-      : dt(dt),
-        sheet(nurbs::plane({-4, -4, 0}, {kSide, 0, 0}, {0, kSide, 0},
-                           {nurbs::KnotVector::uniform(2, 8), nurbs::KnotVector::uniform(2, 8)}),
-              0.0),
-        balls(2, contact::ComplianceCorrection::kMemory) {
+  Scene(coupling::LocalCompliance& compliance, const Vector3& centre, const Vector3& velocity, double dt,
+        Sheet kind = Sheet::plane)
+      : dt(dt), sheet(sheet_of(kind), 0.0), balls(2, contact::ComplianceCorrection::kMemory) {
     sheet.compliance = &compliance;
     sheet.set_time_step(dt);
     balls.add(centre, kRadius, velocity);
@@ -135,8 +147,9 @@ TEST(ComplianceCorrection, TheBallTurnsBackWhereItsEnergyIsAllInTheContact) {
 // Over the ripples of c a ball that slides while it bounces is accelerated and braked, and no energy is lost.
 TEST(ComplianceCorrection, ASlidingContactIsConservative) {
   Ripples compliance(1.5e-4, 0.4);
-  for (const double phase : {0.0, 0.3, 0.7}) {
-    Scene scene(compliance, {-2.0 + phase, -1.1, kRadius}, {3, 1, -1}, 1e-5);
+  for (const double phase : {0.0, 0.3, 0.7, 1.3, 1.7}) {
+    Scene scene(compliance, {-2.0 + phase, -1.1, kRadius}, {3, 1, -1}, 1e-5,
+                phase > 1.0 ? Sheet::rational : Sheet::plane);
     scene.begin();
     double fastest = 0.0;
     do {
@@ -176,6 +189,23 @@ TEST(ComplianceCorrection, ManyBouncesGainNothingUpToTheLimit) {
     EXPECT_NEAR(scene.balls.velocity(0).squaredNorm() / 1.13, 1.0, 1e-4) << s;
     EXPECT_NEAR(1.5 * c * kK * std::sqrt(stiffest), s, 0.06);
   }
+}
+
+// Over a hill the foot is slower than the ball, in a hollow faster, and the force along the surface as much
+// less or more.
+TEST(ComplianceCorrection, ASlidingContactIsConservativeOnCurvedWalls) {
+  Ripples compliance(1.5e-4, 0.4);
+  for (const Sheet kind : {Sheet::hill, Sheet::hollow})
+    for (const double x : {-1.0, -0.3, 0.4}) {
+      const double height = (kind == Sheet::hill ? -0.125 : 0.125) * (x * x + 0.25);
+      Scene scene(compliance, {x, -0.5, height + (kind == Sheet::hill ? 1.05 : 1.3) * kRadius}, {3, 1, -1},
+                  1e-5, kind);
+      scene.begin();
+      for (const bool before : {true, false})
+        while (scene.loop->contacts().empty() == before && scene.step_number < 40000) scene.step();
+      ASSERT_LT(scene.step_number, 40000);
+      EXPECT_NEAR(scene.balls.velocity(0).squaredNorm(), 11.0, 1e-6) << x;
+    }
 }
 
 TEST(ComplianceCorrection, ModelsSeeTheirOwnOverlapAndItsRate) {

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "coupling/contact/foot_motion.h"
+
+#include <Eigen/LU>
+
+namespace contact {
+
+namespace {
+
+using nurbs::Vector3;
+
+/// Functions of one direction at xi, and their derivatives, from their powers on the element.
+struct DirectionValues {
+  DirectionValues(const nurbs::Space<2>& space, int d, double xi) {
+    const nurbs::KnotVector& knots = space.knots(d);
+    const int element = knots.element_at(xi);
+    const double low = knots.breaks()[element], high = knots.breaks()[element + 1],
+                 scale = 2.0 / (high - low);
+    const double s = scale * (xi - low) - 1.0;
+    const nurbs::ElementFunctions& functions = space.functions(d, element);
+    count = knots.degree() + 1;
+    first = knots.span_of_element(element) - knots.degree();
+    for (int j = 0; j < count; ++j) {
+      N[j] = dN[j] = ddN[j] = 0.0;
+      for (int k = count - 1; k >= 0; --k) {
+        ddN[j] = ddN[j] * s + dN[j];
+        dN[j] = dN[j] * s + N[j];
+        N[j] = N[j] * s + functions.power[k][j];
+      }
+      dN[j] *= scale;
+      ddN[j] *= 2.0 * scale * scale;
+    }
+  }
+  int first, count;
+  double N[nurbs::kMaxDegree + 1], dN[nurbs::kMaxDegree + 1], ddN[nurbs::kMaxDegree + 1];
+};
+
+/// Of a function of a patch: value, first and second derivatives 00, 01, 11.
+struct Scalar {
+  double value = 0.0, along[2] = {0.0, 0.0}, bend[3] = {0.0, 0.0, 0.0};
+};
+
+struct Sums {
+  Vector3 A = Vector3::Zero(), along[2] = {Vector3::Zero(), Vector3::Zero()};
+  Scalar height, W;  // of A below delta, undeformed, and the weights'
+};
+
+/// The row j of control points, of values V, V_0, V_00 along it.
+inline void add_row(const DirectionValues& v, int j, double V, double V_0, double V_00, Scalar& sum) {
+  sum.value += v.N[j] * V;
+  sum.along[0] += v.N[j] * V_0;
+  sum.along[1] += v.dN[j] * V;
+  sum.bend[0] += v.N[j] * V_00;
+  sum.bend[1] += v.dN[j] * V_0;
+  sum.bend[2] += v.ddN[j] * V;
+}
+
+template <bool rational>
+Sums sums(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const Places& X, int first,
+          const Vector3& delta) {
+  const DirectionValues u(space, 0, xi[0]), v(space, 1, xi[1]);
+  Sums sums;
+  for (int j = 0; j < v.count; ++j) {
+    const int begin = u.first + space.control_point_count(0) * (v.first + j);
+    Vector3 A = Vector3::Zero(), A_0 = Vector3::Zero(), B = A, B_0 = A;
+    double B_00 = 0.0, W = 0.0, W_0 = 0.0, W_00 = 0.0;
+    for (int i = 0; i < u.count; ++i) {
+      const double w = rational ? space.weights()[begin + i] : 1.0, N = w * u.N[i], dN = w * u.dN[i],
+                   ddN = w * u.ddN[i];
+      const auto now = X.now.col(first + begin + i), undeformed = X.undeformed.col(first + begin + i);
+      A += N * now;
+      A_0 += dN * now;
+      B += N * undeformed;
+      B_0 += dN * undeformed;
+      B_00 += ddN * delta.dot(undeformed);
+      if constexpr (rational) W += N, W_0 += dN, W_00 += ddN;
+    }
+    sums.A += v.N[j] * A;
+    sums.along[0] += v.N[j] * A_0;
+    sums.along[1] += v.dN[j] * A;
+    add_row(v, j, delta.dot(B), delta.dot(B_0), B_00, sums.height);
+    if constexpr (rational) add_row(v, j, W, W_0, W_00, sums.W);
+  }
+  return sums;
+}
+
+// Of S = A/W: S_i = (A_i - W_i S)/W, S_ij = (A_ij - W_ij S - W_i S_j - W_j S_i)/W; of the heights alike.
+void divide_by_weight(Sums& sums) {
+  const Scalar& W = sums.W;
+  const double inverse = 1.0 / W.value;
+  for (int d = 0; d < 2; ++d) sums.along[d] = inverse * (sums.along[d] - inverse * W.along[d] * sums.A);
+  Scalar& h = sums.height;
+  h.value *= inverse;
+  for (int d = 0; d < 2; ++d) h.along[d] = inverse * (h.along[d] - W.along[d] * h.value);
+  for (int k = 0; k < 3; ++k) {
+    const int i = k / 2, j = (k + 1) / 2;
+    h.bend[k] =
+        inverse * (h.bend[k] - W.bend[k] * h.value - W.along[i] * h.along[j] - W.along[j] * h.along[i]);
+  }
+}
+
+}  // namespace
+
+Eigen::Matrix<double, 3, 2> foot_motion(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi,
+                                        const Places& X, int first, const Vector3& delta) {
+  Sums found =
+      space.rational() ? sums<true>(space, xi, X, first, delta) : sums<false>(space, xi, X, first, delta);
+  if (space.rational()) divide_by_weight(found);
+  Eigen::Matrix<double, 3, 2> tangents;
+  tangents << found.along[0], found.along[1];
+  const double* const bend = found.height.bend;
+  Eigen::Matrix2d M = tangents.transpose() * tangents;
+  M(0, 0) -= bend[0];
+  M(1, 1) -= bend[2];
+  M(0, 1) -= bend[1];
+  M(1, 0) -= bend[1];
+  return tangents * M.inverse();
+}
+
+}  // namespace contact

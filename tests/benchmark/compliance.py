@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What `compliance corrected` adds to a contact: 400 spheres pressed against an elastic solid, the same run with and without
+them, without and with the correction.  Times are this thread's, of LIGGGHTS' loop; tables are made before it.  Prints times and
+ratios, and writes OUT/summary.json; slow is reported, never an error."""
+
+from __future__ import annotations
+
+import argparse
+import statistics
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from bounds import AtMost
+from study.run.summary import Row, table, write_json
+from wall import contacts
+from wall_runs import WallRuns, fix_times
+
+PER_ROW = 20
+RADIUS, OVERLAP = 0.7e-3, 1e-6  # [m]
+STEPS = 2000
+REPETITIONS = 3
+MOST = 1.5
+SIZE = 2e-3  # of elements [m]
+RING = 31 * SIZE / np.pi  # radius of the ring: as long around as two plates [m]
+
+
+@dataclass(frozen=True)
+class Body:
+    geometry: str
+    top: str
+    held: str
+
+    def centres(self, overlap: float) -> np.ndarray:
+        """(3, n), spread over the insides of elements."""
+        random = np.random.default_rng(1)
+        i, j = (a.ravel() + 0.15 + random.uniform(0.0, 0.3, PER_ROW**2) for a in np.mgrid[0:PER_ROW, 0:PER_ROW])
+        x, y, above = SIZE * (i - 0.5 * PER_ROW), SIZE * (j - 0.5 * PER_ROW), RADIUS - overlap
+        if self.geometry.startswith("box"):
+            return np.stack([x, y, np.full_like(x, above)])
+        return np.stack([(RING + above) * np.sin(2 * x / RING), y, (RING + above) * np.cos(2 * x / RING)])
+
+    def model(self) -> str:
+        return f"""units: si
+geometry: {{{self.geometry}}}
+material: {{law: linear_elastic, youngs_modulus: 74.6e9, poissons_ratio: 0.2285, density: 2480}}
+boundary: [{{fix: [x, y, z], faces: [{self.held}]}}]
+surfaces: {{top: {self.top}}}
+"""
+
+
+BODIES = {
+    "plate": Body("box: {origin: [-0.031, -0.031, -0.002], size: [0.062, 0.062, 0.002], elements: [31, 31, 1], degree: 2}", "zeta+", "xi-, xi+"),
+    "ring, rational": Body(
+        f"tube: {{origin: [0, -0.031, 0], axis: [0, 1, 0], inner_radius: {RING - SIZE!r}, outer_radius: {RING!r}, length: 0.062, "
+        "angle: [0, 360], elements: [64, 31, 1]}", "zeta+", "eta-, eta+"),
+}  # fmt: skip
+
+DECK = """
+units si
+atom_style granular
+atom_modify map array
+boundary f f f
+newton off
+communicate single vel yes
+hard_particles yes
+region box block -0.04 0.04 -0.04 0.04 -0.04 0.04 units box
+create_box 2 box
+neighbor 0.0002 bin
+neigh_modify delay 0
+fix m1 all property/global youngsModulus peratomtype 74.6e9 74.6e9
+fix m2 all property/global poissonsRatio peratomtype 0.2285 0.2285
+fix m3 all property/global coefficientRestitution peratomtypepair 2 0.95 0.95 0.95 0.95
+fix m4 all property/global coefficientFriction peratomtypepair 2 0.3 0.3 0.3 0.3
+pair_style gran model hertz tangential history
+pair_coeff * *
+timestep 1e-9
+modify_timing on
+{spheres}
+set group all diameter {diameter} density 2480
+fix wall all wall/nurbs model hertz tangential history type 2 structure solid.yaml surface top compliance {compliance}
+thermo_style custom step atoms f_wall[7]
+thermo {steps}
+run {steps}
+"""
+
+
+def seconds_per_step(runs: WallRuns, body: Body, compliance: str, overlap: float) -> tuple[float, int]:
+    """Of the loop, and how many spheres touch.  They are not moved, and the solid hardly is."""
+    spheres = "\n".join("create_atoms 1 single {:.12g} {:.12g} {:.12g} units box".format(*c) for c in body.centres(overlap).T)
+    (runs.folder / "solid.yaml").write_text(body.model())
+    (runs.folder / "in.deck").write_text(DECK.format(spheres=spheres, diameter=2 * RADIUS, compliance=compliance, steps=STEPS))
+    log = runs.run("in.deck")
+    return fix_times(log)[1] / STEPS, contacts(log)
+
+
+def per_contact(runs: WallRuns, body: Body) -> tuple[float, float]:
+    """CPU time of a contact without and with the correction [s]; runs take turns."""
+    times: dict[str, list[float]] = {"none": [], "corrected": []}
+    for _ in range(REPETITIONS):
+        without, none = seconds_per_step(runs, body, "none", -0.1 * RADIUS)
+        if none != 0:
+            raise RuntimeError(f"{none} contacts, expected none")
+        for compliance, found in times.items():
+            seconds, count = seconds_per_step(runs, body, compliance, OVERLAP)
+            if count != PER_ROW**2:
+                raise RuntimeError(f"{count} contacts, expected one for each of {PER_ROW**2} spheres")
+            found.append((seconds - without) / count)
+    return statistics.median(times["none"]), statistics.median(times["corrected"])
+
+
+def rows(name: str, none: float, corrected: float) -> list[Row]:
+    """Times of a contact, the contact model included."""
+    return [
+        Row(name, "contact_none", 1e9 * none, "ns"),
+        Row(name, "contact_corrected", 1e9 * corrected, "ns"),
+        AtMost(name, "corrected/none", corrected / none, "1", MOST),
+    ]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program", help="liggghts-nurbs")
+    parser.add_argument("clock", help="libcpu_clock.so")
+    parser.add_argument("out", type=Path)
+    args = parser.parse_args()
+    args.out.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder:
+        runs = WallRuns(str(Path(args.program).resolve()), str(Path(args.clock).resolve()), Path(folder))
+        result = [row for name, body in BODIES.items() for row in rows(name, *per_contact(runs, body))]
+    write_json(args.out / "summary.json", "compliance_time", result)
+    print(table(result))
+
+
+if __name__ == "__main__":
+    main()

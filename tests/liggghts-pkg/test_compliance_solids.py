@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Random impacts on a curved, distorted, graded solid with `compliance corrected`: forces beside those on four times finer
+elements, and energy."""
+
+import unittest
+
+import numpy as np
+from scipy.interpolate import BSpline
+
+import ball_on_block as bob
+import decks
+
+GLASS = (74.6e9, 0.2285)
+MODELS = "model hertz tangential no_history"
+DT, STEPS = 6.25e-9, 1600
+BALLS = 9
+GAP = 1.5e-6  # at most [m]
+
+
+class Solid:
+    """About 16 x 16 x 4 mm, held at its base; its top is a hill of 20 mm radius, elements are 0.7 to 1.4 mm wide and skew."""
+
+    SIZE, HEIGHT, ROUND = 16e-3, 4e-3, 20e-3
+
+    def __init__(self, random: np.random.Generator):
+        self.knots = [self.graded(16), self.graded(16)[::-1].max() - self.graded(16)[::-1], np.r_[0, 0, np.linspace(0, 1, 5), 1, 1]]
+        greville = [0.5 * (k[1:-2] + k[2:-1]) for k in self.knots]
+        X, Y, Z = (a.transpose(2, 1, 0) for a in np.meshgrid(*greville, indexing="ij"))  # [zeta][eta][xi]
+        points = np.stack([self.SIZE * (X - 0.5), self.SIZE * (Y - 0.5), self.HEIGHT * (Z - 1.0)], axis=-1)
+        points[..., 2] -= Z * (points[..., 0] ** 2 + points[..., 1] ** 2) / (2 * self.ROUND)
+        inside = (slice(None), slice(2, -2), slice(2, -2))
+        points[inside][..., :2] += 0.12e-3 * random.uniform(-1, 1, points[inside][..., :2].shape)
+        points[(slice(1, -1), *inside[1:])][..., 2] += 0.1e-3 * random.uniform(-1, 1, points[(slice(1, -1), *inside[1:])].shape[:-1])
+        self.points = points
+
+    @staticmethod
+    def graded(elements: int) -> np.ndarray:
+        breaks = np.cumsum([0.0, *np.geomspace(0.7, 1.4, elements)])
+        return np.r_[0, 0, breaks / breaks[-1], 1, 1]
+
+    def top(self, xi: float, eta: float) -> tuple[np.ndarray, np.ndarray]:
+        """A point of it, and the normal there."""
+        along_xi = BSpline(self.knots[0], self.points[-1].transpose(1, 0, 2), 2)
+        value, change = (BSpline(self.knots[1], along_xi(xi, nu), 2) for nu in (0, 1))
+        normal = np.cross(change(eta), value(eta, 1))
+        return value(eta), normal / np.linalg.norm(normal)
+
+    def model(self, finer: int) -> str:
+        return f"""units: si
+geometry:
+  patches:
+    - degrees: [2, 2, 2]
+      knots: {[k.tolist() for k in self.knots]}
+      control_points: {self.points.reshape(-1, 3).tolist()}
+  refine: {{divide: [{finer}, {finer}, {finer}]}}
+material: {{law: linear_elastic, youngs_modulus: {GLASS[0]}, poissons_ratio: {GLASS[1]}, density: 2480}}
+boundary: [{{fix: [x, y, z], faces: [zeta-]}}]
+surfaces: {{top: zeta+}}
+"""
+
+
+class RandomImpacts(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        random = np.random.default_rng(18)
+        cls.solid = Solid(random)
+        centres, cls.velocities = [], []
+        for i in range(BALLS):
+            place = (np.array(divmod(i, 3)) + 0.5 + random.uniform(-0.12, 0.12, 2)) / 3.0 * 0.76 + 0.12
+            point, normal = cls.solid.top(*place)
+            centres.append(point + (bob.RADIUS + random.uniform(0.0, GAP)) * normal)
+            cls.velocities.append(-random.uniform(0.5, 1.5) * normal + random.uniform(-1.5, 1.5) * np.cross(normal, random.normal(size=3)))
+        cls.centres = np.array(centres)
+
+    def run_on(self, finer: int, words: str) -> tuple[np.ndarray, np.ndarray]:
+        """Largest force on each ball [N], and the energy of all in each step [J]; at the end nothing touches."""
+        deck = bob.prelude(balls=self.centres, models=MODELS, ball=GLASS, wall=GLASS, timestep=DT, velocity=(0, 0, 0))
+        deck += "".join(f"set atom {n} vx {v[0]!r} vy {v[1]!r} vz {v[2]!r}\n" for n, v in enumerate(np.array(self.velocities).tolist(), 1))
+        deck += bob.wall(MODELS, f"structure solid.yaml surface top compliance {words}")
+        columns = [f"v_F{n}" for n in range(1, BALLS + 1)] + ["v_K", "v_U", "v_n", "ke"]
+        deck += "".join(f"variable F{n} equal sqrt(fx[{n}]^2+fy[{n}]^2+fz[{n}]^2)\n" for n in range(1, BALLS + 1))
+        deck += "variable K equal f_plate[15]\nvariable U equal f_plate[16]\nvariable n equal f_plate[7]\n"
+        deck += f"thermo_style custom step {' '.join(columns)}\nthermo_modify format float %.17g norm no lost error\nthermo 2\nrun {STEPS}\n"
+        table = decks.good(deck, files={"solid.yaml": self.solid.model(finer)}, timeout=500).tables[-1]
+        self.assertEqual(table["n"][-1], 0.0)
+        force = np.array([table[f"F{n}"].max() for n in range(1, BALLS + 1)])
+        return force, table["KinEng"] + table["K"] + table["U"]
+
+    def test_forces_are_those_on_finer_elements_and_no_energy_comes(self):
+        coarse, energy = self.run_on(1, "corrected")
+        fine, of_fine = self.run_on(4, "corrected")
+        without = self.run_on(1, "none")[0]
+        print("forces over those on finer elements:", (coarse / fine).round(4), "without:", (without / fine).round(4))
+        for name, E, most in (("coarse", energy, 1e-7), ("fine", of_fine, 1e-6)):
+            print(f"energy, {name}: at the end {E[-1] / E[0] - 1.0:.2e} more")
+            self.assertLess(abs(E[-1] / E[0] - 1.0), most)
+            self.assertLess(E[-1] / E[0] - 1.0, 1e-7)
+        self.assertGreater(fine.min(), 1.0)
+        self.assertLess(np.abs(coarse / fine - 1.0).max(), 0.01)
+        self.assertGreater(np.abs(without / fine - 1.0).min(), 0.01)
+
+
+if __name__ == "__main__":
+    unittest.main()
