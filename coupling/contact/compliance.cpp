@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -46,75 +45,9 @@ namespace {
 
 namespace {
 
-using Tangents = Eigen::Matrix<double, 3, 2>;
-
-Tangents tangents_of_rational(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi,
-                              const nurbs::NodalVectors& X, int first) {
-  nurbs::RationalBasis<2> basis;
-  nurbs::evaluate(space, xi, 1, basis);
-  Tangents tangents = Tangents::Zero();
-  for (int a = 0; a < basis.count; ++a)
-    for (int d = 0; d < 2; ++d) tangents.col(d) += basis.dR[d][a] * X.col(first + basis.control_point[a]);
-  return tangents;
+double mass_of(const ParticleView& particles, int i) {
+  return particles.mass ? particles.mass[i] : std::numeric_limits<double>::infinity();
 }
-
-/// Functions of one direction at xi, and their derivatives, from their powers on the element.
-struct DirectionValues {
-  DirectionValues(const nurbs::Space<2>& space, int d, double xi) {
-    const nurbs::KnotVector& knots = space.knots(d);
-    const int element = knots.element_at(xi);
-    const double low = knots.breaks()[element], high = knots.breaks()[element + 1],
-                 scale = 2.0 / (high - low);
-    const double s = scale * (xi - low) - 1.0;
-    const nurbs::ElementFunctions& functions = space.functions(d, element);
-    count = knots.degree() + 1;
-    first = knots.span_of_element(element) - knots.degree();
-    for (int j = 0; j < count; ++j) {
-      N[j] = dN[j] = 0.0;
-      for (int k = count - 1; k >= 0; --k) {
-        dN[j] = dN[j] * s + N[j];
-        N[j] = N[j] * s + functions.power[k][j];
-      }
-      dN[j] *= scale;
-    }
-  }
-  int first, count;
-  double N[nurbs::kMaxDegree + 1], dN[nurbs::kMaxDegree + 1];
-};
-
-/// dS/dxi and dS/deta of a patch whose control points are columns of X from `first` on.
-Tangents tangents_at(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi,
-                     const nurbs::NodalVectors& X, int first) {
-  if (space.rational()) return tangents_of_rational(space, xi, X, first);
-  const DirectionValues u(space, 0, xi[0]), v(space, 1, xi[1]);
-  Tangents tangents = Tangents::Zero();
-  for (int j = 0; j < v.count; ++j) {
-    const auto row = X.middleCols(first + u.first + space.control_point_count(0) * (v.first + j), u.count);
-    Vector3 along = Vector3::Zero(), value = Vector3::Zero();
-    for (int i = 0; i < u.count; ++i) {
-      along += u.dN[i] * row.col(i);
-      value += u.N[i] * row.col(i);
-    }
-    tangents.col(0) += v.N[j] * along;
-    tangents.col(1) += v.dN[j] * value;
-  }
-  return tangents;
-}
-
-}  // namespace
-
-/// Of c along the surface as it now is.
-Vector3 ComplianceCorrection::gradient(const Contact& contact, const std::array<double, 2>& change) const {
-  const nurbs::MultiPatch& surface = wall_.surface();
-  const int patch = contact.foot.patch;
-  const Tangents tangents = tangents_at(surface.patch(patch), contact.foot.xi, wall_.control_points(),
-                                        surface.first_control_point(patch));
-  const Eigen::Matrix2d metric = tangents.transpose() * tangents;
-  const Eigen::Vector2d along = metric.inverse() * Eigen::Vector2d(change[0], change[1]);
-  return wall_.to_space_direction(tangents * along);
-}
-
-namespace {
 
 /// What a contact keeps.
 double* memory_of(const ParticleView& particles, const Contact& contact) {
@@ -122,10 +55,15 @@ double* memory_of(const ParticleView& particles, const Contact& contact) {
   if (kept < 0)
     throw std::logic_error(
         fmt::format("slots of contacts have room for {} numbers, expected {} more than the contact model "
-                    "keeps, for those "
-                    "that are damped and corrected",
+                    "keeps, for those that are corrected and damped or have a spring along the surface",
                     particles.memory.history_count, ComplianceCorrection::kMemory));
   return contact.history + kept;
+}
+
+void forget_shear(const ParticleView& particles, const ComplianceCorrection::Time& now,
+                  const Contact& contact) {
+  if (!now.is_setup)
+    std::fill_n(memory_of(particles, contact) + DampedApproach::kMemory, ShearCompliance::kMemory, 0.0);
 }
 
 }  // namespace
@@ -173,44 +111,76 @@ void ComplianceCorrection::correct(const ParticleView& particles, const Time& no
                D = model.hertz_damping(i) * std::sqrt(root);
   if (!(contact.overlap > 0.0) && !(D > 0.0 && DampedApproach::held_gap(memory_of(particles, contact)) > 0.0))
     return;
-  const coupling::LocalCompliance::Value c = compliance_.at(contact.foot);
+  const bool has_shear = !now.is_setup && model.shear(contact).constant > 0.0;
+  const coupling::LocalCompliance::Value c = compliance_.at(contact.foot, has_shear);
   const Vector3 n = contact.delta / contact.distance;
   const double approach = n.dot(contact.wall_velocity - particles.velocity(i));
   Seen seen;
   if (D > 0.0) {
-    const double mass = particles.mass ? particles.mass[i] : std::numeric_limits<double>::infinity();
-    contact.touches = damped(particles, now, {K, D, mass, c.normal}, approach, contact, seen);
-    if (!contact.touches) return;
+    const DampedLaw law = {K, D, mass_of(particles, i), c.normal.c};
+    contact.touches = damped(particles, now, law, approach, contact, seen);
+    if (!contact.touches) return forget_shear(particles, now, contact);
   } else {
-    seen = elastic(approach, K, c.normal, contact);
+    seen = elastic(approach, K, c.normal.c, contact);
   }
   if (seen.s >= kLargest) fail_as_too_fine(particles, now.step, contact, seen.s);
-  before.along = -0.5 * seen.force * seen.force * gradient(contact, c.change);
+  const SurfaceDirections directions = surface_directions(wall_, contact.foot);
+  before.along = -0.5 * seen.force * seen.force * directions.gradient(c.normal.change);
   before.tangent = 1.5 * K * std::sqrt(std::max(seen.x, now.dt * std::abs(seen.rate))) / (1.0 - seen.s);
   before.dashpot = seen.dashpot;
+  before.stiffness = 1.5 * K * std::sqrt(seen.x);
   contact.wall_velocity += (seen.rate - approach) * n;
   const double distance = contact.distance + contact.overlap - seen.x;
   contact.delta *= distance / contact.distance;
   contact.distance = distance;
   contact.overlap = seen.x;
+  if (has_shear) correct_shear(particles, now, model.shear(contact), c, directions, contact, before);
+}
+
+void ComplianceCorrection::correct_shear(const ParticleView& particles, const Time& now,
+                                         const ContactModel::Shear& shear,
+                                         const coupling::LocalCompliance::Value& c,
+                                         const SurfaceDirections& directions, Contact& contact,
+                                         Before& before) {
+  constexpr double kSphere = 2.0 / 7.0;  // of its mass is what moves its surface along itself
+  const double stiffness = shear.constant * std::sqrt(contact.effective_radius * contact.overlap);
+  const Vector3 n = contact.delta / contact.distance, slip = shear.slip - n.dot(shear.slip) * n;
+  before.shear.emplace(c, directions, n, stiffness);
+  const double share = before.shear->largest_share();
+  if (share >= kLargest) fail_as_too_fine(particles, now.step, contact, share);
+  // dampers of both directions have the same share of critical damping
+  before.shear_dashpot = before.dashpot * std::sqrt(stiffness / before.stiffness);
+  const double inertia = kSphere * mass_of(particles, contact.particle);
+  const ShearCompliance::Step seen = before.shear->begin(
+      {slip, slip + contact.wall_velocity, shear.stretch, before.shear_dashpot, inertia, now.dt},
+      memory_of(particles, contact) + DampedApproach::kMemory);
+  contact.wall_velocity -= seen.rate - slip;
+  contact.further_slip = seen.more;
 }
 
 void ComplianceCorrection::before(const ParticleView& particles, const Time& now, const ContactModel& model,
                                   Contact* begin, Contact* end) {
-  before_.clear();
+  before_.resize(end - begin);
   for (Contact* c = begin; c < end; ++c) {
     Contact& contact = *c;
-    Before& before =
-        before_.emplace_back(Before{contact.overlap, contact.distance, contact.touches, contact.delta,
-                                    contact.wall_velocity, Vector3::Zero(), 0.0, 0.0});
+    Before& before = before_[c - begin];
+    before = {contact.overlap, contact.distance, contact.touches, contact.delta, contact.wall_velocity};
     correct(particles, now, model, contact, before);
   }
 }
 
-void ComplianceCorrection::after(Contact* begin, Contact* end) {
+void ComplianceCorrection::after(const ParticleView& particles, const ContactModel& model, Contact* begin,
+                                 Contact* end) {
   for (Contact* c = begin; c < end; ++c) {
     Contact& contact = *c;
     const Before& before = before_[c - begin];
+    if (before.shear) {
+      const Vector3 stretch = model.shear(contact).stretch;
+      before.shear->end(stretch, memory_of(particles, contact) + DampedApproach::kMemory);
+      contact.force += before.shear->force_along(stretch);
+      contact.shear_tangent = before.shear->stiffness();
+      contact.shear_dashpot = before.shear_dashpot;
+    }
     contact.overlap = before.overlap;
     contact.distance = before.distance;
     contact.touches = before.touches;

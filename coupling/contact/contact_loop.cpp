@@ -303,7 +303,8 @@ inline Contact& ContactLoop::add_contact(const ParticleView& particles, int i,
   contact.centre = particles.centre(i);
   contact.delta = delta;
   contact.wall_velocity = v_wall;
-  contact.tangent = contact.dashpot = 0.0;
+  contact.further_slip.setZero();
+  contact.tangent = contact.dashpot = contact.shear_tangent = contact.shear_dashpot = 0.0;
   return contact;
 }
 
