@@ -13,13 +13,19 @@ class LocalCompliance {
  public:
   virtual ~LocalCompliance() = default;
 
-  struct Value {
-    double normal;                 ///< along the normal, by a force along it [length/force]
+  struct Component {
+    double c;                      ///< [length/force]
     std::array<double, 2> change;  ///< with the parameters of the foot's patch [length/force/parameter]
+  };
+  /// In the frame of t_1 along the surface's first direction, n out of the body and t_2 = n x t_1.  What a
+  /// force along n does along the surface is left out, 0.1 to 0.5 % of the others.
+  struct Value {
+    Component normal;                ///< along the normal, by a force along it
+    std::array<Component, 3> along;  ///< along the surface, by forces along it: 11, 22, 12; 0: not asked for
   };
   /// On an element that was not asked for before this takes some time.  Throws std::invalid_argument, with
   /// the place, where it is not known.
-  virtual Value at(const nurbs::SurfacePoint& foot) = 0;
+  virtual Value at(const nurbs::SurfacePoint& foot, bool with_shear) = 0;
 };
 
 }  // namespace coupling

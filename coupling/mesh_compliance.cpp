@@ -22,7 +22,7 @@ std::vector<nurbs::Space<2>> spaces_of(const structure::ReferenceBody& body,
 MeshCompliance::MeshCompliance(structure::ReferenceBody body, const std::vector<structure::SkinPiece>& skin)
     : spaces_(spaces_of(body, skin)), tables_(std::move(body), skin) {}
 
-LocalCompliance::Value MeshCompliance::at(const nurbs::SurfacePoint& foot) {
+LocalCompliance::Value MeshCompliance::at(const nurbs::SurfacePoint& foot, bool with_shear) {
   const nurbs::Space<2>& space = spaces_[foot.patch];
   const nurbs::Indices<2> span = {space.knots(0).element_at(foot.xi[0]),
                                   space.knots(1).element_at(foot.xi[1])};
@@ -31,9 +31,16 @@ LocalCompliance::Value MeshCompliance::at(const nurbs::SurfacePoint& foot) {
     low[d] = space.knots(d).breaks()[span[d]];
     high[d] = space.knots(d).breaks()[span[d] + 1];
   }
-  const structure::ComplianceTable& table = tables_.of(foot.patch, space.element_index(span));
-  const auto [c, change] = table.at(structure::ComplianceTable::normal, low, high, foot.xi);
-  return {c, change};
+  using Table = structure::ComplianceTable;
+  const Table& table = tables_.of(foot.patch, space.element_index(span));
+  const auto component = [&](Table::Component which) {
+    const auto [c, change] = table.at(which, low, high, foot.xi);
+    return Component{c, change};
+  };
+  Value value{component(Table::normal), {}};
+  if (with_shear)
+    value.along = {component(Table::first), component(Table::second), component(Table::first_second)};
+  return value;
 }
 
 }  // namespace coupling

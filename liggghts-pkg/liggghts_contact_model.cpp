@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "liggghts_contact_model.h"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "atom.h"
@@ -28,6 +29,7 @@ void LiggghtsContactModel::evaluate(Contact* contacts, int count) {
 inline void LiggghtsContactModel::compute_with_spring(Contact& contact, LCM::SurfacesIntersectData& data) {
   if (!springs_.exist() || !contact.touches) return compute(contact, data);
   const double before = springs_.squared_stretch(contact.history);
+  if (constants_.are_known()) springs_.stretch_by(contact.further_slip, contact.history);
   compute(contact, data);
   springs_.add(data.kt, before, springs_.squared_stretch(contact.history));
 }
@@ -62,6 +64,16 @@ double LiggghtsContactModel::hertz_damping(int particle) const {
   const bool in_body = wall_.fix_rigid() && wall_.body(particle) >= 0;
   const double mass = in_body ? wall_.masstotal(wall_.body(particle)) : atom_.rmass[particle];
   return of_pair(particle).damping * std::sqrt(mass);
+}
+
+// The rate as LIGGGHTS' surface models have it.
+contact::ContactModel::Shear LiggghtsContactModel::shear(const Contact& contact) const {
+  if (!springs_.exist() || !constants_.are_known()) return ContactModel::shear(contact);
+  const int i = contact.particle;
+  const Vector3 n = contact.delta / contact.distance, omega = Vector3::Map(atom_.omega[i]);
+  const double arm = atom_.radius[i] - 0.5 * contact.overlap;
+  const Vector3 slip = Vector3::Map(atom_.v[i]) - contact.wall_velocity + arm * n.cross(omega);
+  return {of_pair(i).shear, springs_.stretch(contact.history), slip};
 }
 
 }  // namespace liggghts_pkg

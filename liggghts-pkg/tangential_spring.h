@@ -27,9 +27,11 @@ class TangentialSprings {
   explicit TangentialSprings(int place) : place_(place) {}
 
   bool exist() const { return place_ >= 0; }
-  double squared_stretch(const double* history) const {
-    return nurbs::Vector3::Map(history + place_).squaredNorm();
+  nurbs::Vector3 stretch(const double* history) const { return nurbs::Vector3::Map(history + place_); }
+  void stretch_by(const nurbs::Vector3& slip, double* history) const {
+    Eigen::Map<nurbs::Vector3>{history + place_} += slip;
   }
+  double squared_stretch(const double* history) const { return stretch(history).squaredNorm(); }
 
   void begin_step() { before_ = now_ = 0.0; }
   /// Of one contact: stiffness [force/length], |xi|^2 before and after the models had it [length^2].

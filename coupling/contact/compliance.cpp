@@ -45,17 +45,11 @@ namespace {
 
 }  // namespace
 
-/// Of c with the centre's place.
-Vector3 ComplianceCorrection::gradient(const Contact& contact, const std::array<double, 2>& change) const {
-  const nurbs::MultiPatch& surface = wall_.surface();
-  const int patch = contact.foot.patch;
-  const Eigen::Matrix<double, 3, 2> motion =
-      foot_motion(surface.patch(patch), contact.foot.xi, {wall_.control_points(), undeformed_},
-                  surface.first_control_point(patch), wall_.to_frame_direction(contact.delta));
-  return wall_.to_space_direction(motion * Eigen::Vector2d(change[0], change[1]));
-}
-
 namespace {
+
+double mass_of(const ParticleView& particles, int i) {
+  return particles.mass ? particles.mass[i] : std::numeric_limits<double>::infinity();
+}
 
 /// What a contact keeps.
 double* memory_of(const ParticleView& particles, const Contact& contact) {
@@ -63,10 +57,15 @@ double* memory_of(const ParticleView& particles, const Contact& contact) {
   if (kept < 0)
     throw std::logic_error(
         fmt::format("slots of contacts have room for {} numbers, expected {} more than the contact model "
-                    "keeps, for those "
-                    "that are damped and corrected",
+                    "keeps, for those that are corrected and damped or have a spring along the surface",
                     particles.memory.history_count, ComplianceCorrection::kMemory));
   return contact.history + kept;
+}
+
+void forget_shear(const ParticleView& particles, const ComplianceCorrection::Time& now,
+                  const Contact& contact) {
+  if (!now.is_setup)
+    std::fill_n(memory_of(particles, contact) + DampedApproach::kMemory, ShearCompliance::kMemory, 0.0);
 }
 
 }  // namespace
@@ -107,6 +106,18 @@ bool ComplianceCorrection::damped(const ParticleView& particles, const Time& now
   return kept.is_on();
 }
 
+// As the wall now is.
+SurfaceDirections ComplianceCorrection::directions_at(const Contact& contact) const {
+  const nurbs::MultiPatch& surface = wall_.surface();
+  const int patch = contact.foot.patch;
+  const FootMotion motion =
+      foot_motion(surface.patch(patch), contact.foot.xi, {wall_.control_points(), undeformed_},
+                  surface.first_control_point(patch), wall_.to_frame_direction(contact.delta));
+  return {
+      wall_.to_space_direction(motion.first),
+      {wall_.to_space_direction(motion.gradients.col(0)), wall_.to_space_direction(motion.gradients.col(1))}};
+}
+
 void ComplianceCorrection::correct(const ParticleView& particles, const Time& now, const ContactModel& model,
                                    Contact& contact, Before& before) {
   const int i = contact.particle;
@@ -114,44 +125,76 @@ void ComplianceCorrection::correct(const ParticleView& particles, const Time& no
                D = model.hertz_damping(i) * std::sqrt(root);
   if (!(contact.overlap > 0.0) && !(D > 0.0 && DampedApproach::held_gap(memory_of(particles, contact)) > 0.0))
     return;
-  const coupling::LocalCompliance::Value c = compliance_.at(contact.foot);
+  const bool has_shear = !now.is_setup && model.shear(contact).constant > 0.0;
+  const coupling::LocalCompliance::Value c = compliance_.at(contact.foot, has_shear);
   const Vector3 n = contact.delta / contact.distance;
   const double approach = n.dot(contact.wall_velocity - particles.velocity(i));
   Seen seen;
   if (D > 0.0) {
-    const double mass = particles.mass ? particles.mass[i] : std::numeric_limits<double>::infinity();
-    contact.touches = damped(particles, now, {K, D, mass, c.normal}, approach, contact, seen);
-    if (!contact.touches) return;
+    const DampedLaw law = {K, D, mass_of(particles, i), c.normal.c};
+    contact.touches = damped(particles, now, law, approach, contact, seen);
+    if (!contact.touches) return forget_shear(particles, now, contact);
   } else {
-    seen = elastic(approach, K, c.normal, contact);
+    seen = elastic(approach, K, c.normal.c, contact);
   }
   if (seen.s >= kLargest) fail_as_too_fine(particles, now.step, contact, seen.s);
-  before.along = -0.5 * seen.force * seen.force * gradient(contact, c.change);
+  const SurfaceDirections directions = directions_at(contact);
+  before.along = -0.5 * seen.force * seen.force * directions.gradient(c.normal.change);
   before.tangent = 1.5 * K * std::sqrt(std::max(seen.x, now.dt * std::abs(seen.rate))) / (1.0 - seen.s);
   before.dashpot = seen.dashpot;
+  before.stiffness = 1.5 * K * std::sqrt(seen.x);
   contact.wall_velocity += (seen.rate - approach) * n;
   const double distance = contact.distance + contact.overlap - seen.x;
   contact.delta *= distance / contact.distance;
   contact.distance = distance;
   contact.overlap = seen.x;
+  if (has_shear) correct_shear(particles, now, model.shear(contact), c, directions, contact, before);
+}
+
+void ComplianceCorrection::correct_shear(const ParticleView& particles, const Time& now,
+                                         const ContactModel::Shear& shear,
+                                         const coupling::LocalCompliance::Value& c,
+                                         const SurfaceDirections& directions, Contact& contact,
+                                         Before& before) {
+  constexpr double kSphere = 2.0 / 7.0;  // of its mass is what moves its surface along itself
+  const double stiffness = shear.constant * std::sqrt(contact.effective_radius * contact.overlap);
+  const Vector3 n = contact.delta / contact.distance, slip = shear.slip - n.dot(shear.slip) * n;
+  before.shear.emplace(c, directions, n, stiffness);
+  const double share = before.shear->largest_share();
+  if (share >= kLargest) fail_as_too_fine(particles, now.step, contact, share);
+  // dampers of both directions have the same share of critical damping
+  before.shear_dashpot = before.dashpot * std::sqrt(stiffness / before.stiffness);
+  const double inertia = kSphere * mass_of(particles, contact.particle);
+  const ShearCompliance::Step seen = before.shear->begin(
+      {slip, slip + contact.wall_velocity, shear.stretch, before.shear_dashpot, inertia, now.dt},
+      memory_of(particles, contact) + DampedApproach::kMemory);
+  contact.wall_velocity -= seen.rate - slip;
+  contact.further_slip = seen.more;
 }
 
 void ComplianceCorrection::before(const ParticleView& particles, const Time& now, const ContactModel& model,
                                   Contact* begin, Contact* end) {
-  before_.clear();
+  before_.resize(end - begin);
   for (Contact* c = begin; c < end; ++c) {
     Contact& contact = *c;
-    Before& before =
-        before_.emplace_back(Before{contact.overlap, contact.distance, contact.touches, contact.delta,
-                                    contact.wall_velocity, Vector3::Zero(), 0.0, 0.0});
+    Before& before = before_[c - begin];
+    before = {contact.overlap, contact.distance, contact.touches, contact.delta, contact.wall_velocity};
     correct(particles, now, model, contact, before);
   }
 }
 
-void ComplianceCorrection::after(Contact* begin, Contact* end) {
+void ComplianceCorrection::after(const ParticleView& particles, const ContactModel& model, Contact* begin,
+                                 Contact* end) {
   for (Contact* c = begin; c < end; ++c) {
     Contact& contact = *c;
     const Before& before = before_[c - begin];
+    if (before.shear) {
+      const Vector3 stretch = model.shear(contact).stretch;
+      before.shear->end(stretch, memory_of(particles, contact) + DampedApproach::kMemory);
+      contact.force += before.shear->force_along(stretch);
+      contact.shear_tangent = before.shear->stiffness();
+      contact.shear_dashpot = before.shear_dashpot;
+    }
     contact.overlap = before.overlap;
     contact.distance = before.distance;
     contact.touches = before.touches;

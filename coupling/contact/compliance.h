@@ -7,14 +7,17 @@
 // so the two in series are stiffer than the law, by 1 / (1 - s), s = c dF/dx.  Their potential,
 // 2/5 K x^(5/2) - 1/2 c F^2, changes with the foot, too: a force -1/2 F^2 grad c along the surface belongs to
 // it, without which a contact that slides over elements is not conservative.  A law with damping keeps x from
-// step to step (damped_approach.h).
+// step to step (damped_approach.h), springs along the surface what the mesh gives way there
+// (shear_compliance.h).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "coupling/contact/contact_model.h"
 #include "coupling/contact/damped_approach.h"
 #include "coupling/contact/particle_view.h"
+#include "coupling/contact/shear_compliance.h"
 #include "coupling/contact/wall.h"
 #include "coupling/local_compliance.h"
 
@@ -39,20 +42,20 @@ class ComplianceCorrection {
       : compliance_(compliance), wall_(wall), undeformed_(wall.control_points()) {}
 
   /// Numbers that a contact keeps behind those of the model, in each slot of the particles' memory.
-  static constexpr int kMemory = DampedApproach::kMemory;
+  static constexpr int kMemory = DampedApproach::kMemory + ShearCompliance::kMemory;
   struct Time {
     long step;
     double dt;      ///< [time]
     bool is_setup;  ///< nothing has moved
   };
   /// Gives contacts the overlaps, and the rates of overlap, that the model shall see.  Throws
-  /// std::runtime_error: particle, place, step, if s is too large; std::logic_error if damped contacts have
-  /// no memory for it.
+  /// std::runtime_error: particle, place, step, if s is too large; std::logic_error if there is no room in
+  /// the memory.
   void before(const ParticleView& particles, const Time& now, const ContactModel& model, Contact* begin,
               Contact* end);
-  /// Takes the model's answers: contacts are what they were, forces have their part along the surface, and
-  /// Contact::tangent and Contact::dashpot are known.
-  void after(Contact* begin, Contact* end);
+  /// Takes the model's answers (`particles`, `model`: as before): contacts are what they were, forces
+  /// have their part along the surface, and Contact::tangent and Contact::dashpot are known.
+  void after(const ParticleView& particles, const ContactModel& model, Contact* begin, Contact* end);
   /// How far a particle's surface may be from its feet while a contact in one of these slots goes on
   /// [length].
   static double held_gap(const ParticleSlots& slots, int history_count);
@@ -62,8 +65,10 @@ class ComplianceCorrection {
     double overlap, distance;
     bool touches;
     Vector3 delta, wall_velocity;
-    Vector3 along;            // force [force]
-    double tangent, dashpot;  // [force/length], [force time/length]
+    Vector3 along = Vector3::Zero();            // force [force]
+    double tangent = 0.0, stiffness = 0.0;      // behind the mesh, and the law's own [force/length]
+    double dashpot = 0.0, shear_dashpot = 0.0;  // [force time/length]
+    std::optional<ShearCompliance> shear = std::nullopt;
   };
   /// What a law is called with, and what it is to answer.
   struct Seen {
@@ -77,7 +82,10 @@ class ComplianceCorrection {
               const Contact& contact, Seen& seen) const;
   void correct(const ParticleView& particles, const Time& now, const ContactModel& model, Contact& contact,
                Before& before);
-  Vector3 gradient(const Contact& contact, const std::array<double, 2>& change) const;
+  void correct_shear(const ParticleView& particles, const Time& now, const ContactModel::Shear& shear,
+                     const coupling::LocalCompliance::Value& c, const SurfaceDirections& directions,
+                     Contact& contact, Before& before);
+  SurfaceDirections directions_at(const Contact& contact) const;
 
   coupling::LocalCompliance& compliance_;
   const Wall& wall_;

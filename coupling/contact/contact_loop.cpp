@@ -320,7 +320,8 @@ inline Contact& ContactLoop::add_contact(const ParticleView& particles, int i,
   contact.centre = particles.centre(i);
   contact.delta = delta;
   contact.wall_velocity = v_wall;
-  contact.tangent = contact.dashpot = contact.missing = 0.0;
+  contact.missing = 0.0;
+  if (wall_.needs_forces()) contact.forget_stiffness();
   return contact;
 }
 

@@ -15,9 +15,10 @@ void ContactLoop::answer(const ParticleView& particles, const StepInfo& step, Co
                          ContactObserver* observer, std::size_t first) {
   if (first == contacts_.size()) return;
   Contact *const begin = &contacts_[first], *const end = contacts_.data() + contacts_.size();
-  if (correction_) correction_->before(particles, {step.number, step.dt, step.is_setup}, model, begin, end);
+  const ComplianceCorrection::Time now = {step.number, step.dt, step.is_setup};
+  if (correction_) correction_->before(particles, now, model, begin, end);
   model.evaluate(begin, static_cast<int>(end - begin));
-  if (correction_) correction_->after(begin, end);
+  if (correction_) correction_->after(particles, model, begin, end);
   bool are_plain = !wall_.needs_forces() && !observer;
   Vector3 sum = Vector3::Zero();  // not finite if one of them is not
   for (const Contact* contact = begin; contact < end; ++contact) {
@@ -37,7 +38,7 @@ double ContactLoop::ask_again(const ParticleView& particles, long step, ContactM
   if (correction_) correction_->before(particles, {step, 0.0, true}, model, &contact, &contact + 1);
   model.evaluate(&contact, 1);
   const double overlap = contact.overlap;
-  if (correction_) correction_->after(&contact, &contact + 1);
+  if (correction_) correction_->after(particles, model, &contact, &contact + 1);
   return overlap;
 }
 
@@ -87,11 +88,37 @@ void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step,
                              {on_body[0], on_body[1], on_body[2]}});
 }
 
+namespace {
+
+/// A contact's springs between a particle and a surface that gives way like masses, along the normal and
+/// along the surface, each with a damper that acts on the particle alone.
+struct ContactSprings {
+  double stiffness, dashpot, shear_stiffness, shear_dashpot;
+  double of_particle;  // 1 / mass
+
+  /// Squared frequency k / m, and gamma / m.
+  struct Frequency {
+    double squared, rate;
+    // Of a damper that sees half-step velocities: k dt^2 + 2 gamma dt = 4 m.
+    double stable_step() const { return 4.0 / (rate + std::sqrt(rate * rate + 4.0 * squared)); }
+  };
+  /// The one of the two with the smaller stable step.
+  Frequency highest(double of_wall) const {
+    constexpr double kSphere = 3.5;  // a sphere's surface gives way along itself like 2/7 of its mass
+    const double along = kSphere * of_particle;
+    const Frequency normal = {stiffness * (of_wall + of_particle), dashpot * of_particle},
+                    shear = {shear_stiffness * (of_wall + along), shear_dashpot * along};
+    return normal.stable_step() < shear.stable_step() ? normal : shear;
+  }
+};
+
+}  // namespace
+
 // A spring k between a particle and the surface has the squared frequency k (sum R_A^2 / m_A + 1 / m), and
 // the body's own stiffness only adds to the largest (Rayleigh's quotient), at most its own largest (Weyl):
 // beyond 4 / dt^2 the run blows up whatever the body, and below it together with the body's it does not.  k
 // is the secant of the law, no more than its tangent as overlaps grow; in the first step of a touch it is
-// that over the way of a step.  A dashpot that sees half-step velocities takes 2 gamma / (m dt) of 4 / dt^2.
+// that over the way of a step.  A dashpot takes 2 gamma / (m dt) of 4 / dt^2.
 void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
   const nurbs::NodalVectors& inverse_masses = wall_.inverse_masses();
   if (inverse_masses.cols() == 0) return;
@@ -99,21 +126,24 @@ void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& s
   const Vector3 n = contact.delta / contact.distance, v = particles.velocity(i) - contact.wall_velocity;
   const double depth = std::max(contact.overlap, step.dt * std::abs(n.dot(v)));
   const double stiffness = contact.tangent > 0.0 ? contact.tangent : n.dot(contact.force) / depth;
-  const double of_particle = particles.mass ? 1.0 / particles.mass[i] : 0.0,
-               rate = contact.dashpot * of_particle, limit = 4.0 / (step.dt * step.dt) - 2.0 * rate / step.dt;
+  const double of_particle = particles.mass ? 1.0 / particles.mass[i] : 0.0;
   expect_long(particles, step, contact, stiffness * of_particle, n.dot(v));
-  const double of_body = body_squared_frequency_;
-  if (!(stiffness * (wall_.largest_inverse_mass() + of_particle) + of_body > limit)) return;
-  const double of_wall = coupling::FootBasis(wall_.surface(), contact.foot).sum_of_squares(n, inverse_masses);
-  const double squared_frequency = stiffness * (of_wall + of_particle);
-  if (!(squared_frequency + of_body > limit)) return;
-  const auto stable_step = [&](double squared) {
-    return 4.0 / (rate + std::sqrt(rate * rate + 4.0 * squared));
+  const ContactSprings springs = {std::max(stiffness, 0.0), contact.dashpot, contact.shear_tangent,
+                                  contact.shear_dashpot, of_particle};
+  const auto is_stable = [&](ContactSprings::Frequency frequency, double of_body) {
+    frequency.squared += of_body;
+    return !(frequency.stable_step() < step.dt);
   };
-  if (!(squared_frequency > limit))
-    return stiff_.raise(particles.tag[i], particles.radius[i],
-                        2.0 / stable_step(squared_frequency + of_body));
-  const double stable = stable_step(squared_frequency);
+  const double of_body = body_squared_frequency_;
+  if (is_stable(springs.highest(wall_.largest_inverse_mass()), of_body)) return;
+  const double of_wall = coupling::FootBasis(wall_.surface(), contact.foot).sum_of_squares(n, inverse_masses);
+  ContactSprings::Frequency frequency = springs.highest(of_wall);
+  if (is_stable(frequency, of_body)) return;
+  const double stable = frequency.stable_step();
+  if (is_stable(frequency, 0.0)) {
+    frequency.squared += of_body;
+    return stiff_.raise(particles.tag[i], particles.radius[i], 2.0 / frequency.stable_step());
+  }
   throw std::runtime_error(
       fmt::format("the contact of particle {} is too stiff for the timestep {:.6g} at step {}: stiffness "
                   "{:.4g} between a particle of mass {:.4g} and a surface that gives way there like a mass "

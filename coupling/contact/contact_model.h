@@ -12,7 +12,11 @@ using nurbs::Vector3;
 
 /// One contact in one step, in space.
 struct Contact {
-  Contact() {}               // not set to zero first
+  Contact() {}  // not set to zero first
+  void forget_stiffness() {
+    further_slip.setZero();
+    tangent = dashpot = shear_tangent = shear_dashpot = 0.0;
+  }
   int particle;              ///< of this rank, in this step
   int tag;                   ///< of the particle
   int slot;                  ///< of the particle's memory
@@ -25,10 +29,15 @@ struct Contact {
   Vector3 centre;            ///< of the particle [length]
   Vector3 delta;             ///< from the foot to the centre [length]
   Vector3 wall_velocity;     ///< at the foot [length/time]
+  Vector3 further_slip;      ///< of this step, beside that of the velocities; springs add it to their stretch
+                             ///< [length]
   double* history;           ///< what the model keeps of this contact, in this step; null if it keeps nothing
-  double tangent;            ///< d(force)/d(overlap), if it is known beside the answer; else 0 [force/length]
   double missing;            ///< share of the force, as MeshEstimate has it; 0 where there is none [-]
-  double dashpot;  ///< likewise by the particle's speed: damping, not in `tangent` [force time/length]
+  // Of a wall that needs forces, beside the answer; 0: not known
+  double tangent;        ///< d(force)/d(overlap) [force/length]
+  double dashpot;        ///< of damping, by the particle's speed alone [force time/length]
+  double shear_tangent;  ///< along the surface [force/length]
+  double shear_dashpot;  ///< along the surface, of the particle's speed [force time/length]
 
   // The model's answer:
   Vector3 force;   ///< on the particle [force]
@@ -46,6 +55,13 @@ class ContactModel {
   virtual double hertz_constant(int /*particle*/) const { return std::numeric_limits<double>::quiet_NaN(); }
   /// D / r*^(1/4) [force time/length^(3/2)] of such a particle whose damping is D x^(1/4) dx/dt.
   virtual double hertz_damping(int /*particle*/) const { return 0.0; }
+  /// A spring along the surface of such a contact, as Mindlin's, that is kept from step to step.
+  struct Shear {
+    double constant;  ///< stiffness / (r* overlap)^(1/2) [pressure]; 0: there is none
+    Vector3 stretch;  ///< [length]
+    Vector3 slip;     ///< how fast the particle's surface slides over the foot [length/time]
+  };
+  virtual Shear shear(const Contact& /*contact*/) const { return {0.0, Vector3::Zero(), Vector3::Zero()}; }
 };
 
 /// Hears of contacts that touch or have a force, after they have it.

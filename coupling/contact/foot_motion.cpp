@@ -101,8 +101,8 @@ void divide_by_weight(Sums& sums) {
 
 }  // namespace
 
-Eigen::Matrix<double, 3, 2> foot_motion(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi,
-                                        const Places& X, int first, const Vector3& delta) {
+FootMotion foot_motion(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const Places& X,
+                       int first, const Vector3& delta) {
   Sums found =
       space.rational() ? sums<true>(space, xi, X, first, delta) : sums<false>(space, xi, X, first, delta);
   if (space.rational()) divide_by_weight(found);
@@ -114,7 +114,7 @@ Eigen::Matrix<double, 3, 2> foot_motion(const nurbs::Space<2>& space, const nurb
   M(1, 1) -= bend[2];
   M(0, 1) -= bend[1];
   M(1, 0) -= bend[1];
-  return tangents * M.inverse();
+  return {tangents.col(0), tangents * M.inverse()};
 }
 
 }  // namespace contact

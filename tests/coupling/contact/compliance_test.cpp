@@ -29,11 +29,13 @@ constexpr double kLargest = contact::ComplianceCorrection::kLargest;
 class Ripples final : public coupling::LocalCompliance {
  public:
   Ripples(double c0, double ripple) : c0_(c0), ripple_(ripple) {}
-  Value at(const nurbs::SurfacePoint& foot) override {
+  Value at(const nurbs::SurfacePoint& foot, bool /*with_shear*/) override {
     const double k = nurbs::kTwoPi * kSide, x = k * foot.xi[0], y = k * foot.xi[1];
-    return {c0_ * (1.0 + ripple_ * std::sin(x) * std::cos(y)),
-            {c0_ * ripple_ * k * std::cos(x) * std::cos(y), -c0_ * ripple_ * k * std::sin(x) * std::sin(y)}};
+    return {{c0_ * (1.0 + ripple_ * std::sin(x) * std::cos(y)),
+             {c0_ * ripple_ * k * std::cos(x) * std::cos(y), -c0_ * ripple_ * k * std::sin(x) * std::sin(y)}},
+            along};
   }
+  std::array<Component, 3> along = {};
 
  private:
   double c0_, ripple_;
@@ -269,7 +271,7 @@ TEST(ComplianceCorrection, DampedContactsNeedRoomInTheMemory) {
   scene.balls.add({0.3, 0.2, kRadius - 0.01}, kRadius);
   scene.model.damping = 1.0;
   EXPECT_THAT([&] { scene.begin(); },
-              ThrowsMessage<std::logic_error>(HasSubstr("room for 0 numbers, expected 2 more")));
+              ThrowsMessage<std::logic_error>(HasSubstr("room for 0 numbers, expected 8 more")));
 }
 
 TEST(ComplianceCorrection, SaysWhereElementsAreTooSmall) {
