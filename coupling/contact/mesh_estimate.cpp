@@ -38,6 +38,7 @@ std::unique_ptr<MeshEstimate> MeshEstimate::of(const coupling::StructureSolver& 
     if (!solid) return nullptr;
     solids.push_back(*solid);
   }
+  if (solids.empty()) return nullptr;  // of faces
   return std::unique_ptr<MeshEstimate>(new MeshEstimate(surface, std::move(solids), control_points));
 }
 
