@@ -162,13 +162,14 @@ void Minima::add_of_vertex(int v, int face) {
   }
 }
 
-// Not uphill along an edge from its end; square above an arc d can be beyond its centre.
+// Not uphill along an edge from its end; square above an arc d can be beyond its centre, and where ends were
+// made one point the whole arc passes that by the slack.
 bool Minima::is_off_ray(int ray, const Vector3& w) const {
   const double along = ray_direction(surface_, ray).dot(w);
   if (along > corner_slack_) return false;
   const Edge& edge = surface_.edges[surface_.uses[ray / 2].edge];
   return along < -corner_slack_ || edge.line() ||
-         w.squaredNorm() <= (1.0 + kSame) * EdgeFoot(edge, d_).distance2();
+         w.norm() <= (1.0 + kSame) * std::sqrt(EdgeFoot(edge, d_).distance2()) + corner_slack_;
 }
 
 bool Minima::in_group(const Vertex& vertex, int group, const Vector3& w) const {

@@ -112,6 +112,21 @@ class Trial {
     return most;
   }
 
+  // BRepExtrema sees the faces' own borders where they were sewn: as far from the common edge as its
+  // tolerance, so that our point is no more than that farther.
+  bool is_sewn_there(const Vector3& d, double off) {
+    const step_parts::Point at = judge_.nearest({d[0], d[1], d[2]}).point;
+    const Vector3 point(at[0], at[1], at[2]);
+    near_.clear();
+    search_.near(point, tolerance_, near_);
+    return std::any_of(near_.begin(), near_.end(), [&](int number) {
+      const brep::Piece& piece = wall_.pieces[number];
+      if (piece.kind != brep::Piece::Kind::edge) return false;
+      const double slack = wall_.slack_of_edge(piece.edge[0]);
+      return off <= slack && search_.nearest(point, tolerance_, &number, 1) <= slack;
+    });
+  }
+
   // Of points inside of faces, and of planes, cylinders, cones, spheres and tori above all, borders'
   // tolerance is of no account.
   double tolerance_of(const Judged& judged, const brep::Foot* least) const {
@@ -141,7 +156,10 @@ class Trial {
         least != nullptr && (samples_ ? std::abs(ours - exact(d)) <= tolerance
                                       : ours < judged.distance && exact(least->point) <= tolerance_);
     if (is_right) return void(++theirs_missed_);
-    if (samples_ && least != nullptr && off <= tolerance_beside_edges(*least)) return void(++beside_edges_);
+    const bool is_beside =
+        least != nullptr && (samples_ ? off <= tolerance_beside_edges(*least)
+                                      : exact(least->point) <= tolerance && is_sewn_there(d, off));
+    if (is_beside) return void(++beside_edges_);
     if (++misses_ <= 5)
       fmt::print("  ({:.17g}, {:.17g}, {:.17g}): {} feet, nearest at {:.14g}, the judge's at {:.14g}\n", d[0],
                  d[1], d[2], feet_.size(), ours, judged.distance);
