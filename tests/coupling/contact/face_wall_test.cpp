@@ -269,7 +269,8 @@ TEST(FaceWall, SteadyContactsKnowTheirFaces) {
   const Vector3 flat = Vector3::UnitZ(), slanted = Vector3(-kSlope, 0, 1).normalized();
   Balls balls;
   for (int k = 0; k < 6; ++k) {
-    const double x = 1.0 + 0.4 * (k / 2), y = k - 2.5;
+    const int row = k / 2;
+    const double x = 1.0 + 0.4 * row, y = k - 2.5;
     balls.add(k % 2 == 0 ? Vector3(Vector3(-x, y, 0) + kHeight * flat)
                          : Vector3(Vector3(x, y, kSlope * x) + kHeight * slanted),
               kRadius);

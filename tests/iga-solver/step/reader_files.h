@@ -17,12 +17,14 @@
 namespace step_parts {
 
 class Files : public testing::Test {
+ public:
+  ~Files() override { std::filesystem::remove_all(folder_); }
+
  protected:
   Files() : folder_(testing::TempDir() + "step_reader." + std::to_string(getpid())) {
     step_parts::silence();
     std::filesystem::create_directories(folder_);
   }
-  ~Files() override { std::filesystem::remove_all(folder_); }
 
   std::string path(const std::string& file) const { return folder_ + "/" + file; }
   std::string bytes(const std::string& file) const {

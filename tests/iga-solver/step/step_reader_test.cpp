@@ -29,7 +29,6 @@ using brep::CadFace;
 using brep::CadModel;
 using brep::Vector3;
 using geometry_io::area_of;
-using geometry_io::distance_to;
 using geometry_io::normal_of;
 using geometry_io::point_of;
 using step_parts::check_borders;
