@@ -86,7 +86,7 @@ MISSED_RESTITUTION = (("Z3", 1.0, "corner"), ("Z3", 0.5, "corner"))
 SAME_MESH_TOLERANCES = (3e-4, 5e-4)
 SPREAD_TOLERANCES = (0.002, 0.003)
 SPREAD_OF_FINE = ("Z3",)  # without elements as large as the plate is thick: the longer the contact the more their waves count
-REFUSED = (("Z3", 0.125, "centre"),)  # too small for the contact: s comes to 0.7
+REFUSED = (("Z3", 0.125, "centre"),)  # too small for the contact: s comes to 0.9
 
 
 def impact(values: Values) -> hertz.Impact:
