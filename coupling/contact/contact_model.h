@@ -29,19 +29,21 @@ struct Contact {
   Vector3 centre;            ///< of the particle [length]
   Vector3 delta;             ///< from the foot to the centre [length]
   Vector3 wall_velocity;     ///< at the foot [length/time]
-  Vector3 further_slip;      ///< of this step, beside that of the velocities; springs add it to their stretch
-                             ///< [length]
   double* history;           ///< what the model keeps of this contact, in this step; null if it keeps nothing
   double missing;            ///< share of the force, as MeshEstimate has it; 0 where there is none [-]
-  // Of a wall that needs forces, beside the answer; 0: not known
-  double tangent;        ///< d(force)/d(overlap) [force/length]
-  double dashpot;        ///< of damping, by the particle's speed alone [force time/length]
-  double shear_tangent;  ///< along the surface [force/length]
-  double shear_dashpot;  ///< along the surface, of the particle's speed [force time/length]
 
   // The model's answer:
   Vector3 force;   ///< on the particle [force]
   Vector3 torque;  ///< likewise, about its centre [force length]
+
+  // Of a wall that needs forces, else not set; 0: not known (last, so that other walls need not have it at
+  // hand):
+  Vector3 further_slip;  ///< of this step, beside that of the velocities; springs add it to their stretch
+                         ///< [length]
+  double tangent;        ///< d(force)/d(overlap) [force/length]
+  double dashpot;        ///< of damping, by the particle's speed alone [force time/length]
+  double shear_tangent;  ///< along the surface [force/length]
+  double shear_dashpot;  ///< along the surface, of the particle's speed [force time/length]
 };
 
 /// A law of contact, normal and tangential: a DEM code's own, or a spring.
