@@ -42,64 +42,41 @@ struct Joint {
 class Joiner {
  public:
   Joiner(CadModel& model, const std::vector<int>& solids, double tolerance)
-      : model_(model), solids_(solids), tolerance_(tolerance), uses_(uses_of_edges(model)) {}
+      : model_(model), edges_(model, solids), tolerance_(tolerance), domains_(model.faces.size()) {}
 
   Sewn join() {
-    take_edges();
     find_places();
-    for (size_t i = 0; i < edges_.size(); ++i)
-      if (is_free(static_cast<int>(i))) find_joints(static_cast<int>(i));
+    for (int i = 0; i < edges_.count(); ++i)
+      if (edges_.is_free(i)) find_joints(i);
     if (!joints_.empty()) cut_and_lay_in();
     return result_;
   }
 
  private:
-  bool is_free(int i) const { return uses_[edges_[i]].size() == 1; }
-
-  bool is_of_sheets(const brep::CadFace& face) const {
-    return std::find(solids_.begin(), solids_.end(), face.solid) != solids_.end();
-  }
-
-  void take_edges() {
-    for (size_t e = 0; e < uses_.size(); ++e) {
-      if (uses_[e].empty() || !is_of_sheets(model_.faces[uses_[e].front().face])) continue;
-      edges_.push_back(static_cast<int>(e));
-      curves_.emplace_back(model_.edges[e]);
-      const EdgeCurve& curve = curves_.back();
-      places_.push_back({{curve.begin(), {}}, {curve.end(), {}}});
-      search::Box box{curve.point(curve.begin()), curve.point(curve.begin())};
-      for (int k = 1; k <= kLooks; ++k) {
-        const Vector3 p = curve.point(at_part(curve, static_cast<double>(k) / kLooks));
-        box.low = box.low.cwiseMin(p), box.high = box.high.cwiseMax(p);
-      }
-      box.inflate(tolerance_ + step_of(curve));
-      boxes_.push_back(box);
-    }
-    domains_.resize(model_.faces.size());
-  }
   static double at_part(const EdgeCurve& curve, double part) {
     return curve.begin() + part * (curve.end() - curve.begin());
   }
-  static double step_of(const EdgeCurve& curve) {
-    double step = 0.0;
-    for (int k = 0; k < kLooks; ++k)
-      step = std::max(step, (curve.point(at_part(curve, (k + 1.0) / kLooks)) -
-                             curve.point(at_part(curve, static_cast<double>(k) / kLooks)))
-                                .norm());
-    return step;
-  }
 
   void find_places() {
-    for_box_pairs(boxes_, [&](int i, int j) {
-      if (is_free(i)) find_near(i, j);
-      if (is_free(j)) find_near(j, i);
+    std::vector<search::Box> boxes;
+    for (int i = 0; i < edges_.count(); ++i) {
+      const EdgeCurve& curve = edges_.curve(i);
+      places_.push_back({{curve.begin(), {}}, {curve.end(), {}}});
+      std::vector<Vector3> points;
+      for (int k = 0; k <= kLooks; ++k)
+        points.push_back(curve.point(at_part(curve, static_cast<double>(k) / kLooks)));
+      boxes.push_back(box_along(points, tolerance_));
+    }
+    for_box_pairs(boxes, [&](int i, int j) {
+      if (edges_.is_free(i)) find_near(i, j);
+      if (edges_.is_free(j)) find_near(j, i);
     });
-    for (size_t i = 0; i < places_.size(); ++i) gather(static_cast<int>(i));
+    for (int i = 0; i < edges_.count(); ++i) gather(i);
   }
 
   // Where edge i comes nearest to edge j, if within the tolerance; not where it runs along it.
   void find_near(int i, int j) {
-    const EdgeCurve &curve = curves_[i], &other = curves_[j];
+    const EdgeCurve &curve = edges_.curve(i), &other = edges_.curve(j);
     const auto place = [&](double t) { return other.nearest(curve.point(t), other.begin(), other.end()); };
     std::vector<double> away;
     for (int k = 0; k <= kLooks; ++k)
@@ -129,12 +106,13 @@ class Joiner {
   void gather(int i) {
     std::vector<Place>& places = places_[i];
     std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) { return a.t < b.t; });
-    const double first = curves_[i].begin(), last = curves_[i].end();
+    const EdgeCurve& curve = edges_.curve(i);
+    const double first = curve.begin(), last = curve.end();
     std::vector<Place> gathered;
     for (Place& place : places) {
       const auto is_same = [&](const Place& known) {  // not if they are the two ends of a closed one
         return place.t - known.t < 0.5 * (last - first) &&
-               (curves_[i].point(place.t) - curves_[i].point(known.t)).norm() <= tolerance_;
+               (curve.point(place.t) - curve.point(known.t)).norm() <= tolerance_;
       };
       const bool same = !gathered.empty() && is_same(gathered.back());
       if (!same) {
@@ -150,11 +128,11 @@ class Joiner {
 
   void find_joints(int i) {
     constexpr double kShort = 8.0;  // over the tolerance
+    const EdgeCurve& curve = edges_.curve(i);
     for (size_t k = 0; k + 1 < places_[i].size(); ++k) {
       const double from = places_[i][k].t, to = places_[i][k + 1].t;
-      const Vector3 middle = curves_[i].point(0.5 * (from + to));
-      if ((curves_[i].point(from) - middle).norm() + (curves_[i].point(to) - middle).norm() <
-          kShort * tolerance_)
+      const Vector3 middle = curve.point(0.5 * (from + to));
+      if ((curve.point(from) - middle).norm() + (curve.point(to) - middle).norm() < kShort * tolerance_)
         continue;
       for (size_t f = 0; f < model_.faces.size(); ++f)
         if (lies_on(i, from, to, static_cast<int>(f))) {
@@ -168,12 +146,12 @@ class Joiner {
     constexpr int kInner = 15;
     constexpr double kFlat = 0.02;  // [rad]
     const brep::CadFace& face = model_.faces[f];
-    const TrimPlace& own = uses_[edges_[i]].front();
-    if (!is_of_sheets(face) || face.shape.kind == brep::Kind::nurbs || own.face == f) return false;
+    const TrimPlace& own = edges_.uses(i).front();
+    if (!edges_.has(face) || face.shape.kind == brep::Kind::nurbs || own.face == f) return false;
     for (int k = 0; k < kInner; ++k) {
       const double t =
           from + (to - from) * ((k + kInner / 2) % kInner + 1) / (kInner + 1);  // the middle first
-      const Vector3 p = curves_[i].point(t), tangent = curves_[i].tangent(t);
+      const Vector3 p = edges_.curve(i).point(t), tangent = edges_.curve(i).tangent(t);
       const brep::Projection foot = face.shape.project(p);
       if (std::abs(foot.height) > tolerance_) return false;
       if (!domains_[f]) domains_[f].emplace(face.loops);
@@ -188,23 +166,24 @@ class Joiner {
 
   // The vertex of an edge there, which is cut if it has none.
   int vertex_at(int i, double t) {
-    const Vector3 p = curves_[i].point(t);
-    const int* ends = model_.edges[edges_[i]].vertex;
-    for (int end = 0; end < 2; ++end)
-      if ((curves_[i].point(end == 0 ? curves_[i].begin() : curves_[i].end()) - p).norm() <= tolerance_)
-        return ends[end];
-    std::vector<Cut>& cuts = cuts_[edges_[i]];
+    const EdgeCurve& curve = edges_.curve(i);
+    const Vector3 p = curve.point(t);
+    const auto is_there = [&](double s) { return (curve.point(s) - p).norm() <= tolerance_; };
+    const int* ends = model_.edges[edges_.in_model(i)].vertex;
+    if (is_there(curve.begin())) return ends[0];
+    if (is_there(curve.end())) return ends[1];
+    std::vector<Cut>& cuts = cuts_[edges_.in_model(i)];
     for (const Cut& cut : cuts)
-      if ((curves_[i].point(cut.t) - p).norm() <= tolerance_) return cut.vertex;
+      if (is_there(cut.t)) return cut.vertex;
     cuts.push_back({t, static_cast<int>(model_.vertices.size())});
-    model_.vertices.push_back({p, model_.edges[edges_[i]].tolerance});
+    model_.vertices.push_back({p, model_.edges[edges_.in_model(i)].tolerance});
     return cuts.back().vertex;
   }
 
   bool bounds(int i, int face) const {
     const auto of_face = [&](const TrimPlace& use) { return use.face == face; };
     const auto laid_in = [&](const Joint& joint) { return joint.edge == i && joint.face == face; };
-    return std::any_of(uses_[edges_[i]].begin(), uses_[edges_[i]].end(), of_face) ||
+    return std::any_of(edges_.uses(i).begin(), edges_.uses(i).end(), of_face) ||
            std::any_of(joints_.begin(), joints_.end(), laid_in);
   }
 
@@ -224,13 +203,13 @@ class Joiner {
     brep::DisjointSets vertices(static_cast<int>(model_.vertices.size()));
     for (const auto& [a, b] : same) vertices.join(a, b);
     merge_vertices(model_, vertices);
-    for (const Joint& joint : joints_) lay_in(joint, parts[edges_[joint.edge]]);
+    for (const Joint& joint : joints_) lay_in(joint, parts[edges_.in_model(joint.edge)]);
   }
 
   void lay_in(const Joint& joint, const std::vector<int>& parts) {
     const std::vector<Place>& places = places_[joint.edge];
     const double middle = 0.5 * (places[joint.place].t + places[joint.place + 1].t);
-    const std::vector<Cut>& cuts = cuts_[edges_[joint.edge]];
+    const std::vector<Cut>& cuts = cuts_[edges_.in_model(joint.edge)];
     const auto before = [&](const Cut& cut) { return cut.t < middle; };
     const int edge = parts[std::count_if(cuts.begin(), cuts.end(), before)];
     brep::CadFace& face = model_.faces[joint.face];
@@ -244,12 +223,8 @@ class Joiner {
   }
 
   CadModel& model_;
-  const std::vector<int>& solids_;
+  const SheetEdges edges_;
   const double tolerance_;
-  const std::vector<std::vector<TrimPlace>> uses_;  // before anything is cut
-  std::vector<int> edges_;                          // of the sheet; what follows has numbers of these
-  std::vector<EdgeCurve> curves_;
-  std::vector<search::Box> boxes_;
   std::vector<std::vector<Place>> places_;
   std::vector<std::optional<brep::TrimDomain>> domains_;  // of faces
   std::vector<Joint> joints_;
@@ -260,9 +235,7 @@ class Joiner {
 }  // namespace
 
 Sewn join_to_faces(CadModel& model, const std::vector<int>& solids, double tolerance) {
-  const Sewn joined = Joiner(model, solids, tolerance).join();
-  drop_unused(model);
-  return joined;
+  return Joiner(model, solids, tolerance).join();
 }
 
 }  // namespace geometry_io

@@ -45,28 +45,13 @@ struct Match {
   double apart;
 };
 
-template <class Points>
-search::Box box_of(const Points& points, double by) {
-  search::Box box{points[0], points[0]};
-  double step = 0.0;
-  for (size_t k = 1; k < points.size(); ++k) {
-    box.low = box.low.cwiseMin(points[k]);
-    box.high = box.high.cwiseMax(points[k]);
-    step = std::max(step, (points[k] - points[k - 1]).norm());
-  }
-  box.inflate(by + 0.5 * step);  // between samples
-  return box;
-}
-
 class Sewer {
  public:
   Sewer(CadModel& model, const std::vector<int>& solids, double tolerance)
-      : model_(model), solids_(solids), tolerance_(tolerance), uses_(uses_of_edges(model)) {}
+      : model_(model), edges_(model, solids), tolerance_(tolerance) {}
 
   Sewn sew() {
-    take_edges();
-    const auto free = [&](int edge) { return is_free(edge); };
-    if (std::none_of(edges_.begin(), edges_.end(), free)) return result_;
+    if (!edges_.is_any_free()) return result_;
     find_places();
     make_spans();
     find_matches();
@@ -76,43 +61,29 @@ class Sewer {
   }
 
  private:
-  bool is_free(int edge) const { return uses_[edge].size() == 1; }
-
-  bool is_of_sheets(const brep::CadFace& face) const {
-    return std::find(solids_.begin(), solids_.end(), face.solid) != solids_.end();
-  }
-
-  void take_edges() {
-    for (size_t e = 0; e < uses_.size(); ++e) {
-      const auto of_sheet = [&](const TrimPlace& use) { return is_of_sheets(model_.faces[use.face]); };
-      if (!std::any_of(uses_[e].begin(), uses_[e].end(), of_sheet)) continue;
-      edges_.push_back(static_cast<int>(e));
-      curves_.emplace_back(model_.edges[e]);
-    }
-    places_.resize(edges_.size());
-  }
-
   std::array<Vector3, kSamples> samples(int i, double from, double to) const {
     std::array<Vector3, kSamples> points;
-    for (int k = 0; k < kSamples; ++k) points[k] = curves_[i].point(from + (to - from) * k / (kSamples - 1));
+    for (int k = 0; k < kSamples; ++k)
+      points[k] = edges_.curve(i).point(from + (to - from) * k / (kSamples - 1));
     return points;
   }
 
   // Where another edge begins or ends beside this one, and one of them is free.
   void find_places() {
+    places_.resize(edges_.count());
     std::vector<search::Box> boxes;
-    for (size_t i = 0; i < edges_.size(); ++i)
-      boxes.push_back(box_of(samples(static_cast<int>(i), curves_[i].begin(), curves_[i].end()), tolerance_));
+    for (int i = 0; i < edges_.count(); ++i)
+      boxes.push_back(box_along(samples(i, edges_.curve(i).begin(), edges_.curve(i).end()), tolerance_));
     for_box_pairs(boxes, [&](int i, int j) {
-      if (!is_free(edges_[i]) && !is_free(edges_[j])) return;
+      if (!edges_.is_free(i) && !edges_.is_free(j)) return;
       for (const auto& [on, of] : {std::pair{i, j}, std::pair{j, i}})
-        for (const double end : {curves_[of].begin(), curves_[of].end()})
-          add_place(on, curves_[of].point(end));
+        for (const double end : {edges_.curve(of).begin(), edges_.curve(of).end()})
+          add_place(on, edges_.curve(of).point(end));
     });
   }
 
   void add_place(int i, const Vector3& point) {
-    const EdgeCurve& curve = curves_[i];
+    const EdgeCurve& curve = edges_.curve(i);
     for (const double end : {curve.begin(), curve.end()})
       if ((curve.point(end) - point).norm() <= tolerance_) return;
     const CurvePlace place = curve.nearest(point, curve.begin(), curve.end());
@@ -121,8 +92,8 @@ class Sewer {
 
   // Places nearer to each other, or to an end, than the tolerance are one.
   void make_spans() {
-    for (size_t i = 0; i < edges_.size(); ++i) {
-      const EdgeCurve& curve = curves_[i];
+    for (int i = 0; i < edges_.count(); ++i) {
+      const EdgeCurve& curve = edges_.curve(i);
       std::sort(places_[i].begin(), places_[i].end());
       std::vector<double> ends{curve.begin()};
       for (const double t : places_[i])
@@ -131,15 +102,15 @@ class Sewer {
           ends.push_back(t);
       ends.push_back(curve.end());
       first_span_.push_back(static_cast<int>(spans_.size()));
-      const int* vertex = model_.edges[edges_[i]].vertex;
+      const int* vertex = model_.edges[edges_.in_model(i)].vertex;
       for (size_t k = 0; k + 1 < ends.size(); ++k) {
         const bool last = k + 2 == ends.size();
-        Span span{static_cast<int>(i), ends[k], ends[k + 1], {vertex[0], vertex[1]}, {}, {k > 0, !last}};
+        Span span{i, ends[k], ends[k + 1], {vertex[0], vertex[1]}, {}, {k > 0, !last}};
         span.points = samples(span.edge, span.from, span.to);
         if (k > 0) span.vertex[0] = spans_.back().vertex[1];
         if (!last) {
           span.vertex[1] = static_cast<int>(model_.vertices.size());
-          model_.vertices.push_back({curve.point(span.to), model_.edges[edges_[i]].tolerance});
+          model_.vertices.push_back({curve.point(span.to), model_.edges[edges_.in_model(i)].tolerance});
         }
         spans_.push_back(span);
       }
@@ -149,7 +120,7 @@ class Sewer {
 
   void find_matches() {
     std::vector<search::Box> boxes;
-    for (const Span& span : spans_) boxes.push_back(box_of(span.points, tolerance_));
+    for (const Span& span : spans_) boxes.push_back(box_along(span.points, tolerance_));
     for_box_pairs(boxes, [&](int i, int j) {
       if (const auto found = match(std::min(i, j), std::max(i, j)))
         matches_.emplace(std::pair{found->span[0], found->span[1]}, *found);
@@ -158,11 +129,12 @@ class Sewer {
 
   std::optional<Match> match(int i, int j) const {
     const Span &a = spans_[i], &b = spans_[j];
-    if (a.edge == b.edge || (!is_free(edges_[a.edge]) && !is_free(edges_[b.edge]))) return {};
+    if (a.edge == b.edge || (!edges_.is_free(a.edge) && !edges_.is_free(b.edge))) return {};
     constexpr int kMiddle = kSamples / 2;
-    const CurvePlace beside = curves_[b.edge].nearest(a.points[kMiddle], b.from, b.to);
+    const CurvePlace beside = edges_.curve(b.edge).nearest(a.points[kMiddle], b.from, b.to);
     if (beside.distance > tolerance_) return {};
-    const bool turned = curves_[a.edge].tangent(a.at(0.5)).dot(curves_[b.edge].tangent(beside.t)) < 0.0;
+    const bool turned =
+        edges_.curve(a.edge).tangent(a.at(0.5)).dot(edges_.curve(b.edge).tangent(beside.t)) < 0.0;
     for (int end = 0; end < 2; ++end)  // of which each may stand for others that are as near
       if ((a.points[end * (kSamples - 1)] - b.points[(end != (turned ? 1 : 0)) * (kSamples - 1)]).norm() >
           2.0 * tolerance_)
@@ -170,8 +142,8 @@ class Sewer {
     double apart = 0.0;
     for (const auto& [one, other] : {std::pair{&a, &b}, std::pair{&b, &a}})
       for (int k = 2; k < kSamples - 1 && apart <= tolerance_; k += 2)
-        apart =
-            std::max(apart, curves_[other->edge].nearest(one->points[k], other->from, other->to).distance);
+        apart = std::max(apart,
+                         edges_.curve(other->edge).nearest(one->points[k], other->from, other->to).distance);
     constexpr double kWide = 0.25;  // over their length
     if (apart > std::min(tolerance_, kWide * std::min(a.length(), b.length())) || fold(a, b)) return {};
     return Match{{i, j}, turned, apart};
@@ -179,15 +151,15 @@ class Sewer {
 
   // Whether faces on both lie back on each other, or are one that is narrower than the tolerance.
   bool fold(const Span& a, const Span& b) const {
-    for (const TrimPlace& with : uses_[edges_[a.edge]])
-      for (const TrimPlace& beside : uses_[edges_[b.edge]])
+    for (const TrimPlace& with : edges_.uses(a.edge))
+      for (const TrimPlace& beside : edges_.uses(b.edge))
         for (const double part : {0.25, 0.5, 0.75})
           if (fold(a, with, b, beside, part)) return true;
     return false;
   }
   bool fold(const Span& a, const TrimPlace& with, const Span& b, const TrimPlace& beside, double part) const {
     constexpr double kFolded = 0.02;  // [rad]
-    const EdgeCurve &one = curves_[a.edge], &other = curves_[b.edge];
+    const EdgeCurve &one = edges_.curve(a.edge), &other = edges_.curve(b.edge);
     const double s = a.at(part), t = other.nearest(one.point(s), b.from, b.to).t;
     const BorderCurve border[2] = {border_of(with), border_of(beside)};
     const double at[2] = {border[0].beside(one.point(s), one.tangent(s)),
@@ -278,27 +250,25 @@ class Sewer {
   std::vector<int> cut() {
     const auto joined = [&](int k) { return groups_[group_of_[k]].size() > 1; };
     std::vector<std::vector<Cut>> cuts(model_.edges.size());
-    for (size_t i = 0; i < edges_.size(); ++i)
+    for (int i = 0; i < edges_.count(); ++i)
       for (int k = first_span_[i]; k + 1 < first_span_[i + 1]; ++k)
-        if (joined(k) || joined(k + 1)) cuts[edges_[i]].push_back({spans_[k].to, spans_[k].vertex[1]});
+        if (joined(k) || joined(k + 1))
+          cuts[edges_.in_model(i)].push_back({spans_[k].to, spans_[k].vertex[1]});
     const std::vector<std::vector<int>> parts = cut_edges(model_, cuts);
     std::vector<int> edge_of(spans_.size(), -1);
-    for (size_t i = 0; i < edges_.size(); ++i) {
+    for (int i = 0; i < edges_.count(); ++i) {
       size_t part = 0;
       for (int k = first_span_[i]; k < first_span_[i + 1]; ++k) {
         if (k > first_span_[i] && (joined(k - 1) || joined(k))) ++part;
-        edge_of[k] = parts[edges_[i]][part];
+        edge_of[k] = parts[edges_.in_model(i)][part];
       }
     }
     return edge_of;
   }
 
   CadModel& model_;
-  const std::vector<int>& solids_;
+  const SheetEdges edges_;
   const double tolerance_;
-  const std::vector<std::vector<TrimPlace>> uses_;  // before anything is cut
-  std::vector<int> edges_;                          // of the sheet; what follows has numbers of these
-  std::vector<EdgeCurve> curves_;
   std::vector<std::vector<double>> places_;
   std::vector<int> first_span_;
   std::vector<Span> spans_;
@@ -312,9 +282,7 @@ class Sewer {
 }  // namespace
 
 Sewn sew(CadModel& model, const std::vector<int>& solids, double tolerance) {
-  const Sewn sewn = Sewer(model, solids, tolerance).sew();
-  drop_unused(model);
-  return sewn;
+  return Sewer(model, solids, tolerance).sew();
 }
 
 }  // namespace geometry_io

@@ -20,6 +20,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "geometry_io/cad_cuts.h"
 #include "geometry_io/cad_joints.h"
 #include "geometry_io/cad_sewing.h"
 #include "geometry_io/input_error.h"
@@ -125,6 +126,7 @@ class ModelMaker {
     };
     report("sewn along", sewn);
     report("joined to faces that it stands on along", join_to_faces(model_, sheets, within.back() * size));
+    drop_unused(model_);
   }
 
   double size_of(const std::vector<int>& sheets) const {
