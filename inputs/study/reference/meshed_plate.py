@@ -19,28 +19,11 @@ from scipy.interpolate import BSpline
 
 from study.reference.elastic_plate import contact_force, peak
 from study.reference.hertz import Impact
-
-
-class Through:
-    """Integrals over the thickness of products of its functions: values, slopes, slope times value; row sums."""
-
-    def __init__(self, layers: int, degree: int, thickness: float):
-        knots = np.r_[[0.0] * degree, np.linspace(0.0, thickness, layers + 1), [thickness] * degree]
-        self.count = layers + degree
-        points, weights = np.polynomial.legendre.leggauss(degree + 1)
-        half = 0.5 * thickness / layers
-        z = np.concatenate([(2 * k + 1) * half + half * points for k in range(layers)])
-        weights = np.tile(half * weights, layers)
-        functions = [BSpline(knots, one, degree) for one in np.eye(self.count)]
-        value, slope = (np.array([f(z) for f in each]) for each in (functions, [f.derivative() for f in functions]))
-        self.values, self.slopes, self.slope_value = (
-            (a * weights) @ b.T for a, b in ((value, value), (slope, slope), (slope, value))
-        )
-        self.row_sums = self.values.sum(axis=1)
+from study.reference.spline_integrals import SplineIntegrals
 
 
 class Along:
-    """The same of one direction of the plane, for waves of phase theta from one control point to the next."""
+    """Integrals as in SplineIntegrals, for waves of phase theta from one control point of the plane to the next."""
 
     def __init__(self, h: float, degree: int, theta: np.ndarray):
         one = BSpline.basis_element(np.arange(degree + 2.0), extrapolate=False)
@@ -77,8 +60,8 @@ class MeshedPlate:
         return 0.0 if (self.place == "centre") == (self.degree % 2 == 0) else 0.5
 
     @cached_property
-    def through(self) -> Through:
-        return Through(self.layers, self.degree, self.thickness)
+    def through(self) -> SplineIntegrals:
+        return SplineIntegrals(self.layers, self.degree, self.thickness)
 
     def stiffness(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """[wave, unknown, unknown] of phases x, y: displacements along x, y, z, each of all layers of control points."""

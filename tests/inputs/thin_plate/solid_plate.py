@@ -14,10 +14,14 @@ from __future__ import annotations
 import sys
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.interpolate import BSpline
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "inputs"))
+
+from study.reference.spline_integrals import SplineIntegrals  # noqa: E402
 
 E, NU, RHO = 74.6e9, 0.2285, 2480.0  # of plate and ball
 SIDE, THICKNESS, RADIUS, SPEED = 14e-3, 1e-3, 1e-3, 1.0
@@ -26,23 +30,8 @@ DURATION = 9e-6  # [s], longer than the contact
 SIDES = ("clamped", "supported", "free", "supported_middle", "supported_lower_edge")
 
 
-class Direction:
-    """Integrals of products of the functions of one direction, of length `length` [m] in `elements`."""
-
-    def __init__(self, elements: int, length: float):
-        knots = np.r_[[0.0] * DEGREE, np.linspace(0.0, length, elements + 1), [length] * DEGREE]
-        self.count = elements + DEGREE
-        points, weights = np.polynomial.legendre.leggauss(DEGREE + 1)
-        half = 0.5 * length / elements
-        x = np.concatenate([(2 * k + 1) * half + half * points for k in range(elements)])
-        w = np.tile(half * weights, elements)
-        functions = [BSpline(knots, one, DEGREE) for one in np.eye(self.count)]
-        value, slope = (np.array([f(x) for f in each]) for each in (functions, [f.derivative() for f in functions]))
-        self.mass = sp.csr_matrix((value * w) @ value.T)
-        self.stiffness = sp.csr_matrix((slope * w) @ slope.T)
-        self.slope_value = sp.csr_matrix((slope * w) @ value.T)
-        self.row_sums = (value * w).sum(axis=1)
-        self.middle = np.array([f(0.5 * length) for f in functions])
+def in_the_middle(line: SplineIntegrals, length: float) -> np.ndarray:
+    return np.array([f(0.5 * length) for f in line.functions])
 
 
 @dataclass(frozen=True)
@@ -52,12 +41,12 @@ class Plate:
     shear: float = 1.0  # factor of the transverse shear modulus
 
     @cached_property
-    def along(self) -> Direction:
-        return Direction(self.elements, SIDE)
+    def along(self) -> SplineIntegrals:
+        return SplineIntegrals(self.elements, DEGREE, SIDE)
 
     @cached_property
-    def through(self) -> Direction:
-        return Direction(self.layers, THICKNESS)
+    def through(self) -> SplineIntegrals:
+        return SplineIntegrals(self.layers, DEGREE, THICKNESS)
 
     @cached_property
     def nodes(self) -> np.ndarray:
@@ -80,12 +69,13 @@ class Plate:
             factors = []
             for d, one in enumerate(directions):
                 if d == i == j:
-                    factors.append(one.stiffness)
+                    factors.append(one.slopes)
                 elif d == i:
                     factors.append(one.slope_value)
                 else:
-                    factors.append(one.slope_value.T if d == j else one.mass)
-            return sp.kron(sp.kron(factors[0], factors[1]), factors[2], "csr")
+                    factors.append(one.slope_value.T if d == j else one.values)
+            first, second, third = (sp.csr_matrix(factor) for factor in factors)
+            return sp.kron(sp.kron(first, second), third, "csr")
 
         def modulus(i: int, j: int) -> float:
             return mu * (self.shear if 2 in (i, j) and i != j else 1.0)
@@ -117,9 +107,10 @@ class Plate:
         if columns is None:
             inverse[held] = 0.0
         else:
-            middle = self.through.middle
+            middle = in_the_middle(self.through, THICKNESS)
             pull = inverse[columns] * middle / (inverse[columns] @ middle**2)[:, None]
-        across = np.outer(self.along.middle, self.along.middle)
+        along = in_the_middle(self.along, SIDE)
+        across = np.outer(along, along)
         near = across > 1e-12
         hit, share = 2 * self.nodes.size + self.nodes[:, :, -1][near], across[near]
 
