@@ -70,19 +70,38 @@ PLATES = {
     "Z3": Plate(1e-3, 30e-3, GLASS, {**STEEL_BALL, "r": 1.5e-3}, 0.2482, 16.058),
     "steel": Plate(0.5e-3, 13e-3, STEEL, {"r": 1.0e-3}, 0.6609, 5.344),
 }
-# h over the thickness, layers; further ones on request.
-PLATE_MESHES = ((1.0, 1), (0.5, 2), (0.25, 4))
-FURTHER_MESHES = ((1.0, 2), (1.0, 4), (0.5, 1), (0.5, 4), (0.25, 1), (0.25, 2), (0.125, 2), (0.125, 4))
-ALL_MESHES = (*PLATE_MESHES, *FURTHER_MESHES)
-LARGE = ("Z3", 0.25, 4)  # half a minute: on request, too
+
+
+class Mesh(NamedTuple):
+    """Of a plate."""
+
+    ratio: float  # size of the elements over the thickness
+    layers: int
+    degree: int = 2  # through the thickness; in the plane 2
+
+    @property
+    def is_single_quadratic(self) -> bool:
+        """It shears too little, as the independent program says (README.md): one cubic layer, or two, are needed."""
+        return self.layers == 1 and self.degree == 2
+
+    def of(self, plate: Plate, place: str) -> MeshedPlate:
+        h, side = self.ratio * plate.thickness, 2.0 * plate.half
+        return MeshedPlate(*plate.constants, plate.thickness, h, self.layers, place, side, degree_through=self.degree)
+
+
+QUADRATIC = tuple(Mesh(*mesh) for mesh in ((1.0, 1), (0.5, 2), (0.25, 4)))
+CUBIC = (Mesh(1.0, 1, 3), Mesh(0.5, 1, 3))
+# On request:
+FURTHER = tuple(Mesh(*mesh) for mesh in ((1.0, 2), (1.0, 4), (0.5, 1), (0.5, 4), (0.25, 1), (0.25, 1, 3), (0.25, 2), (0.125, 2), (0.125, 4)))
+ALL_MESHES = (*QUADRATIC, *CUBIC, *FURTHER)
+LARGE = ("Z3", Mesh(0.25, 4))  # half a minute: on request, too
 PLATE_PLACES = ("corner", "centre")
 # Absolute of the restitution, relative of the force: for elements as large as the plate is thick, and for smaller ones.
 PLATE_TOLERANCES = {True: (0.005, 0.01), False: (0.002, 0.004)}
-# A mesh of one quadratic layer shears too little: what it misses by itself, as the independent program says (README.md).  Of the
-# force, that is all with smaller elements than the plate is thick, too.
+# What single quadratic layers miss, beside all forces with smaller elements than the plate is thick.
 MISSED_FORCE = (("Z2", 1.0, "corner"), ("Z3", 1.0, "corner"), ("Z3", 1.0, "centre"))
 MISSED_RESTITUTION = (("Z3", 1.0, "corner"), ("Z3", 0.5, "corner"))
-# Beside the independent program, of equal elements; of meshes of two and more layers among each other.
+# Beside the independent program, of equal elements; of other meshes than single quadratic layers among each other.
 SAME_MESH_TOLERANCES = (3e-4, 5e-4)
 SPREAD_TOLERANCES = (0.002, 0.003)
 SPREAD_OF_FINE = ("Z3",)  # without elements as large as the plate is thick: the longer the contact the more their waves count
@@ -205,47 +224,46 @@ def of_mesh(plate: Plate, mesh: MeshedPlate, result: Result) -> list[Row]:
     ]
 
 
-def plate_rows(name: str, ratio: float, layers: int, place: str, gated: bool, result: Result) -> list[Row]:
-    plate = PLATES[name]
+def plate_rows(name: str, mesh: Mesh, place: str, gated: bool, result: Result) -> list[Row]:
+    plate, ratio = PLATES[name], mesh.ratio
     e_tolerance, F_tolerance = PLATE_TOLERANCES[ratio == 1.0]
     e, F = (plate.restitution, e_tolerance / plate.restitution), (plate.peak, F_tolerance)
-    if layers == 1 and (ratio < 1.0 or (name, ratio, place) in MISSED_FORCE):
+    if mesh.is_single_quadratic and (ratio < 1.0 or (name, ratio, place) in MISSED_FORCE):
         F = ()
-    if layers == 1 and (name, ratio, place) in MISSED_RESTITUTION:
+    if mesh.is_single_quadratic and (name, ratio, place) in MISSED_RESTITUTION:
         e = ()
     found = rows(*((F, e) if gated else ((), ())), result)
     if gated and ratio >= 0.5:
-        h = ratio * plate.thickness
-        mesh = MeshedPlate(*plate.constants, plate.thickness, h, layers, place, 2.0 * plate.half)
-        found += of_mesh(plate, mesh, result)
+        found += of_mesh(plate, mesh.of(plate, place), result)
     return found
 
 
-def plate_case(name: str, ratio: float, layers: int, place: str, compliance: str = "corrected") -> Case:
+def plate_case(name: str, mesh: Mesh, place: str, compliance: str = "corrected") -> Case:
     plate = PLATES[name]
-    h = ratio * plate.thickness
-    mesh = GradedBlock(h, place, plate.half, plate.thickness, max(h, 0.5 * plate.thickness), layers=layers)
-    case = f"{name}_{1e3 * h:g}mm_{layers}_{place}"
+    h = mesh.ratio * plate.thickness
+    block = GradedBlock(h, place, plate.half, plate.thickness, max(h, 0.5 * plate.thickness), layers=mesh.layers,
+                        degree_through=mesh.degree)  # fmt: skip
+    case = f"{name}_{1e3 * h:g}mm_{mesh.layers}{'_cubic' if mesh.degree == 3 else ''}_{place}"
     if compliance == "none":
         case = f"none_{case}"
     file = f"{case}.yaml"
     E, nu, _ = plate.constants
     variables = {**plate.ball, "block": file, "compliance": compliance, "E_wall": E, "nu_wall": nu}
-    of = partial(plate_rows, name, ratio, layers, place, compliance == "corrected")
-    on_request = (ratio, layers) in FURTHER_MESHES or (name, ratio, layers) == LARGE
+    of = partial(plate_rows, name, mesh, place, compliance == "corrected")
+    on_request = mesh in FURTHER or (name, mesh) == LARGE
     return Case(case, "in.mesh_study", of, variables, partial(steps, 1.6),
-                lambda _: {file: mesh.model_file(plate.material)}, on_request=on_request)  # fmt: skip
+                lambda _: {file: block.model_file(plate.material)}, on_request=on_request)  # fmt: skip
 
 
-def plate_cases(name: str, meshes: Sequence[tuple[float, int]]) -> list[Case]:
-    wanted = [(*mesh, place) for mesh in meshes for place in PLATE_PLACES]
-    return [plate_case(name, *mesh) for mesh in wanted if (name, mesh[0], mesh[2]) not in REFUSED]
+def plate_cases(name: str, meshes: Sequence[Mesh]) -> list[Case]:
+    wanted = [(mesh, place) for mesh in meshes for place in PLATE_PLACES]
+    return [plate_case(name, mesh, place) for mesh, place in wanted if (name, mesh.ratio, place) not in REFUSED]
 
 
 def spread(name: str) -> Comparison:
-    """Half of what restitution and force differ by among meshes of two and more layers."""
+    """Half of what restitution and force differ by among meshes that are no single quadratic layers."""
     coarsest = 0.5 if name in SPREAD_OF_FINE else 1.0
-    meshes = [mesh for mesh in ALL_MESHES if mesh[1] > 1 and mesh[0] <= coarsest]
+    meshes = [mesh for mesh in ALL_MESHES if not mesh.is_single_quadratic and mesh.ratio <= coarsest]
     cases = [case.name for case in plate_cases(name, meshes)]
 
     def rows_of(results: Mapping[str, Result]) -> list[Row]:
@@ -260,6 +278,7 @@ def spread(name: str) -> Comparison:
 
     return Comparison(cases, rows_of)
 
+
 CASES = [
     *(block_case(h, place, "corrected") for h in (*COARSE_MM, *SIZES_MM) for place in PLACES),
     *(block_case(h, place, "none") for h in (*COARSE_MM, *SIZES_MM) for place in UNCORRECTED),
@@ -267,7 +286,7 @@ CASES = [
     *(rigid_case(place) for place in ("corner", "centre")),
     *(sliding_case(compliance) for compliance in ("corrected", "none")),
     *(case for plate in PLATES for case in plate_cases(plate, ALL_MESHES)),
-    *(plate_case("Z1", *mesh, "corner", "none") for mesh in PLATE_MESHES),
+    *(plate_case("Z1", mesh, "corner", "none") for mesh in QUADRATIC),
 ]
 
 
@@ -303,17 +322,16 @@ def draw_plate(path: Path, results: Mapping[str, Result]) -> None:
     def error(F: np.ndarray | float) -> np.ndarray | float:
         return 100.0 * (F / plate.peak - 1.0)
 
-    for layers, colour, marker in zip((1, 2, 4), COLOURS, MARKERS):
-        ratios = sorted(ratio for ratio, n in ALL_MESHES if n == layers)
-        found = [results[plate_case("Z1", ratio, layers, "corner").name] for ratio in ratios]
-        meshes = [MeshedPlate(*plate.constants, plate.thickness, ratio * plate.thickness, layers, "corner", 2.0 * plate.half)
-                  for ratio in ratios]  # fmt: skip
-        expected = [mesh.impact(impact(found[0].values), found[0].values["dt"])[1] for mesh in meshes]
-        words = f"{layers} layer{'s' if layers > 1 else ''}"
+    kinds = {(1, 2): "1 layer", (1, 3): "1 layer, cubic", (2, 2): "2 layers", (4, 2): "4 layers"}
+    for (kind, words), colour, marker in zip(kinds.items(), COLOURS, MARKERS):
+        meshes = sorted(mesh for mesh in ALL_MESHES if mesh[1:] == kind)
+        ratios = [mesh.ratio for mesh in meshes]
+        found = [results[plate_case("Z1", mesh, "corner").name] for mesh in meshes]
+        expected = [mesh.of(plate, "corner").impact(impact(of.values), of.values["dt"])[1] for mesh, of in zip(meshes, found)]
         axes.plot(ratios, error(np.array(expected)), color=colour, linewidth=1.2)
         axes.plot(ratios, [error(peak_force(of)) for of in found], marker, color=colour, label=f"corrected, {words}")
-    off = [plate_case("Z1", *mesh, "corner", "none") for mesh in PLATE_MESHES]
-    axes.plot([ratio for ratio, _ in PLATE_MESHES], [error(peak_force(results[case.name])) for case in off], "k--",
+    off = [plate_case("Z1", mesh, "corner", "none") for mesh in QUADRATIC]
+    axes.plot([mesh.ratio for mesh in QUADRATIC], [error(peak_force(results[case.name])) for case in off], "k--",
               marker="D", markerfacecolor="none", linewidth=1.2, label="compliance none; 1, 2, 4 layers")  # fmt: skip
     axes.plot([], [], color="0.4", linewidth=1.2, label="independent program, equal elements")
     axes.axhline(0.0, color="k", linewidth=1.0, label="three-dimensional elasticity")

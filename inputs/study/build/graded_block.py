@@ -49,6 +49,7 @@ class GradedBlock:
     largest: float  # element
     degree: int = 2
     layers: int = 0  # equal ones, through the thickness of a plate; 0: graded, too
+    degree_through: int | None = None  # of the thickness; None: as the others
 
     def breaks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         x, y = (across(self.h, self.half, self.largest, self.place in places)
@@ -59,14 +60,14 @@ class GradedBlock:
 
     def model_file(self, material: Mapping[str, object]) -> str:
         """Of a solid of this material with free faces, its top as surface `top`."""
-        p = self.degree
-        knots = [open_knots(breaks, p) for breaks in self.breaks()]
-        x, y, z = (greville(k, p) for k in knots)
+        degrees = [self.degree, self.degree, self.degree_through or self.degree]
+        knots = [open_knots(breaks, p) for breaks, p in zip(self.breaks(), degrees)]
+        x, y, z = (greville(k, p) for k, p in zip(knots, degrees))
         points = (f"[{a!r}, {b!r}, {c!r}]" for c in z for b in y for a in x)
         constants = ", ".join(f"{key}: {value}" for key, value in material.items())
         return (
             "units: si\ngeometry:\n  patches:\n"
-            f"    - degrees: [{p}, {p}, {p}]\n"
+            f"    - degrees: {degrees}\n"
             f"      knots: {[k.tolist() for k in knots]}\n"
             "      control_points:\n        [" + ",\n        ".join(points) + "]\n"
             f"material: {{{constants}}}\n"

@@ -53,6 +53,7 @@ class MeshedPlate:
     place: str
     side: float  # of the plate
     degree: int = 2
+    degree_through: int | None = None  # of the thickness; None: the same
 
     @property
     def shift(self) -> float:
@@ -61,7 +62,7 @@ class MeshedPlate:
 
     @cached_property
     def through(self) -> SplineIntegrals:
-        return SplineIntegrals(self.layers, self.degree, self.thickness)
+        return SplineIntegrals(self.layers, self.degree_through or self.degree, self.thickness)
 
     def stiffness(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """[wave, unknown, unknown] of phases x, y: displacements along x, y, z, each of all layers of control points."""

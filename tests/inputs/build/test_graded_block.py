@@ -36,13 +36,14 @@ class Blocks(unittest.TestCase):
         np.testing.assert_allclose(z, [-1.0, -0.75, -0.5, -0.25, 0.0])
 
     def test_the_model_file_is_that_block(self):
-        for degree in (2, 3):
-            block = GradedBlock(0.5, "edge", 4.0, 3.0, 1.0, degree)
+        for degrees in ((2, 2, 2), (3, 3, 3), (2, 2, 3)):
+            block = GradedBlock(0.5, "edge", 4.0, 3.0, 1.0, degrees[0], degree_through=degrees[2])
             model = yaml.safe_load(block.model_file(STEEL))
             patch = model["geometry"]["patches"][0]
-            sizes = [len(b) - 1 + degree for b in block.breaks()]
+            self.assertEqual(patch["degrees"], [*degrees])
+            sizes = [len(b) - 1 + degree for b, degree in zip(block.breaks(), degrees)]
             points = np.array(patch["control_points"]).reshape(*sizes[::-1], 3)
-            for d, (knots, breaks) in enumerate(zip(patch["knots"], block.breaks())):
+            for d, (knots, breaks, degree) in enumerate(zip(patch["knots"], block.breaks(), degrees)):
                 np.testing.assert_allclose(knots, open_knots(breaks, degree))
                 line = np.moveaxis(points, 2 - d, 0)[:, 0, 0, d]
                 np.testing.assert_allclose(line, greville(np.array(knots), degree))

@@ -19,8 +19,8 @@ def sphere(case: str) -> hertz.Impact:
     return hertz.penalty_impact("hertz", 1.0, hertz.effective_modulus(*ball[:2], *GLASS[:2]), r, ball[2], 1.0)
 
 
-def plate(case: str, h: float, layers: int, place: str = "corner", degree: int = 2) -> MeshedPlate:
-    return MeshedPlate(*GLASS, 1.0e-3, h, layers, place, CASES[case][2], degree)
+def plate(case: str, h: float, layers: int, place: str = "corner", degree: int = 2, through: int | None = None) -> MeshedPlate:
+    return MeshedPlate(*GLASS, 1.0e-3, h, layers, place, CASES[case][2], degree, through)
 
 
 class SameMesh(unittest.TestCase):
@@ -39,9 +39,10 @@ class SameMesh(unittest.TestCase):
                     self.assertAlmostEqual(found[1] / F, 1.0, delta=3e-4)
 
     def test_rigid_motion_costs_nothing(self):
-        for degree in (2, 3):
+        for degree, through in ((2, None), (3, None), (2, 3)):
             zero = np.zeros(1)
-            of = plate("Z1", 1e-3, 2, degree=degree)
+            of = plate("Z1", 1e-3, 2, degree=degree, through=through)
+            self.assertEqual(of.through.count, 2 + (through or degree))
             K, n = of.stiffness(zero, zero)[0], of.through.count
             for d in range(3):
                 u = np.zeros(3 * n)
@@ -77,12 +78,14 @@ class Elasticity(unittest.TestCase):
             self.assertLess(errors[2][0], 5e-4)
 
     def test_one_layer_stays_away(self):
-        """What a mesh of one layer is too stiff by it stays, however fine it is in the plane: its shear."""
+        """What a mesh of one quadratic layer is too stiff by it stays, however fine it is in the plane: its shear, which cubic
+        functions through the thickness have."""
         rigid = sphere("Z1")
         exact = ElasticPlateImpact(rigid.m, rigid.V, rigid.k, *GLASS, 1.0e-3)
-        for h in (0.5e-3, 0.25e-3):
-            F = plate("Z1", h, 1).impact(rigid, 1e-8)[1]
-            self.assertAlmostEqual(F / exact.peak_force - 1.0, 0.004, delta=5e-4)
+        for h, left in ((0.5e-3, 1.2e-3), (0.25e-3, 6e-4)):
+            quadratic, cubic = (plate("Z1", h, 1, through=p).impact(rigid, 1e-8)[1] / exact.peak_force - 1.0 for p in (2, 3))
+            self.assertAlmostEqual(quadratic, 0.004, delta=5e-4)
+            self.assertLess(abs(cubic), left)
 
 
 if __name__ == "__main__":
