@@ -43,10 +43,6 @@ namespace {
       foot[0], foot[1], foot[2], particles.tag[i], step, s, ComplianceCorrection::kLargest, s / kSafe));
 }
 
-}  // namespace
-
-namespace {
-
 double mass_of(const ParticleView& particles, int i) {
   return particles.mass ? particles.mass[i] : std::numeric_limits<double>::infinity();
 }
@@ -131,7 +127,8 @@ void ComplianceCorrection::correct(const ParticleView& particles, const Time& no
   const double approach = n.dot(contact.wall_velocity - particles.velocity(i));
   Seen seen;
   if (D > 0.0) {
-    const DampedLaw law = {K, D, mass_of(particles, i), c.normal.c};
+    const double delay = mesh_ ? mesh_->delay(contact.foot) : 0.0;
+    const DampedLaw law = {K, D, mass_of(particles, i), c.normal.c, delay};
     contact.touches = damped(particles, now, law, approach, contact, seen);
     if (!contact.touches) return forget_shear(particles, now, contact);
   } else {

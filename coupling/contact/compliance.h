@@ -16,6 +16,7 @@
 
 #include "coupling/contact/contact_model.h"
 #include "coupling/contact/damped_approach.h"
+#include "coupling/contact/mesh_estimate.h"
 #include "coupling/contact/particle_view.h"
 #include "coupling/contact/shear_compliance.h"
 #include "coupling/contact/wall.h"
@@ -37,9 +38,10 @@ class ComplianceCorrection {
   /// 1 there is no equilibrium.
   static constexpr double kLargest = 0.9;
 
-  /// Keeps references to both.  The wall is undeformed, all of it.
-  ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall)
-      : compliance_(compliance), wall_(wall), undeformed_(wall.control_points()) {}
+  /// Keeps references to all.  The wall is undeformed, all of it.  `mesh`: null if nothing is known of it,
+  /// which then gives way at once.
+  ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall, const MeshEstimate* mesh)
+      : compliance_(compliance), wall_(wall), mesh_(mesh), undeformed_(wall.control_points()) {}
 
   /// Numbers that a contact keeps behind those of the model, in each slot of the particles' memory.
   static constexpr int kMemory = DampedApproach::kMemory + ShearCompliance::kMemory;
@@ -89,6 +91,7 @@ class ComplianceCorrection {
 
   coupling::LocalCompliance& compliance_;
   const Wall& wall_;
+  const MeshEstimate* mesh_;
   nurbs::NodalVectors undeformed_;
   std::vector<Before> before_;
 };

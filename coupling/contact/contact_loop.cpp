@@ -20,7 +20,7 @@ ContactLoop::ContactLoop(const coupling::StructureSolver& structure, coupling::S
       tracker_(wall_.shape().track(candidates_, options.search, searches_)),
       mesh_(MeshEstimate::of(structure, exchange.positions())) {
   if (coupling::LocalCompliance* const compliance = structure.local_compliance())
-    correction_ = std::make_unique<ComplianceCorrection>(*compliance, wall_);
+    correction_ = std::make_unique<ComplianceCorrection>(*compliance, wall_, mesh_.get());
 }
 
 void ContactLoop::forget_reports() {

@@ -7,14 +7,16 @@
 // step: that is a negative spring -c behind a dashpot, and F runs away within c gamma, gamma = D x^(1/4),
 // while the mesh takes its time to give way; the earlier the damping, the more so: in the beginning of a
 // contact the dent is deeper than x, and the surfaces lose touch.  So x is followed in time instead, as the
-// particle's own motion and u, the body's beyond the dent, have it; and both are held to what overlap and
-// force show, by a critically damped observer (D. G. Luenberger, IEEE Trans. Military Electron. 8, 1964):
+// particle's own motion and u, the body's beyond the dent, have it, and w, how that changes; all three are
+// held to what overlap and force show, by an observer (D. G. Luenberger, IEEE Trans. Military Electron. 8,
+// 1964) with a triple pole:
 //
-//   dx/dt = v + u + 2 omega e,   du/dt = omega^2 e,   e = overlap + c F - x,
-//   1/omega = c gamma/(1 - s) + kSlow (m/S)^(1/2),    S = dF/dx,  s = c S.
+//   dx/dt = v + u + 3 omega e,   du/dt = w + 3 omega^2 e,   dw/dt = omega^3 e,   e = overlap + c F - x,
+//   1/omega = c gamma/(1 - s) + h/c_s + kSlow (m/S)^(1/2),   S = dF/dx,  s = c S.
 //
-// Faster than the first term it would answer its own force before the dent does; the second is a fraction of
-// how long contacts last.  A body that stands beyond the dent is known exactly, whatever the dent does.
+// Faster than the first term it would answer its own force before the dent does, which takes the second; the
+// third is a fraction of how long contacts last.  A body that stands beyond the dent, or is pushed away
+// evenly, is known exactly, whatever the dent does.
 #pragma once
 
 namespace contact {
@@ -24,14 +26,15 @@ struct DampedLaw {
   double D;        ///< [force time/length^(5/4)]
   double inertia;  ///< of the particle; infinite: as heavy as can be [mass]
   double give;     ///< c [length/force]
+  double delay;    ///< h/c_s, until the mesh gives way [time]
 };
 
 class DampedApproach {
  public:
-  static constexpr int kMemory = 2;  ///< numbers that a contact keeps; all are 0 in a new one
+  static constexpr int kMemory = 3;  ///< numbers that a contact keeps; all are 0 in a new one
 
   /// What a contact keeps.
-  explicit DampedApproach(double* memory) : x_(memory[0]), u_(memory[1]) {}
+  explicit DampedApproach(double* memory) : x_(memory[0]), u_(memory[1]), w_(memory[2]) {}
 
   /// A step on: the speeds of particle and surface towards each other along the normal [length/time].  Where
   /// the step is a setup, in which nothing moves, dt is 0.
@@ -45,14 +48,14 @@ class DampedApproach {
   double damping(const DampedLaw& law) const { return dashpot(law) * rate_; }
   /// With the overlap that its force F leaves, x = overlap + c F.
   void observe(const DampedLaw& law, double x, double dt);
-  void keep(double* memory) const { memory[0] = x_, memory[1] = u_; }
+  void keep(double* memory) const { memory[0] = x_, memory[1] = u_, memory[2] = w_; }
 
   /// By how much the surfaces may lose touch while the contact goes on [length].
   static double held_gap(const double* memory) { return memory[0] > 0.0 ? kDent * memory[0] : 0.0; }
 
  private:
   static constexpr double kOver = -1.0, kDent = 10.0, kSlow = 0.15;
-  double x_, u_;  // x = 0: new; kOver
+  double x_, u_, w_;  // x = 0: new; kOver
   double rate_ = 0.0;
 };
 

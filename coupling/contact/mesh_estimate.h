@@ -24,6 +24,8 @@ class MeshEstimate {
   /// 3 h/c_s over the time that a sphere of this mass is in contact after an impact at a speed, 2.943 delta/V
   /// with delta = (5 m V^2 / (4 K))^(2/5) (Johnson 1985, sec. 11.4) [-]; 0 if the constant is not a number.
   double waves(const Contact& contact, double hertz_constant, double mass, double speed) const;
+  /// h/c_s, how long a shear wave takes through that element [time].
+  double delay(const nurbs::SurfacePoint& foot) const { return size(foot) / solids_[foot.patch].shear_speed; }
   /// h: side of a square as large as the element that the foot is on [length].
   double size(const nurbs::SurfacePoint& foot) const { return size_[element(foot)]; }
 

@@ -10,6 +10,7 @@ for plates of equal elements an independent program on the same mesh, study/refe
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Mapping, NamedTuple, Sequence
@@ -19,6 +20,7 @@ from matplotlib.figure import Figure as Picture
 
 from study.build.graded_block import PLACES, GradedBlock
 from study.reference import hertz
+from study.reference.elastic_plate import ElasticPlateImpact
 from study.reference.meshed_plate import MeshedPlate
 from study.run.case import Case, Comparison, Figure, Result, Study, Values, index_variables, numbers
 from study.run.figures import COLOURS, MARKERS, save
@@ -106,6 +108,11 @@ SAME_MESH_TOLERANCES = (3e-4, 5e-4)
 SPREAD_TOLERANCES = (0.002, 0.003)
 SPREAD_OF_FINE = ("Z3",)  # without elements as large as the plate is thick: the longer the contact the more their waves count
 REFUSED = (("Z3", 0.125, "centre"),)  # too small for the contact: s comes to 0.9
+# Damped contacts on plates, elements of half their thickness: coefficients of restitution of the law, relative tolerances.
+DAMPED = (0.5, 0.8)
+DAMPED_PLATES = ("Z1", "Z2", "steel")
+DAMPED_TOLERANCES = (0.01, 0.03)
+DELAY = 0.3  # of the reference, over h/c_T: twice as much changes restitutions by 1e-3 of themselves
 
 
 def impact(values: Values) -> hertz.Impact:
@@ -255,6 +262,23 @@ def plate_case(name: str, mesh: Mesh, place: str, compliance: str = "corrected")
                 lambda _: {file: block.model_file(plate.material)}, on_request=on_request)  # fmt: skip
 
 
+def damped_rows(name: str, result: Result) -> list[Row]:
+    """Beside three-dimensional elasticity with the same law."""
+    plate, values = PLATES[name], result.values
+    rigid, e = impact(values), values["e"]
+    E_star = hertz.effective_modulus(*(values[key] for key in ("E_ball", "nu_ball", "E_wall", "nu_wall")))
+    zeta = -math.log(e) / math.hypot(math.log(e), math.pi)
+    D = 2.0 * math.sqrt(5.0 / 6.0) * zeta * math.sqrt(2.0 * E_star * rigid.m * math.sqrt(values["r"]))
+    exact = ElasticPlateImpact(rigid.m, rigid.V, rigid.k, *plate.constants, plate.thickness, D=D, delay=DELAY)
+    e_tolerance, F_tolerance = DAMPED_TOLERANCES
+    return rows((exact.peak_force, F_tolerance), (exact.restitution, e_tolerance), result)
+
+
+def damped_case(name: str, e: float, place: str) -> Case:
+    case = plate_case(name, Mesh(0.5, 2), place)
+    return replace(case, name=f"damped_{e:g}_{case.name}", rows=partial(damped_rows, name), variables={**case.variables, "e": e})
+
+
 def plate_cases(name: str, meshes: Sequence[Mesh]) -> list[Case]:
     wanted = [(mesh, place) for mesh in meshes for place in PLATE_PLACES]
     return [plate_case(name, mesh, place) for mesh, place in wanted if (name, mesh.ratio, place) not in REFUSED]
@@ -287,6 +311,7 @@ CASES = [
     *(sliding_case(compliance) for compliance in ("corrected", "none")),
     *(case for plate in PLATES for case in plate_cases(plate, ALL_MESHES)),
     *(plate_case("Z1", mesh, "corner", "none") for mesh in QUADRATIC),
+    *(damped_case(plate, e, "corner") for plate in DAMPED_PLATES for e in DAMPED),
 ]
 
 

@@ -24,19 +24,23 @@ from study.reference.zener import ThinPlateImpact, plate_mobility
 LOGARITHM, CONSTANT = 3.0 / (5.0 * np.pi), 0.665
 STEPS = 1500  # in the duration after Zener
 LONGEST = 8  # such durations
+PARTS = 8  # of a step, where integrals are not closed
 
 
-def contact_force(approach: float, give: float, K: float) -> float:
-    """F [N] = K d^(3/2), d = approach - give F, by Newton's method; give [m/N] may be negative."""
+def contact_force(approach: float, give: float, K: float, damping: float = 0.0, before: float = 0.0) -> tuple[float, float]:
+    """F [N] = K d^(3/2) + damping d^(1/4) (d - before), and d = approach - give F, by Newton's method; give [m/N] may be
+    negative."""
     if approach <= 0.0:
-        return 0.0
+        return 0.0, 0.0
     d = approach
     for _ in range(60):
-        change = (approach - d - give * K * d**1.5) / (1.0 + 1.5 * give * K * d**0.5)
+        F = K * d**1.5 + damping * d**0.25 * (d - before)
+        slope = 1.5 * K * d**0.5 + damping * (1.25 * d**0.25 - 0.25 * before * d**-0.75)
+        change = max((approach - d - give * F) / (1.0 + give * slope), -0.9 * d)
         d += change
         if abs(change) < 1e-14 * approach:
             break
-    return K * d**1.5
+    return K * d**1.5 + damping * d**0.25 * (d - before), d
 
 
 def peak(F: np.ndarray) -> float:
@@ -47,7 +51,9 @@ def peak(F: np.ndarray) -> float:
 
 @dataclass(frozen=True)
 class ElasticPlateImpact:
-    """A sphere, m [kg] and V [m/s], F = K d^(3/2) [N], on a plate of E [Pa], nu, rho [kg/m^3], thickness h [m]."""
+    """A sphere, m [kg] and V [m/s], F = K d^(3/2) + D d^(1/4) dd/dt [N], on a plate of E [Pa], nu, rho [kg/m^3], thickness h
+    [m].  The plate is a half-space until waves are back from its lower side, but the formula gives way by less
+    from the beginning, on which a dashpot would run away: with D both terms begin with a delay, as 1 - exp(-(t/delay)^2)."""
 
     m: float
     V: float
@@ -58,6 +64,8 @@ class ElasticPlateImpact:
     h: float
     logarithm: float = LOGARITHM
     constant: float = CONSTANT
+    D: float = 0.0
+    delay: float = 0.0  # over h/c_T
 
     @cached_property
     def thin(self) -> ThinPlateImpact:
@@ -65,12 +73,16 @@ class ElasticPlateImpact:
         return ThinPlateImpact(self.m, self.V, self.K, plate_mobility(self.E, self.nu, self.rho, self.h))
 
     def _spread(self, dt: float, count: int) -> np.ndarray:
-        """Answers, 0, 1, ... steps later, of the logarithm to a force that has grown by 1 during a step: ln s is
+        """Answers, 0, 1, ... steps later, of logarithm and constant to a force that has grown by 1 during a step: ln s is
         -(ln t + Euler's constant), folded with the force's rate."""
-        c_T = np.sqrt(0.5 * self.E / (1.0 + self.nu) / self.rho)
-        k = np.arange(count + 1.0)
-        integral = k * (np.log(np.maximum(k, 1.0)) - 1.0 + np.log(c_T * dt / self.h) + np.euler_gamma)
-        return self.logarithm * np.diff(integral)
+        step = dt * np.sqrt(0.5 * self.E / (1.0 + self.nu) / self.rho) / self.h
+        if self.delay == 0.0:
+            k = np.arange(count + 1.0)
+            integral = k * (np.log(np.maximum(k, 1.0)) - 1.0 + np.log(step) + np.euler_gamma)
+            return self.logarithm * np.diff(integral) - self.constant
+        t = step * (np.arange(PARTS * count) + 0.5) / PARTS
+        answer = self.logarithm * (np.log(t) + np.euler_gamma) - self.constant
+        return (-np.expm1(-((t / self.delay) ** 2)) * answer).reshape(count, PARTS).mean(axis=1)
 
     @cached_property
     def history(self) -> np.ndarray:
@@ -79,18 +91,18 @@ class ElasticPlateImpact:
         dt, alpha, count = self.thin.duration / STEPS, self.thin.alpha, LONGEST * STEPS
         unit = (1.0 - self.nu**2) / (self.E * self.h)
         spread = unit * self._spread(dt, count)
-        give = 0.5 * alpha * dt - unit * self.constant + spread[0]  # by the force at the end of the step
+        give = 0.5 * alpha * dt + spread[0]  # by the force at the end of the step
         rows, changes = np.zeros((4, count)), np.zeros(count)
-        rows[2, 0], x, impulse = self.V, 0.0, 0.0
+        rows[2, 0], x, impulse, d = self.V, 0.0, 0.0, 0.0
         for n in range(1, count):
             _, F, v, _ = rows[:, n - 1]
             x += dt * (v - 0.5 * dt * F / self.m)
             w = alpha * (impulse + 0.5 * dt * F) + spread[n - 1 : 0 : -1] @ changes[1:n] - spread[0] * F
-            now = contact_force(x - w, give, self.K)
+            now, d = contact_force(x - w, give, self.K, self.D / dt, d)
             impulse += 0.5 * dt * (F + now)
             changes[n] = now - F
             rows[:, n] = n * dt, now, v - 0.5 * dt * (F + now) / self.m, w + give * now
-            if now == 0.0:
+            if d == 0.0:
                 return rows[:, : n + 1]
         raise ValueError(f"the contact lasts longer than {LONGEST} times the {self.thin.duration:g} s after Zener")
 

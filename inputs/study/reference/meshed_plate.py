@@ -159,7 +159,7 @@ class MeshedPlate:
             v -= 0.5 * dt * F[-1] / sphere.m
             q, rate = cos * q + drift * rate, cos * rate - turn * q
             x += dt * v
-            F.append(contact_force(x - phi @ q, -c, sphere.k))
+            F.append(contact_force(x - phi @ q, -c, sphere.k)[0])
             rate += 0.5 * dt * F[-1] * phi
             v -= 0.5 * dt * F[-1] / sphere.m
         return -v / sphere.V, peak(np.array(F))

@@ -47,11 +47,11 @@ Answer rigid(double e, double dt, double mass = kStands) {
 /// What contact does in a step (compliance.cpp).
 class Contact {
  public:
-  Contact(double e, double c) : law_{kK, damping_of(e), kMass, c} {}
+  Contact(double e, double c, double delay) : law_{kK, damping_of(e), kMass, c, delay} {}
   double step(double overlap, double of_particle, double of_surface, double dt) {
     const double gap = DampedApproach::held_gap(memory_);
     if (overlap <= -gap) {
-      memory_[0] = memory_[1] = 0.0;
+      std::fill_n(memory_, DampedApproach::kMemory, 0.0);
       return 0.0;
     }
     DampedApproach kept(memory_);
@@ -70,27 +70,33 @@ class Contact {
 
  private:
   DampedLaw law_;
-  double memory_[DampedApproach::kMemory] = {0.0, 0.0};
+  double memory_[DampedApproach::kMemory] = {};
 };
 
 /// Ball and mesh; all speeds are towards the body, which itself comes at `body`.
 struct Scene {
-  Scene(double e, double s, double body, double dt, double mass = kStands)
-      : c(s / 1.5 / kK), contact(e, c), body(body), dt(dt), mass(mass) {}
+  Scene(double e, double s, double body, double dt, double mass = kStands, double spring_mass = 3e-4)
+      : c(s / 1.5 / kK),
+        spring_mass(spring_mass),
+        contact(e, c, std::sqrt(spring_mass * c)),
+        body(body),
+        dt(dt),
+        mass(mass) {}
   void step(double pressed = 0.0) {
-    constexpr double kSpringMass = 3e-4, kLoss = 0.3;
+    constexpr double kLoss = 0.3;
     ball += 0.5 * dt * (pressed - F) / kMass;
-    const double spring = dent / c + 2.0 * kLoss * std::sqrt(kSpringMass / c) * dent_speed;
-    dent_speed += dt * (F - spring) / kSpringMass;
+    const double spring = dent / c + 2.0 * kLoss * std::sqrt(spring_mass / c) * dent_speed;
+    dent_speed += dt * (F - spring) / spring_mass;
     body -= dt * spring / mass;
     dent += dt * dent_speed;
-    x += dt * (ball + body);
-    F = contact.step(x - dent, ball, body - dent_speed, dt);
+    const double towards = body - mobility * spring;
+    x += dt * (ball + towards);
+    F = contact.step(x - dent, ball, towards - dent_speed, dt);
     ball += 0.5 * dt * (pressed - F) / kMass;
   }
-  double c;
+  double c, spring_mass;  // which give way in (c spring_mass)^(1/2)
   Contact contact;
-  double body, dt, mass, ball = 0.0, x = 0.0, dent = 0.0, dent_speed = 0.0, F = 0.0;
+  double body, dt, mass, mobility = 0.0, ball = 0.0, x = 0.0, dent = 0.0, dent_speed = 0.0, F = 0.0;
 };
 
 constexpr double kStep = 4e-4;
@@ -112,10 +118,60 @@ TEST(DampedApproach, ABallLeavesAsFastAsARigidWall) {
     }
 }
 
+// A thirtieth of the duration of a contact.
+TEST(DampedApproach, AMeshThatTakesItsTimeIsWaitedFor) {
+  for (const double e : {0.3, 0.5, 0.8}) {
+    constexpr double kSpringMass = 0.04;
+    Scene scene(e, 0.3, 0.0, kStep, kStands, kSpringMass);
+    scene.ball = kSpeed;
+    double peak = 0.0;
+    while (scene.x > -0.3 && scene.ball > -kSpeed) {
+      scene.step();
+      peak = std::max(peak, scene.F);
+    }
+    const Answer expected = rigid(e, kStep);
+    EXPECT_NEAR(-scene.ball / kSpeed / expected.restitution, 1.0, 0.03) << e;
+    EXPECT_NEAR(peak / expected.peak, 1.0, 0.03) << e;
+  }
+}
+
 TEST(DampedApproach, ItIsTheSameIfTheBodyComesToTheBall) {
   Scene scene(0.5, 0.3, kSpeed, kStep);
   while (scene.x > -0.3) scene.step();
   EXPECT_NEAR(-(scene.ball + kSpeed) / kSpeed, rigid(0.5, kStep).restitution, 0.005);
+}
+
+/// Of a thin plate, which moves as fast as `mobility` times the force on it (C. Zener, Phys. Rev. 59, 1941).
+Answer on_plate(double e, double mobility, double dt) {
+  double x = 0.0, v = kSpeed, F = 0.0, peak = 0.0;
+  do {
+    v -= 0.5 * dt * F / kMass;
+    x += dt * (v - mobility * F);
+    const double gamma = damping_of(e) * std::sqrt(std::sqrt(std::max(x, 0.0)));
+    F = x > 0.0 ? (kK * x * std::sqrt(x) + gamma * v) / (1.0 + gamma * mobility) : 0.0;
+    v -= 0.5 * dt * F / kMass;
+    peak = std::max(peak, F);
+  } while (x > 0.0);
+  return {-v / kSpeed, peak};
+}
+
+TEST(DampedApproach, AThinPlateTakesMuchOfTheSpeed) {
+  for (const double mobility : {0.1, 0.2})
+    for (const double e : {0.5, 0.8})
+      for (const double s : {0.05, 0.2}) {
+        Scene scene(e, s, 0.0, kStep);
+        scene.ball = kSpeed;
+        scene.mobility = mobility;
+        double peak = 0.0;
+        while (scene.x > -0.3 && scene.ball > -kSpeed) {
+          scene.step();
+          peak = std::max(peak, scene.F);
+        }
+        const Answer expected = on_plate(e, mobility, kStep);
+        EXPECT_LT(expected.restitution, 0.9 * rigid(e, kStep).restitution);
+        EXPECT_NEAR(-scene.ball / kSpeed / expected.restitution, 1.0, 0.01) << e << ' ' << s;
+        EXPECT_NEAR(peak / expected.peak, 1.0, 0.025) << e << ' ' << s;
+      }
 }
 
 // Nobody tells it how the body moves beyond the dent.

@@ -102,11 +102,36 @@ class Impacts(unittest.TestCase):
         difference = [abs(of.restitution - of.thin.restitution) / (1.0 - of.restitution) for of in (stiff, soft)]
         self.assertLess(difference[1], 0.2 * difference[0])
 
+    def test_damping_beside_a_thin_plate_s_own_equations(self):
+        """dx/dt = v - alpha F, and on a plate that does not move at all."""
+        for r in (1.0e-3, 1.0e-5):
+            for D in (20.0, 60.0):
+                found = impact(STEEL, r, GLASS, 1.0e-3, logarithm=0.0, constant=0.0, D=D * (r / 1e-3) ** 1.75)
+                m, K, D_, alpha = found.m, found.K, found.D, found.thin.alpha
+                dt, x, v, peak = found.thin.duration / 20000, 0.0, 1.0, 0.0
+                while x > 0.0 or v == 1.0:
+                    gamma = D_ * max(x, 0.0) ** 0.25
+                    F = (K * max(x, 0.0) ** 1.5 + gamma * v) / (1.0 + gamma * alpha)
+                    x, v, peak = x + dt * (v - 0.5 * dt * F / m - alpha * F), v - dt * F / m, max(peak, F)
+                self.assertLess(found.restitution, 0.95 * replace(found, D=0.0).restitution)
+                self.assertAlmostEqual(found.restitution / -v, 1.0, delta=3e-3)
+                self.assertAlmostEqual(found.peak_force / peak, 1.0, delta=1e-3)
+
+    def test_the_delay_hardly_matters(self):
+        found = [impact(GLASS, 1.0e-3, GLASS, 1.0e-3, D=63.25, delay=delay) for delay in (0.3, 0.6)]
+        self.assertLess(found[0].restitution, 0.6)
+        self.assertAlmostEqual(found[0].restitution / found[1].restitution, 1.0, delta=2e-3)
+        self.assertAlmostEqual(found[0].peak_force / found[1].peak_force, 1.0, delta=2e-3)
+
     def test_contact_force_is_the_law_s(self):
         for give in (0.0, 2e-8, -2e-8):
-            F = contact_force(1e-6, give, 2e9)
+            F, d = contact_force(1e-6, give, 2e9)
+            self.assertAlmostEqual(2e9 * d**1.5 / F, 1.0, delta=1e-11)
             self.assertAlmostEqual(2e9 * (1e-6 - give * F) ** 1.5 / F, 1.0, delta=1e-11)
-        self.assertEqual(contact_force(-1e-9, 1e-8, 2e9), 0.0)
+            F, d = contact_force(1e-6, give, 2e9, damping=1e3, before=0.9e-6)
+            self.assertAlmostEqual((2e9 * d**1.5 + 1e3 * d**0.25 * (d - 0.9e-6)) / F, 1.0, delta=1e-11)
+            self.assertAlmostEqual((d + give * F) / 1e-6, 1.0, delta=1e-11)
+        self.assertEqual(contact_force(-1e-9, 1e-8, 2e9), (0.0, 0.0))
 
 
 if __name__ == "__main__":
