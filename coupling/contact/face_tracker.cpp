@@ -140,7 +140,8 @@ void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
   const ImageElements* image = candidates_.image_elements(candidate);
   int* count = &piece_counts_[candidate.first_image];
   for_each_image(query, of, [&](const Vector3& d, const int* pieces, int number, const Vector3&) {
-    *count++ = search_.activate(d, state.reach, pieces, number, pieces_.data() + (image++)->first);
+    *count++ =
+        search_.activate_with_feet(d, state.reach, margin, pieces, number, pieces_.data() + (image++)->first);
   });
   state.alone = -1;
   state.margin = margin;
@@ -201,13 +202,11 @@ bool FaceTracker::may_be_behind(const Query& query, const ParticleSlots& slots) 
 void FaceTracker::add_feet_behind(const Query& query, const ParticleSlots& slots) {
   if (!search_.has_inside() || !may_be_behind(query, slots)) return;
   const auto in_front = static_cast<std::ptrdiff_t>(found_.size());
-  for_each_image(query, Of::chosen,
-                 [&](const Vector3& d, const int* pieces, int count, const Vector3& image) {
-                   const std::size_t first = found_.size();
-                   search_.feet_behind(d, query.touch_reach, pieces, count, found_);
-                   for (std::size_t k = first; k < found_.size(); ++k)
-                     found_[k].image = image, found_[k].point += image;
-                 });
+  for_each_image(query, Of::list, [&](const Vector3& d, const int* pieces, int count, const Vector3& image) {
+    const std::size_t first = found_.size();
+    search_.feet_behind(d, query.touch_reach, pieces, count, found_);
+    for (std::size_t k = first; k < found_.size(); ++k) found_[k].image = image, found_[k].point += image;
+  });
   std::rotate(found_.begin(), found_.begin() + in_front, found_.end());  // the least distances first
 }
 
@@ -294,8 +293,7 @@ void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
   const brep::Foot& foot = found_[0];
   state.last = foot.point;
   if (state.sheet >= 0 && state.alone >= 0)
-    steady_.keep(query.candidate, {state.centre, state.reach, state.margin}, state.alone, foot.patch,
-                 foot.side, foot.xi);
+    steady_.keep(query.candidate, {state.centre, state.reach, state.margin}, state.alone, foot, query.centre);
   else if (!may_rest(query))
     steady_.forget(query.candidate);
 }

@@ -6,6 +6,16 @@
 
 namespace contact {
 
+SteadyFeet::SteadyFeet(const brep::FootSearch& search, const std::vector<brep::Chart>* charts)
+    : search_(search),
+      charts_(charts),
+      waits_for_memory_(search.outgrows_cache()),
+      kernel_(feet_kernel(nurbs::simd_level())),
+      face_kernel_(face_kernel(nurbs::simd_level())) {
+  if (!charts && search.surface().trimmed())
+    for (const brep::Face& face : search.surface().faces) faces_.push_back(FaceNumbers::of(face));
+}
+
 void SteadyFeet::set(Rest& rest, const Room& room, int piece, int face, int side) {
   rest.centre = room.centre;
   rest.reach = room.reach, rest.margin = room.margin;
@@ -14,12 +24,12 @@ void SteadyFeet::set(Rest& rest, const Room& room, int piece, int face, int side
   rest.feet = 1;
 }
 
-void SteadyFeet::keep(int candidate, const Room& room, int piece, int face, int side,
-                      const nurbs::Parameter<2>& xi) {
+void SteadyFeet::keep(int candidate, const Room& room, int piece, const brep::Foot& foot,
+                      const nurbs::Vector3& centre) {
   Rest& rest = rests_[candidate];
-  set(rest, room, piece, face, side);
-  rest.marks = {of_patch(face, side), kNone, 0, !search_.triangle(piece).exists()};
-  if (!followed_.empty()) followed_[candidate] = xi;
+  set(rest, room, piece, foot.patch, foot.side);
+  rest.marks = {of_patch(foot.patch, foot.side), kNone, 0, !search_.triangle(piece).exists()};
+  if (!followed_.empty()) followed_[candidate] = {foot.xi, centre - foot.point};
 }
 
 void SteadyFeet::keep(int candidate, const Room& room, const std::vector<brep::Foot>& feet,
@@ -70,9 +80,10 @@ void SteadyFeet::bring_together(const Group& group) {
 
 void SteadyFeet::find_in_frame() {
   kernel_.room_to_move(block_);
+  if (!faces_.empty()) return find_on_faces();
   if (curved_count_ < block_.count) find_on_planes();
   if (curved_count_ == block_.count && find_on_one_cylinder()) return;
-  for (int n = 0; n < curved_count_; ++n) find_on_curved(curved_[n]);
+  for (int n = 0; n < curved_count_; ++n) find_on_chart(curved_[n]);
 }
 
 bool SteadyFeet::is_one_face() const {
@@ -131,20 +142,62 @@ bool SteadyFeet::find_on_one_cylinder() {
 }
 
 // What planes have made of its room is not meant for it.
-void SteadyFeet::find_on_curved(int k) {
+void SteadyFeet::find_on_chart(int k) {
   const nurbs::Vector3 centre(block_.centre[0][k], block_.centre[1][k], block_.centre[2][k]);
   const double margin = std::min(block_.reach[k] - block_.touch_reach[k], block_.margin[k]);
   block_.room[k] = margin * std::abs(margin) - (centre - rests_[candidate_[k]].centre).squaredNorm();
   if (!(block_.room[k] > 0.0)) return;
   search::Foot foot;
-  if (!followed_.empty()) foot.xi = followed_[candidate_[k]];
   const int side = search_.foot_inside_curved(piece_[k], centre, block_.touch_reach[k], charts_, foot);
   if (side != block_.sign[k]) {
     block_.room[k] = 0.0;
     return;
   }
-  if (!followed_.empty()) followed_[candidate_[k]] = foot.xi;
   for (int d = 0; d < 3; ++d) block_.delta[d][k] = centre[d] - foot.point[d];
+  block_.distance[k] = foot.distance;
+  for (int i = 0; i < 2; ++i) block_.xi[i][k] = foot.xi[i];
+}
+
+// Of trimmed faces, whose borders are out of reach.
+void SteadyFeet::find_on_faces() {
+  FaceBlock& on = on_faces_;
+  int line[kBlock], closed = 0;
+  for (int k = 0; k < block_.count; ++k) {
+    if (search_.surface().faces[face_[k]].kind == brep::Kind::nurbs) {
+      find_on_patch(k);
+      continue;
+    }
+    const double* const numbers = faces_[face_[k]].value;
+    for (int i = 0; i < FaceNumbers::count; ++i) on.face[i][closed] = numbers[i];
+    for (int d = 0; d < 3; ++d) on.centre[d][closed] = block_.centre[d][k];
+    on.sign[closed] = block_.sign[k];
+    on.touch_reach[closed] = block_.touch_reach[k], on.room[closed] = block_.room[k];
+    line[closed++] = k;
+  }
+  on.count = closed;
+  face_kernel_(on);
+  for (int n = 0; n < closed; ++n) {
+    const int k = line[n];
+    for (int d = 0; d < 3; ++d) block_.delta[d][k] = on.delta[d][n];
+    for (int i = 0; i < 2; ++i) block_.xi[i][k] = on.xi[i][n];
+    block_.distance[k] = on.distance[n], block_.room[k] = on.room[n];
+  }
+}
+
+// As long as it is near one foot nothing but its side of the surface may change.
+void SteadyFeet::find_on_patch(int k) {
+  if (!(block_.room[k] > 0.0)) return;
+  const nurbs::Vector3 centre(block_.centre[0][k], block_.centre[1][k], block_.centre[2][k]);
+  Followed& followed = followed_[candidate_[k]];
+  const search::Foot foot = search_.foot_on_patch(face_[k], centre, followed.xi);
+  const nurbs::Vector3 up = centre - foot.point;
+  if (foot.status != search::FootStatus::interior || !(foot.distance < block_.touch_reach[k]) ||
+      !(up.dot(followed.up) > 0.0)) {
+    block_.room[k] = 0.0;
+    return;
+  }
+  followed.xi = foot.xi;
+  for (int d = 0; d < 3; ++d) block_.delta[d][k] = up[d];
   block_.distance[k] = foot.distance;
   for (int i = 0; i < 2; ++i) block_.xi[i][k] = foot.xi[i];
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "brep/foot_search.h"
+#include "coupling/contact/face_kernel.h"
 #include "coupling/contact/feet_kernel.h"
 #include "coupling/rigid_frame.h"
 #include "nurbs/assert.h"
@@ -23,11 +24,7 @@ class SteadyFeet {
   static constexpr int kMostFeet = 4;  ///< of one candidate
 
   /// Keeps references.  `charts`: to the parameters that feet are given in; null: the faces' own.
-  SteadyFeet(const brep::FootSearch& search, const std::vector<brep::Chart>* charts)
-      : search_(search),
-        charts_(charts),
-        waits_for_memory_(search.outgrows_cache()),
-        kernel_(feet_kernel(nurbs::simd_level())) {}
+  SteadyFeet(const brep::FootSearch& search, const std::vector<brep::Chart>* charts);
 
   void forget_all(std::size_t candidates) {
     rests_.assign(candidates, Rest());
@@ -42,8 +39,8 @@ class SteadyFeet {
     const nurbs::Vector3& centre;
     double reach, margin;
   };
-  /// One foot, over this piece, on this side of its face.  `xi`: where it is followed (brep::FootSearch).
-  void keep(int candidate, const Room& room, int piece, int face, int side, const nurbs::Parameter<2>& xi);
+  /// One foot, over this piece.
+  void keep(int candidate, const Room& room, int piece, const brep::Foot& foot, const nurbs::Vector3& centre);
   /// Up to kMostFeet feet over plane faces, the nearest first; pieces[k] is below foot k.
   void keep(int candidate, const Room& room, const std::vector<brep::Foot>& feet, const int* pieces);
 
@@ -137,16 +134,22 @@ class SteadyFeet {
   bool is_one_face() const;
   void find_in_frame();
   void find_on_planes();
+  void find_on_faces();
   bool find_on_one_cylinder();
-  void find_on_curved(int k);
+  void find_on_chart(int k);
+  void find_on_patch(int k);
   void bring_together(const Group& group);
 
   const brep::FootSearch& search_;
   const std::vector<brep::Chart>* charts_;
   bool waits_for_memory_;
-  std::vector<Rest> rests_;                    // per candidate
-  std::vector<Rest> further_;                  // kMostFeet - 1 for each that has had several feet
-  std::vector<nurbs::Parameter<2>> followed_;  // per candidate, where feet are followed (brep::FootSearch)
+  std::vector<Rest> rests_;    // per candidate
+  std::vector<Rest> further_;  // kMostFeet - 1 for each that has had several feet
+  struct Followed {
+    nurbs::Parameter<2> xi;
+    nurbs::Vector3 up;  // from the foot to the centre
+  };
+  std::vector<Followed> followed_;  // per candidate, of feet on patches
 
   FeetKernel kernel_;
   const coupling::RigidFrame* frame_ = nullptr;
@@ -157,6 +160,9 @@ class SteadyFeet {
   alignas(4) Marks marks_[kBlock] = {};
   Group groups_[kBlock / 2] = {};
   FeetBlock block_;
+  FaceKernel face_kernel_;
+  std::vector<FaceNumbers> faces_;  // of walls whose faces have no charts
+  FaceBlock on_faces_;
   double inside_[2][kBlock] = {};  // of charts of cylinders
 };
 

@@ -43,9 +43,11 @@ void add_chunks(const BezierCurve<3>& curve, std::vector<Chunk>& chunks) {
   }
   const auto begin = curve.derivatives(0.0), end = curve.derivatives(1.0);
   Chunk chunk{
-      curve, Vector3::Zero(), curve.at(0.5), 0.0, {{begin.point, begin.first}, {end.point, end.first}}};
-  for (int k = 0; k <= curve.degree(); ++k)
+      curve, Vector3::Zero(), curve.at(0.5), 0.0, 0.0, {{begin.point, begin.first}, {end.point, end.first}}};
+  for (int k = 0; k <= curve.degree(); ++k) {
     chunk.radius = std::max(chunk.radius, (curve.point(k) - chunk.centre).norm());
+    chunk.bulge = std::max(chunk.bulge, chunk.distance_of_chord(curve.point(k)));
+  }
   chunks.push_back(chunk);
 }
 

@@ -3,7 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
+
+#include "brep/angle.h"
 
 namespace brep {
 namespace {
@@ -103,15 +106,14 @@ Projection Face::project(const Vector3& d) const {
     return {{from.dot(frame.x), from.dot(frame.y)}, d - height * frame.z, frame.z, height, 0.0, false};
   }
   const PolarFoot at = polar_foot(d);
-  Projection foot{
-      {std::atan2(at.sin[0], at.cos[0]), at.length}, at.point, at.normal, at.height, 0.0, at.many};
+  Projection foot{{angle_of(at.cos[0], at.sin[0]), at.length}, at.point, at.normal, at.height, 0.0, at.many};
   const double turned = into_range(foot.xi[0], low[0], high[0]);
   if (kind == Kind::cylinder || kind == Kind::cone) {
     const double radius = kind == Kind::cylinder ? R : at.length * std::sin(r);
     foot.outside = std::max(radius * turned, out_of(at.length, low[1], high[1]));
     return foot;
   }
-  foot.xi[1] = std::atan2(at.sin[1], at.cos[1]);
+  foot.xi[1] = angle_of(at.cos[1], at.sin[1]);
   const double second_turned = into_range(foot.xi[1], low[1], high[1]);
   foot.outside = std::max((ring() + tube() * at.cos[1]) * turned, tube() * second_turned);
   return foot;
@@ -163,6 +165,21 @@ double Face::distance_of_whole(const Vector3& d) const {
       return std::abs(std::sqrt(at.rho * at.rho + at.z * at.z) - R);
     default:
       return std::abs(std::sqrt((at.rho - R) * (at.rho - R) + at.z * at.z) - r);
+  }
+}
+
+// Of a cone, its tip is on the axis.
+double Face::distance_of_focus(const Vector3& d) const {
+  if (kind == Kind::plane) return std::numeric_limits<double>::infinity();
+  const Cylindrical at(frame, d);
+  switch (kind) {
+    case Kind::cylinder:
+    case Kind::cone:
+      return at.rho;
+    case Kind::sphere:
+      return std::sqrt(at.rho * at.rho + at.z * at.z);
+    default:
+      return std::min(at.rho, std::sqrt((at.rho - R) * (at.rho - R) + at.z * at.z));
   }
 }
 

@@ -68,6 +68,9 @@ struct Face {
   PolarFoot polar_foot(const Vector3& d) const;
   /// |project(d).height| alone, or less.
   double distance_of_whole(const Vector3& d) const;
+  /// From the axes, centres and circles that have several feet on the surface that the face is cut from: a
+  /// point that moves by less has a foot that does not jump [length].
+  double distance_of_focus(const Vector3& d) const;
   /// Whether the range of an angle is a whole turn, to 1e-9.
   bool whole_turn(int direction) const;
   double middle(int direction) const { return 0.5 * (low[direction] + high[direction]); }

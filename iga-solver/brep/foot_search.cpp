@@ -10,6 +10,16 @@
 
 namespace brep {
 
+namespace {
+
+double largest_border_slack(const Surface& surface) {
+  double largest = surface.trimmed() ? surface.slack : 0.0;
+  for (const double slack : surface.edge_slack) largest = std::max(largest, slack);
+  return largest;
+}
+
+}  // namespace
+
 constexpr int kFew = 3;     // pieces, which are looked at without a filter
 constexpr int kChunk = 32;  // pieces that are filtered together
 
@@ -19,6 +29,7 @@ FootSearch::FootSearch(const Surface& surface)
       triangles_(plane_triangles(surface)),
       neighbours_(surface),
       same_point_(kSamePoint * surface.slack),
+      border_slack_(largest_border_slack(surface)),
       has_inside_(std::any_of(surface.faces.begin(), surface.faces.end(),
                               [](const Face& face) { return face.outward != 0; })) {}
 
@@ -107,7 +118,7 @@ bool FootSearch::is_well_inside(const int* pieces, int count, const Vector3& d, 
                                 double margin) const {
   const Piece& first = surface_.pieces[*pieces];
   if (first.kind == Piece::Kind::element) return is_well_inside_patch(pieces, count, d, reach);
-  if (!first.triangle()) return count == 1 && is_well_inside_curved(first, d, reach);
+  if (!first.triangle()) return count == 1 && is_well_inside_curved(first, d, reach, margin);
   const double height = triangles_[*pieces].over(d).height;
   for (const int* number = pieces; number < pieces + count; ++number) {
     const Piece& piece = surface_.pieces[*number];
@@ -154,8 +165,9 @@ bool FootSearch::is_well_inside_patch(const int* pieces, int count, const Vector
   });
 }
 
-bool FootSearch::is_well_inside_curved(const Piece& piece, const Vector3& d, double reach) const {
-  if (piece.kind == Piece::Kind::trimmed) return true;  // foot_inside_curved() sees to the rest
+bool FootSearch::is_well_inside_curved(const Piece& piece, const Vector3& d, double reach,
+                                       double margin) const {
+  if (piece.kind == Piece::Kind::trimmed) return surface_.faces[piece.face].distance_of_focus(d) > margin;
   if (!piece.rectangle()) return false;
   const Borders& borders = surface_.borders[piece.borders()];
   for (int i = 0; i < 4; ++i) {
@@ -171,8 +183,8 @@ bool FootSearch::is_well_inside_curved(const Piece& piece, const Vector3& d, dou
 
 int FootSearch::foot_inside_curved(int piece, const Vector3& d, double reach,
                                    const std::vector<Chart>* charts, search::Foot& foot) const {
+  if (!charts) return 0;
   foot.patch = surface_.pieces[piece].face;
-  if (!charts) return surface_.trimmed() ? foot_inside_trimmed(foot.patch, d, reach, foot) : 0;
   const PolarFoot at = surface_.faces[foot.patch].polar_foot(d);
   if (at.many || !(std::abs(at.height) < reach) || !(*charts)[foot.patch].place(at, foot.xi)) return 0;
   foot.point = at.point;
@@ -180,22 +192,8 @@ int FootSearch::foot_inside_curved(int piece, const Vector3& d, double reach,
   return at.height < 0.0 ? -1 : 1;
 }
 
-int FootSearch::foot_inside_trimmed(int number, const Vector3& d, double reach, search::Foot& foot) const {
-  const Face& face = surface_.faces[number];
-  int side;
-  if (face.kind == Kind::nurbs) {
-    const search::Foot at = surface_.patches->projector(face.patch).warm(d, foot.xi);
-    if (at.status != FootStatus::interior) return 0;
-    foot.xi = at.xi, foot.point = at.point, foot.distance = at.distance;
-    side = surface_.patches->normal(face.patch, at.xi).dot(d - at.point) < 0.0 ? -1 : 1;
-  } else {
-    const Projection at = face.project(d);
-    if (at.many) return 0;
-    foot.xi = at.xi, foot.point = at.point, foot.distance = std::abs(at.height);
-    side = at.height < 0.0 ? -1 : 1;
-  }
-  return foot.distance < reach && side != -face.outward && surface_.domains[number].inside(foot.xi) ? side
-                                                                                                    : 0;
+search::Foot FootSearch::foot_on_patch(int face, const Vector3& d, const Parameter<2>& last) const {
+  return surface_.patches->projector(surface_.faces[face].patch).warm(d, last);
 }
 
 }  // namespace brep

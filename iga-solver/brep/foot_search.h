@@ -29,6 +29,11 @@ class FootSearch {
   /// Those of these pieces that are not farther than `reach`: enough for points within `reach` - `reach of
   /// feet()` of d.  Returns their number; `active` has room for `count`, and may be `pieces`.
   int activate(const Vector3& d, double reach, const int* pieces, int count, int* active) const;
+  /// The same, but without those that have no foot of any point less than `margin` away from d which reaches
+  /// `reach` - `margin`: of trimmed walls, whose pieces overlap what others have, that is most. feet_behind()
+  /// asks for them all.
+  int activate_with_feet(const Vector3& d, double reach, double margin, const int* pieces, int count,
+                         int* active) const;
   /// Distance of d from the nearest of these pieces, at least; `reach` if that is less.
   double nearest(const Vector3& d, double reach, const int* pieces, int count) const;
   /// Has the processor fetch what feet() looks at first of these pieces, while others are looked at: worth it
@@ -55,12 +60,13 @@ class FootSearch {
                       const std::vector<Foot>& feet, int* below) const;
   /// That foot on a plane face: given any of these pieces, where its triangle says that d is.
   const PlaneTriangle& triangle(int piece) const { return triangles_[piece]; }
-  /// The same on a curved one, whose pieces are no triangles, if it is nearer than `reach`: sets its
-  /// parameters (of the patch if there is a chart; on a face that is a patch it goes on from those that stand
-  /// there), point, distance and patch.  The result is the side of the face that looks to d; 0: there is none
+  /// The same on a curved one that has a chart, if it is nearer than `reach`: sets its parameters on the
+  /// patch, point, distance and patch.  The result is the side of the face that looks to d; 0: there is none
   /// for certain, ask feet().
   int foot_inside_curved(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
                          search::Foot& foot) const;
+  /// The same on a face that is a patch, from where it was last; inside the face if its status is interior.
+  search::Foot foot_on_patch(int face, const Vector3& d, const Parameter<2>& last) const;
 
   /// Distance below which two points of a wall are the same [length].
   double same_point() const { return same_point_; }
@@ -69,8 +75,10 @@ class FootSearch {
   double least_distance(int piece, const Vector3& d, const PieceTree::Query& query, double reach) const;
   void add_feet(Minima& minima, const Vector3& d, double reach, const int* pieces, int count) const;
   bool is_well_inside_patch(const int* pieces, int count, const Vector3& d, double reach) const;
-  bool is_well_inside_curved(const Piece& piece, const Vector3& d, double reach) const;
-  int foot_inside_trimmed(int face, const Vector3& d, double reach, search::Foot& foot) const;
+  bool is_well_inside_curved(const Piece& piece, const Vector3& d, double reach, double margin) const;
+  bool may_have_foot(const Piece& piece, const Vector3& d, double reach, double margin,
+                     bool near_border) const;
+  bool is_border(const Piece& piece, int face) const;
 
   static constexpr size_t kInCache = 500;  // pieces
 
@@ -79,6 +87,7 @@ class FootSearch {
   std::vector<PlaneTriangle> triangles_;
   SmoothNeighbours neighbours_;
   double same_point_;
+  double border_slack_;  // how far borders of trimmed faces may be from their edges
   bool has_inside_;
 };
 

@@ -113,7 +113,8 @@ PatchFaces::Cones PatchFaces::cones_of(const nurbs::Surface& patch, int element)
 }
 
 // A foot S of d, nearer than reach, is in the hull; d - S is along a normal, and square to all tangents.
-bool PatchFaces::may_have_foot(int p, int element, const Vector3& d, double reach, int side) const {
+bool PatchFaces::may_have_foot(int p, int element, const Vector3& d, double reach, int side,
+                               double margin) const {
   const ElementHull& hull = hulls_[p][element];
   if (hull.squared_distance(d) >= reach * reach) return false;
   const Cones& cones = cones_[p][element];
@@ -121,14 +122,14 @@ bool PatchFaces::may_have_foot(int p, int element, const Vector3& d, double reac
   for (int i = 0; i < 2; ++i) {
     const Cone& cone = cones.tangent[i];
     if (!(cone.sine < 1.0)) continue;
-    const double beyond = std::abs(from.dot(cone.axis)) - cones.extent[i];
+    const double beyond = std::abs(from.dot(cone.axis)) - cones.extent[i] - margin;
     if (beyond > 0.0 &&
         beyond * beyond * (1.0 - cone.sine * cone.sine) > cone.sine * cone.sine * reach * reach)
       return false;
   }
   const Cone& cone = cones.normal;
   if (!(cone.sine < 1.0)) return true;
-  const double along = from.dot(cone.axis), most = hull.radius() + cone.sine * reach;
+  const double along = from.dot(cone.axis), most = hull.radius() + cone.sine * reach + margin;
   if (side * along < -most) return false;
   return (from - along * cone.axis).norm() <= most;
 }

@@ -38,8 +38,9 @@ class PatchFaces {
     return projectors_[p]->second_foot().excluded_until_next_list(d, reach, element);
   }
   /// Whether an element is nearer than `reach` and its normals and tangents let it have a foot of d, on its
-  /// side `side` alone unless that is 0.
-  bool may_have_foot(int p, int element, const Vector3& d, double reach, int side) const;
+  /// side `side` alone unless that is 0; of d, or of any point less than `margin` away from it that reaches
+  /// so much less.
+  bool may_have_foot(int p, int element, const Vector3& d, double reach, int side, double margin = 0.0) const;
   /// Local minima of the distance from d nearer than `reach`, given all elements that are and may have one;
   /// in place of those in `feet`.
   void minima_on(int p, const std::vector<int>& elements, const Vector3& d, double reach,

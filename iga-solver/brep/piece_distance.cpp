@@ -28,7 +28,8 @@ double distance_of_edge(const Surface& surface, const Piece& piece, const Vector
   const Edge& edge = surface.edges[piece.edge[0]];
   if (edge.spline()) {
     const Chunk& chunk = surface.chunks[edge.first_chunk + piece.chunk()];
-    return std::max((d - chunk.centre).norm() - chunk.radius, 0.0);
+    const double ball = (d - chunk.centre).norm() - chunk.radius;
+    return std::max({ball, chunk.distance_of_chord(d) - chunk.bulge, 0.0});
   }
   const EdgeFoot foot(edge, d);
   const double beyond = edge.line() ? std::max(foot.beyond(), 0.0) : 0.0;

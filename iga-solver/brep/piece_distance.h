@@ -6,8 +6,8 @@
 
 namespace brep {
 
-/// Distance of d from a triangle; from the whole surface that another face is cut from, from a ball around a
-/// chunk of a spline, from a box around an element, which are not more.
+/// Distance of d from a triangle; from the whole surface that another face is cut from, from what encloses
+/// a chunk of a spline, from a box around an element, which are not more.
 double distance_of_piece(const Surface& surface, int piece, const Vector3& d);
 
 }  // namespace brep

@@ -4,6 +4,7 @@
 // wedge of 2 pi); sides on both ends of a convex or smooth wedge belong to one sheet (README.md).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>
@@ -56,10 +57,19 @@ struct Chunk {
   Vector3 way_on;  ///< tangent of what follows, where there is a kink too; zero at the edge's end
   Vector3 centre;
   double radius;  ///< of a ball around it [length]
+  double bulge;   ///< its points are not farther from the straight line between its ends [length]
   struct End {
     Vector3 point, first;  ///< and its derivative by the curve's s
   };
   End ends[2];
+
+  /// Of d from the straight line between the ends [length].
+  double distance_of_chord(const Vector3& d) const {
+    const Vector3 way = ends[1].point - ends[0].point, from = d - ends[0].point;
+    const double length2 = way.squaredNorm();
+    const double t = length2 > 0.0 ? std::clamp(from.dot(way) / length2, 0.0, 1.0) : 0.0;
+    return (from - t * way).norm();
+  }
 };
 
 /// One sector of a face at a vertex, between two rays (ends of edges) counterclockwise about the normal.
