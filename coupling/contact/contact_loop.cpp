@@ -51,6 +51,7 @@ void ContactLoop::build_list(const ParticleView& particles, const ListReach& rea
                     });
   if (wall_.deforms()) wall_.follow(candidates_.all_elements());
   tracker_->list_is_new();
+  tracker_->go_on({particles.tag, particles.x, list_reach_.data()});
   surface_motion_ = 0.0;
   forget_lost_contacts(particles);
 }

@@ -100,8 +100,11 @@ bool FaceFollower::may_be_followed(const Query& query) {
   const brep::Surface& surface = search().surface();
   const Candidate& candidate = candidates_.candidates()[query.candidate];
   const ImageElements* images = candidates_.image_elements(candidate);
+  const auto is_element = [&](int piece) { return surface.pieces[piece].kind == brep::Piece::Kind::element; };
   for (int k = 0; k < candidate.image_count; ++k) {
     const Vector3 d = query.centre - candidates_.images()[images[k].image];
+    const int* const listed = candidates_.elements(images[k]);
+    if (std::none_of(listed, listed + images[k].count, is_element)) return false;
     near_.resize(images[k].count);
     near_.resize(search().activate(d, query.list_reach, candidates_.elements(images[k]), images[k].count,
                                    near_.data()));

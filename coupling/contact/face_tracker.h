@@ -27,6 +27,7 @@ class FaceTracker : public FeetTracker {
       : FeetTracker(candidates), search_(search), charts_(charts), counts_(counts), steady_(search, charts) {}
 
   void list_is_new() override;
+  void go_on(const Listed& particles) override;
   SteadyFeet* steady() override { return &steady_; }
   void follow(Query* queries, int count) override;
   FeetRange feet(const Query& query, const ParticleSlots& slots) override;
@@ -50,6 +51,13 @@ class FaceTracker : public FeetTracker {
     int alone = -1;       // one of these, if all are of one face, which the candidate is well inside of ...
     double margin = 0.0;  // ... as long as it has not moved by more
   };
+  // Of a candidate when the list was built.
+  struct Known {
+    int particle, tag;
+    nurbs::Vector3 centre;  // in the wall's frame
+    double reach;           // all pieces within are in the list [length]
+    int first, count;       // its range in pieces_ and in piece_counts_; -1: images of the wall are near
+  };
   enum class Of { list, chosen };
   template <class Function>
   void for_each_image(const Query& query, Of of, Function f) const;
@@ -60,6 +68,8 @@ class FaceTracker : public FeetTracker {
     int count = 0;
   };
   PiecesHere pieces_of_wall_itself(const Query& query) const;
+  bool is_near_wall_itself(const Candidate& candidate) const;
+  void go_on(int candidate, int before);
   void choose_fewer_pieces(const Query& query);
   void choose_pieces(const Query& query, Of of, double margin);
   static bool has_moved_less(const Query& query, const State& state, double than);
@@ -86,9 +96,12 @@ class FaceTracker : public FeetTracker {
   const std::vector<brep::Chart>* charts_;
   SearchCounts& counts_;
   SteadyFeet steady_;
-  std::vector<State> states_;       // per candidate
-  std::vector<int> pieces_;         // those chosen, of each image at the beginning of its range of elements
-  std::vector<int> piece_counts_;   // of these, per image of each candidate
+  std::vector<State> states_, states_before_;  // per candidate, of this list and of the last
+  std::vector<Known> known_, known_before_;    // likewise
+  std::vector<int> of_particle_;               // its candidate in the last list; -1: none
+  std::vector<int> pieces_;        // those chosen, of each image at the beginning of its range of elements
+  std::vector<int> piece_counts_;  // of these, per image of each candidate
+  std::vector<int> pieces_before_, counts_before_;
   std::vector<brep::Foot> found_;   // of one candidate, in this step; so are the next two
   std::vector<brep::Foot> within_;  // the same
   std::vector<TrackedFoot> feet_;   // the same

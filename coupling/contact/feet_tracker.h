@@ -34,7 +34,17 @@ class FeetTracker {
   virtual ~FeetTracker() = default;
 
   /// After the list was rebuilt.
-  virtual void list_is_new() { quiet_.assign(candidates_.candidates().size(), Quiet()); }
+  virtual void list_is_new() {
+    quiet_.swap(quiet_before_);
+    quiet_.assign(candidates_.candidates().size(), Quiet());
+  }
+  /// Particles as the list was built, by their number: tag, centre in space, how far it looked [length].
+  struct Listed {
+    const int* tag;
+    const double *x, *reach;
+  };
+  /// After that: what was known of candidates, and still holds, need not be found out again.
+  virtual void go_on(const Listed& /*particles*/) {}
   /// `surface_motion`: how far a deforming wall has moved since the list was built, else 0 [length].
   void begin_step(double surface_motion) { surface_motion_ = surface_motion; }
 
@@ -81,6 +91,14 @@ class FeetTracker {
     quiet.surface_motion = surface_motion_;
   }
 
+  /// Goes on with what candidate `before` of the last list knew, of pieces within `known` of `centre`
+  /// [length].
+  void go_on_quietly(int candidate, int before, const nurbs::Vector3& centre, double known) {
+    Quiet quiet = quiet_before_[before];
+    quiet.clearance = std::min(quiet.clearance, known - (quiet.centre - centre).norm());
+    if (quiet.clearance > 0.0) quiet_[candidate] = quiet;
+  }
+
   const CandidateList& candidates_;
 
  private:
@@ -89,7 +107,7 @@ class FeetTracker {
     double clearance = 0.0;  // no point of the surface was nearer then; 0: one touched
     double surface_motion = 0.0;
   };
-  std::vector<Quiet> quiet_;  // per candidate
+  std::vector<Quiet> quiet_, quiet_before_;  // per candidate, of this list and of the last
   double surface_motion_ = 0.0;
 };
 

@@ -49,6 +49,26 @@ void SteadyFeet::keep(int candidate, const Room& room, const std::vector<brep::F
   rest.feet = count;
 }
 
+void SteadyFeet::go_on(int candidate, int before, const nurbs::Vector3& centre, double known) {
+  const Rest& old = rests_before_[before];
+  if (old.piece < 0) return;
+  const double reach = std::min(old.reach, known - (old.centre - centre).norm());
+  Rest& rest = rests_[candidate];
+  rest = old;
+  rest.further = kNone;
+  if (old.feet > 1) {
+    rest.further = static_cast<std::int32_t>(further_.size());
+    const auto first = further_before_.begin() + old.further;
+    further_.insert(further_.end(), first, first + kMostFeet - 1);
+  }
+  for (int k = 0; k < rest.feet; ++k) {
+    Rest& own = k == 0 ? rest : further_[rest.further + k - 1];
+    own.reach = reach;
+    own.marks.slot = kNone;  // somebody may have looked at the particle's memory meanwhile
+  }
+  if (!followed_.empty()) followed_[candidate] = followed_before_[before];
+}
+
 int SteadyFeet::add_group(int particle, const double* x, const double* v, double touch_reach,
                           const Rest& rest) {
   const int first = block_.count - 1, candidate = candidate_[first];

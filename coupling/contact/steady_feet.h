@@ -26,11 +26,16 @@ class SteadyFeet {
   /// Keeps references.  `charts`: to the parameters that feet are given in; null: the faces' own.
   SteadyFeet(const brep::FootSearch& search, const std::vector<brep::Chart>* charts);
 
+  /// For a new list; those of the last are at hand to go_on() with.
   void forget_all(std::size_t candidates) {
+    rests_.swap(rests_before_), further_.swap(further_before_), followed_.swap(followed_before_);
     rests_.assign(candidates, Rest());
     further_.clear();
     if (search_.surface().patches) followed_.resize(candidates);
   }
+  /// With the feet of candidate `before` of the last list, of which all is known that is within `known` of
+  /// `centre` [length].
+  void go_on(int candidate, int before, const nurbs::Vector3& centre, double known);
   void forget(int candidate) { rests_[candidate].piece = kNone; }
 
   /// Where a candidate was, and how far it may go: it has the feet that it is kept with, as long as it
@@ -149,7 +154,9 @@ class SteadyFeet {
     nurbs::Parameter<2> xi;
     nurbs::Vector3 up;  // from the foot to the centre
   };
-  std::vector<Followed> followed_;  // per candidate, of feet on patches
+  std::vector<Followed> followed_;                   // per candidate, of feet on patches
+  std::vector<Rest> rests_before_, further_before_;  // of the last list; so is the next
+  std::vector<Followed> followed_before_;
 
   FeetKernel kernel_;
   const coupling::RigidFrame* frame_ = nullptr;

@@ -70,6 +70,8 @@ class FootSearch {
 
   /// Distance below which two points of a wall are the same [length].
   double same_point() const { return same_point_; }
+  /// How far borders of trimmed faces may be from their edges, at most [length].
+  double border_slack() const { return border_slack_; }
 
  private:
   double least_distance(int piece, const Vector3& d, const PieceTree::Query& query, double reach) const;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "brep/bounds.h"
@@ -50,35 +51,52 @@ PieceTree::PieceTree(const Surface& surface) : discs_(surface.pieces.size()) {
   for (std::int32_t& box : order_) box = boxes.piece[box];
 }
 
+// Those of a piece fill whole groups of groups: the last box stands there several times.
 void PieceTree::keep_parts(const Boxes& boxes, int pieces) {
+  constexpr int kWhole = kGroup * kGroup;
   const int count = static_cast<int>(boxes.piece.size());
-  std::vector<int> kept;
   first_part_.assign(1, 0);
   for (int p = 0, begin = 0; p < pieces; ++p) {
     int end = begin;
     while (end < count && boxes.piece[end] == p) ++end;
-    for (int k = begin; end - begin > 1 && k < end; ++k) kept.push_back(k);
-    first_part_.push_back(static_cast<std::int32_t>(kept.size()));
+    const int kept = end - begin > 1 ? (end - begin + kWhole - 1) / kWhole * kWhole : 0;
+    for (int k = begin; k < begin + kept; ++k)
+      for (int i = 0; i < 3; ++i) {
+        part_low_[i].push_back(boxes.low[std::min(k, end - 1)][i]);
+        part_high_[i].push_back(boxes.high[std::min(k, end - 1)][i]);
+      }
+    first_part_.push_back(static_cast<std::int32_t>(part_low_[0].size()));
     begin = end;
   }
-  for (int i = 0; i < 3; ++i) {
-    part_low_[i].resize(static_cast<Eigen::Index>(kept.size()));
-    part_high_[i].resize(static_cast<Eigen::Index>(kept.size()));
-    for (size_t k = 0; k < kept.size(); ++k) {
-      part_low_[i][static_cast<Eigen::Index>(k)] = boxes.low[kept[k]][i];
-      part_high_[i][static_cast<Eigen::Index>(k)] = boxes.high[kept[k]][i];
+  for (int i = 0; i < 3; ++i)
+    for (auto low = part_low_[i].begin(), high = part_high_[i].begin(); low != part_low_[i].end();
+         low += kGroup, high += kGroup) {
+      group_low_[i].push_back(*std::min_element(low, low + kGroup));
+      group_high_[i].push_back(*std::max_element(high, high + kGroup));
     }
-  }
 }
 
-// What query() adds to a reach is taken off here.
+// Squared distance from as many boxes as a group has.
+inline PieceTree::OfGroup PieceTree::off2(const Query& query, const std::vector<float> (&low)[3],
+                                          const std::vector<float> (&high)[3], int first) {
+  OfGroup sum = OfGroup::Zero();
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Map<const OfGroup> from(&low[i][first]), to(&high[i][first]);
+    sum += (from - query.d[i]).max(query.d[i] - to).max(0.0f).square();
+  }
+  return sum;
+}
+
+// Boxes are looked at in groups, of which most are too far.  What query() adds to a reach is taken off here.
 double PieceTree::distance_of_boxes(const Query& query, int first, int end) const {
-  const auto off2 = [&](int i) {
-    const auto low = part_low_[i].segment(first, end - first),
-               high = part_high_[i].segment(first, end - first);
-    return (low - query.d[i]).max(query.d[i] - high).max(0.0f).square();
-  };
-  const double least = std::sqrt(static_cast<double>((off2(0) + off2(1) + off2(2)).minCoeff()));
+  float least2 = std::numeric_limits<float>::infinity();
+  for (int groups = first; groups < end; groups += kGroup * kGroup) {
+    const OfGroup of_groups = off2(query, group_low_, group_high_, groups / kGroup);
+    for (int k = 0; k < kGroup; ++k)
+      if (of_groups[k] < least2)
+        least2 = std::min(least2, off2(query, part_low_, part_high_, groups + kGroup * k).minCoeff());
+  }
+  const double least = std::sqrt(static_cast<double>(least2));
   const double far = std::abs(query.d[0]) + std::abs(query.d[1]) + std::abs(query.d[2]);
   const double sure = least * (1.0 - kRoundOffOfSquares) - kRoundOff * (1.0 + far);
   return std::max(0.0, sure) / units_.in_units(1.0);

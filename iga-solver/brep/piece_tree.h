@@ -71,6 +71,10 @@ class PieceTree {
     std::int32_t count;  // 0: not a leaf
   };
   struct Boxes;
+  static constexpr int kGroup = 8;
+  using OfGroup = Eigen::Array<float, kGroup, 1>;
+  static OfGroup off2(const Query& query, const std::vector<float> (&low)[3],
+                      const std::vector<float> (&high)[3], int first);
   double distance_of_boxes(const Query& query, int first, int end) const;
   void keep_parts(const Boxes& boxes, int pieces);
   void set_disc(const Surface& surface, int piece, const std::vector<Bounds>& boxes);
@@ -82,7 +86,7 @@ class PieceTree {
   std::vector<std::int32_t> order_;
   // Boxes of pieces with several, each coordinate in a row; none of others.
   std::vector<std::int32_t> first_part_;
-  Eigen::ArrayXf part_low_[3], part_high_[3];
+  std::vector<float> part_low_[3], part_high_[3], group_low_[3], group_high_[3];
 };
 
 }  // namespace brep

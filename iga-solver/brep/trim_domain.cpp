@@ -179,12 +179,26 @@ bool TrimDomain::is_left_of(const Part& part, const Parameter<2>& xi) const {
   const double rise = part.to[1] - part.from[1];
   const double across = part.beyond({xi[0], xi[1]});
   if (part.curve < 0 || std::abs(across) > part.bulge) return rise > 0.0 ? across > 0.0 : across < 0.0;
-  double low = 0.0, high = 1.0;
+  return xi[0] < crossing(part, xi[1])[0];
+}
+
+// Where a part that rises or falls all the way has this xi1: Newton's method between its ends.
+TrimDomain::Point TrimDomain::crossing(const Part& part, double xi1) const {
+  constexpr double kLastStep = 1e-9;  // one that is no longer leaves an error of its square
+  const bool rises = part.to[1] > part.from[1];
+  double low = 0.0, high = 1.0, s = (xi1 - part.from[1]) / (part.to[1] - part.from[1]);
   for (int k = 0; k < kBisections; ++k) {
-    const double s = 0.5 * (low + high);
-    ((curves_[part.curve].at(s)[1] < xi[1]) == (rise > 0.0) ? low : high) = s;
+    const auto at = curves_[part.curve].derivatives(s);
+    const double off = at.point[1] - xi1;
+    ((off < 0.0) == rises ? low : high) = s;
+    double next = s - off / at.first[1];
+    const bool is_between = next >= low && next <= high;
+    if (!is_between) next = 0.5 * (low + high);
+    const bool done = is_between && std::abs(next - s) <= kLastStep;
+    s = next;
+    if (done) break;
   }
-  return xi[0] < curves_[part.curve].at(0.5 * (low + high))[0];
+  return curves_[part.curve].at(s);
 }
 
 TrimDomain::Where TrimDomain::where(const Parameter<2>& low, const Parameter<2>& high) const {

@@ -49,6 +49,7 @@ class TrimDomain {
   void add_part(const Point& from, const Point& to, const BezierCurve<2>* curve);
   void make_bands();
   bool is_left_of(const Part& part, const Parameter<2>& xi) const;
+  Point crossing(const Part& part, double xi1) const;
   bool meets(const Part& part, const Parameter<2>& low, const Parameter<2>& high) const;
 
   std::vector<Part> parts_;
