@@ -102,6 +102,7 @@ void ContactLoop::step(const ParticleView& particles, const StepInfo& step, Cont
   FeetTracker::Query queries[FeetTracker::kBlock];  // found together, and still at hand afterwards
   SteadyFeet* const steady = tracker_->steady();
   const int candidates = static_cast<int>(candidates_.candidates().size());
+  searches_.near += candidates;
   for (int candidate = 0; candidate < candidates;) {
     const std::size_t first = contacts_.size();
     int count = 0;

@@ -16,6 +16,7 @@ struct SearchCounts {
   long cold = 0;           ///< found by a search of all candidates
   long fallbacks = 0;      ///< simplex_brent found no interior foot
   long iterations = 0;     ///< of the methods that found the feet, all together
+  long near = 0;           ///< particles near the wall, summed over steps
 
   long not_converged() const { return by_status[static_cast<int>(search::FootStatus::not_converged)]; }
   void add(const search::Foot& foot) {
