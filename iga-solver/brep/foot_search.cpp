@@ -133,6 +133,7 @@ bool FootSearch::is_well_inside(const int* pieces, int count, const Vector3& d, 
 // as long as d does not pass through a face.
 double FootSearch::room_of_feet(const Vector3& d, double reach, const int* pieces, int count,
                                 const std::vector<Foot>& feet, int* below) const {
+  if (surface_.trimmed()) return room_on_trimmed(d, reach, pieces, count, feet, below);
   double room = reach;
   size_t found = 0;
   for (const int* number = pieces; number < pieces + count; ++number) {

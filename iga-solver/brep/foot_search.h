@@ -54,8 +54,8 @@ class FootSearch {
   /// d has one foot at most, as long as it moves by less than that.
   bool is_well_inside(const int* pieces, int count, const Vector3& d, double reach, double margin) const;
   /// How far d may move at least until feet begin or end within `reach`, but for those that are farther now,
-  /// if it has these alone and all are inside plane faces; 0 where that is not known [length].  Given all
-  /// pieces within `reach`; below[k] becomes the one that foot k is on.
+  /// if it has these alone and all are inside plane faces, or trimmed ones in closed form; 0 where that is
+  /// not known [length].  Given all pieces within `reach`; below[k] becomes the one that foot k is on.
   double room_of_feet(const Vector3& d, double reach, const int* pieces, int count,
                       const std::vector<Foot>& feet, int* below) const;
   /// That foot on a plane face: given any of these pieces, where its triangle says that d is.
@@ -81,6 +81,9 @@ class FootSearch {
   bool may_have_foot(const Piece& piece, const Vector3& d, double reach, double margin,
                      bool near_border) const;
   bool is_border(const Piece& piece, int face) const;
+  double room_on_trimmed(const Vector3& d, double reach, const int* pieces, int count,
+                         const std::vector<Foot>& feet, int* below) const;
+  double room_beside_edge(const Piece& piece, const Vector3& d, double reach) const;
 
   static constexpr size_t kInCache = 500;  // pieces
 
