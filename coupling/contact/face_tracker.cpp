@@ -14,9 +14,10 @@ using nurbs::Vector3;
 
 namespace {
 
-// Of its reach: how far a particle moves before it chooses pieces again, over one face and over several; from
-// where on it chooses none.
-constexpr double kMargin = 0.2, kSmallMargin = 0.05, kNear = 1.05;
+// How far a particle moves before it chooses pieces again: over one face, of what its list has to spare, so
+// that they last as long as the list does, or of its reach; over several, of its reach.  From where on it
+// chooses none.
+constexpr double kOfList = 0.5, kMargin = 0.2, kSmallMargin = 0.05, kNear = 1.05;
 constexpr int kCalm = 8;  // looks at the same pieces, after which it may do with fewer
 constexpr double kNoWay = std::numeric_limits<double>::infinity();
 
@@ -102,8 +103,7 @@ FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
   if (!is_near) {
     if (slots.used() == 0) distance = nearest(query, query.list_reach, Of::list);  // else it has touched
     if (distance > kNear * query.touch_reach) return none(query, slots, distance);
-    choose_pieces(query, Of::list, kMargin * query.touch_reach);
-    if (state.alone < 0) choose_pieces(query, Of::chosen, kSmallMargin * query.touch_reach);
+    choose_pieces(query);
   } else {
     if (slots.used() == 0) distance = nearest_of_chosen(query);
     if (++state.looks == kCalm) choose_fewer_pieces(query);
@@ -169,6 +169,17 @@ double FaceTracker::nearest(const Query& query, double reach, Of of) const {
 double FaceTracker::nearest_of_chosen(const Query& query) const {
   const State& state = states_[query.candidate];
   return nearest(query, state.reach - (query.centre - state.centre).norm(), Of::chosen);
+}
+
+// What is not over one face alone comes back soon, and does not try again.
+void FaceTracker::choose_pieces(const Query& query) {
+  const State& state = states_[query.candidate];
+  const bool list_is_new = state.reach == 0.0;
+  const double margin = kMargin * query.touch_reach,
+               widest = list_is_new ? kOfList * (query.list_reach - query.touch_reach) : 0.0;
+  choose_pieces(query, Of::list, std::max(margin, widest));
+  if (state.alone < 0 && widest > margin) choose_pieces(query, Of::chosen, margin);
+  if (state.alone < 0) choose_pieces(query, Of::chosen, kSmallMargin * query.touch_reach);
 }
 
 void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {

@@ -71,6 +71,7 @@ class FaceTracker : public FeetTracker {
   bool is_near_wall_itself(const Candidate& candidate) const;
   void go_on(int candidate, int before);
   void choose_fewer_pieces(const Query& query);
+  void choose_pieces(const Query& query);
   void choose_pieces(const Query& query, Of of, double margin);
   static bool has_moved_less(const Query& query, const State& state, double than);
   void prefetch(const Query& query) const;
