@@ -6,7 +6,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 
 #include "coupling/force_distribution.h"
 #include "nurbs/assert.h"
@@ -18,7 +17,8 @@ ContactLoop::ContactLoop(const coupling::StructureSolver& structure, coupling::S
     : options_(options),
       wall_(structure, exchange, options.edge_angle),
       tracker_(wall_.shape().track(candidates_, options.search, searches_)),
-      mesh_(MeshEstimate::of(structure, exchange.positions())) {
+      mesh_(MeshEstimate::of(structure, exchange.positions())),
+      kernel_(feet_kernel(nurbs::simd_level())) {
   if (coupling::LocalCompliance* const compliance = structure.local_compliance())
     correction_ = std::make_unique<ComplianceCorrection>(*compliance, wall_, mesh_.get());
 }
@@ -84,9 +84,7 @@ double ContactLoop::wall_motion() {
 }
 
 bool ContactLoop::has_outgrown_list(const ParticleView& particles) const {
-  std::int64_t outgrown = 0;  // as wide as what is compared, so that the loop is vectorised
-  for (int i = 0; i < particles.count; ++i) outgrown += particles.radius[i] > radius_limit_[i];
-  return wall_.any(outgrown > 0);
+  return wall_.any(kernel_.any_above(particles.radius, radius_limit_.data(), particles.count));
 }
 
 /* ---------------------------------------------------------------------- one step */

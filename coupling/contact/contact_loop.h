@@ -155,10 +155,11 @@ class ContactLoop {
   std::unique_ptr<FeetTracker> tracker_;
   std::unique_ptr<ComplianceCorrection> correction_;  // null: none asked for
   std::unique_ptr<MeshEstimate> mesh_;                // null: no solid whose mesh is known
-  double surface_motion_ = 0.0;                       // of a deforming wall since the list was built
-  double wall_travel_ = 0.0;                          // in a step, when the list was built [length]
-  std::vector<double> list_reach_;                    // per particle, when the list was built
-  std::vector<double> radius_limit_;                  // likewise: what the list is good for
+  FeetKernel kernel_;
+  double surface_motion_ = 0.0;       // of a deforming wall since the list was built
+  double wall_travel_ = 0.0;          // in a step, when the list was built [length]
+  std::vector<double> list_reach_;    // per particle, when the list was built
+  std::vector<double> radius_limit_;  // likewise: what the list is good for
   std::vector<bool> is_candidate_;
   std::vector<int> used_slots_;  // per particle (ParticleSlots)
 

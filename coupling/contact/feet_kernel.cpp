@@ -129,12 +129,19 @@ void stay_outside(FeetBlock& block, const StepNumbers& step) {
   }
 }
 
+bool any_above(const double* values, const double* limits, int count) {
+  long above = 0;  // as wide as what is compared: else it is not vectorised
+  for (int i = 0; i < count; ++i) above += values[i] > limits[i];
+  return above > 0;
+}
+
 }  // namespace
 
 namespace NURBS_SIMD_LEVEL {
 
 FeetKernel feet_kernel() {
-  return {into_frame, into_space, room_to_move, over_one_plane, over_planes, over_one_cylinder, stay_outside};
+  return {into_frame,  into_space,        room_to_move, over_one_plane,
+          over_planes, over_one_cylinder, stay_outside, any_above};
 }
 
 }  // namespace NURBS_SIMD_LEVEL

@@ -60,6 +60,8 @@ struct FeetKernel {
   void (*over_one_cylinder)(FeetBlock& block, const CylinderNumbers& cylinder);
   /// room: also that the step is one of those.
   void (*stay_outside)(FeetBlock& block, const StepNumbers& step);
+  /// Whether any of `count` values is above its limit: what is asked of all particles in each step.
+  bool (*any_above)(const double* values, const double* limits, int count);
 };
 
 /// Throws std::invalid_argument if this machine does not have the instruction set.
