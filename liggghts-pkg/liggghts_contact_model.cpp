@@ -17,11 +17,15 @@ using nurbs::Vector3;
 void LiggghtsContactModel::evaluate(Contact* contacts, int count) {
   LCM::SurfacesIntersectData data;
   data.is_wall = true;
+  force_rows_.resize(atom_.nmax);
+  torque_rows_.resize(atom_.nmax);
+  double **const f = force_rows_.data(), **const torque = torque_rows_.data();
+  const Setting<double**> of_force(atom_.f, f), of_torque(atom_.torque, torque);
   for (Contact* contact = contacts; contact < contacts + count; ++contact) {
     contact->force.setZero();
     contact->torque.setZero();
-    const Setting<double*> force(atom_.f[contact->particle], contact->force.data()),
-        torque(atom_.torque[contact->particle], contact->torque.data());
+    f[contact->particle] = contact->force.data();
+    torque[contact->particle] = contact->torque.data();
     compute_with_spring(*contact, data);
   }
 }

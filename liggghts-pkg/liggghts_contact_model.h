@@ -3,6 +3,8 @@
 #ifndef LMP_LIGGGHTS_CONTACT_MODEL_H
 #define LMP_LIGGGHTS_CONTACT_MODEL_H
 
+#include <vector>
+
 #include "atom.h"
 #include "coupling/contact/contact_model.h"
 #include "fix_wall_gran.h"
@@ -51,6 +53,8 @@ class LiggghtsContactModel final : public contact::ContactModel {
   HertzConstants constants_;
   int wall_type_ = 1;
   bool curvature_radius_;
+  std::vector<double*> force_rows_,
+      torque_rows_;  // in place of LIGGGHTS' own while it is asked; per particle
 };
 
 }  // namespace liggghts_pkg
