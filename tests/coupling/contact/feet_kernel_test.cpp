@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <random>
+#include <vector>
 
 namespace {
 
@@ -76,6 +78,27 @@ TEST(FeetKernel, CentresComeIntoTheFrameAndDirectionsBack) {
       block = given;
       kernel.into_frame(block, origin.data(), nullptr);
       for (int k = 0; k < count; ++k) EXPECT_EQ(get(block.centre, k), get(given.centre, k) - origin);
+    }
+}
+
+// The last of them, which does not fill a word, and one that is as large as it may be.
+TEST(FeetKernel, TellsWhetherAnyIsAboveItsLimit) {
+  Random random;
+  for (const SimdLevel level : levels_here())
+    for (const int count : {1, 8, 13, 61}) {
+      const contact::FeetKernel kernel = contact::feet_kernel(level);
+      std::vector<double> values(count), limits(count);
+      for (int i = 0; i < count; ++i) values[i] = random(), limits[i] = values[i] + random(0.0, 1.0);
+      limits[count / 2] = values[count / 2];
+      EXPECT_FALSE(kernel.any_above(values.data(), limits.data(), 0));
+      EXPECT_FALSE(kernel.any_above(values.data(), limits.data(), count));
+      for (int i = 0; i < count; ++i) {
+        const double limit = limits[i];
+        limits[i] = std::nextafter(values[i], -2.0);
+        EXPECT_TRUE(kernel.any_above(values.data(), limits.data(), count)) << i << " of " << count;
+        EXPECT_EQ(kernel.any_above(values.data(), limits.data(), i), false);
+        limits[i] = limit;
+      }
     }
 }
 
