@@ -32,10 +32,9 @@ void into_space(FeetBlock& block, const double* R) {
   }
 }
 
-// It may have grown or shrunk.
 void room_to_move(FeetBlock& block) {
   for (int k = 0; k < block.count; ++k) {
-    const double margin = least(block.reach[k] - block.touch_reach[k], block.margin[k]);
+    const double margin = block.margin[k];
     const double x = block.centre[0][k] - block.before[0][k], y = block.centre[1][k] - block.before[1][k],
                  z = block.centre[2][k] - block.before[2][k];
     block.room[k] = margin * __builtin_fabs(margin) - (x * x + y * y + z * z);
@@ -121,9 +120,7 @@ void stay_outside(FeetBlock& block, const StepNumbers& step) {
   constexpr double kDeep = 0.5;
   const StepNumbers s = step;
   for (int k = 0; k < block.count; ++k) {
-    const double x = block.velocity[0][k], y = block.velocity[1][k], z = block.velocity[2][k];
-    const double distance = block.distance[k],
-                 way2 = s.squared_time * (x * x + y * y + z * z) + s.squared_way;
+    const double distance = block.distance[k], way2 = s.squared_time * block.squared_speed[k] + s.squared_way;
     const double outside = least(distance * distance - way2, distance - kDeep * block.touch_reach[k]);
     block.room[k] = least(block.room[k], least(outside, distance - s.resolution));
   }

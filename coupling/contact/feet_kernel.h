@@ -15,9 +15,9 @@ struct FeetBlock {
 
   int count = 0;
   alignas(64) Lanes centre[3] = {};                       // in space; then in the wall's frame
-  Lanes velocity[3] = {};                                 // in space
+  Lanes squared_speed = {};                               // in space
   Lanes before[3] = {};                                   // where they were looked at, in the frame
-  Lanes touch_reach = {}, reach = {}, margin = {};        // SteadyFeet::keep
+  Lanes touch_reach = {}, margin = {};                    // how far it touches; how far it may move
   Lanes sign = {};                                        // of their height over the face
   Lanes origin[3] = {}, x[3] = {}, y[3] = {};             // of their planes
   Lanes scale[2] = {}, shift[2] = {};                     // from the face's to the patch's parameters

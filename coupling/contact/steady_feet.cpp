@@ -164,7 +164,7 @@ bool SteadyFeet::find_on_one_cylinder() {
 // What planes have made of its room is not meant for it.
 void SteadyFeet::find_on_chart(int k) {
   const nurbs::Vector3 centre(block_.centre[0][k], block_.centre[1][k], block_.centre[2][k]);
-  const double margin = std::min(block_.reach[k] - block_.touch_reach[k], block_.margin[k]);
+  const double margin = block_.margin[k];
   block_.room[k] = margin * std::abs(margin) - (centre - rests_[candidate_[k]].centre).squaredNorm();
   if (!(block_.room[k] > 0.0)) return;
   search::Foot foot;

@@ -6,6 +6,7 @@
 // those of a search.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -121,9 +122,10 @@ class SteadyFeet {
     candidate_[k] = candidate, particle_[k] = particle, piece_[k] = rest.piece;
     face_[k] = rest.face, marks_[k] = rest.marks;
     block_.sign[k] = static_cast<double>(rest.sign);
-    block_.touch_reach[k] = touch_reach, block_.reach[k] = rest.reach, block_.margin[k] = rest.margin;
-    for (int d = 0; d < 3; ++d)
-      block_.centre[d][k] = x[d], block_.velocity[d][k] = v[d], block_.before[d][k] = rest.centre[d];
+    block_.touch_reach[k] = touch_reach;
+    block_.margin[k] = std::min(rest.reach - touch_reach, rest.margin);  // it may have grown or shrunk
+    for (int d = 0; d < 3; ++d) block_.centre[d][k] = x[d], block_.before[d][k] = rest.centre[d];
+    block_.squared_speed[k] = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     if (rest.marks.is_curved) curved_[curved_count_++] = k;
     if (waits_for_memory_) nurbs::prefetch(search_.triangle(rest.piece));  // find() looks at it
   }
