@@ -12,6 +12,7 @@
 #include <numeric>
 
 #include "balls.h"
+#include "brep/builder.h"
 #include "coupling/contact/contact_totals.h"
 #include "coupling/force_distribution.h"
 #include "coupling/rigid/rigid_surface.h"
@@ -119,6 +120,25 @@ TEST(ContactLoop, TellsWhenAParticleHasOutgrownTheList) {
   scene.balls.radius[0] = 1.0;
   scene.evaluate();
   EXPECT_NEAR(scene.balls.force(0)[2], 0.1, 1e-14);
+}
+
+// A ball at rest on a floor grows until it touches the wall beside it, by less than what its list allows for.
+TEST(ContactLoop, SteadyContactsGrow) {
+  nurbs::NodalVectors points(3, 6);
+  points << 0, 4, 4, 0, 0, 0,  //
+      -4, -4, 4, 4, -4, 4,     //
+      0, 0, 0, 0, 4, 4;
+  RigidSurface wall(
+      std::make_shared<brep::Surface>(brep::from_triangles(points, {0, 1, 2, 0, 2, 3, 0, 3, 5, 0, 5, 4})));
+  constexpr double kBeside = kRadius + 0.35 * BallsOnWall::kSkin;
+  Balls balls(8, 1);
+  balls.add({kBeside, 0.0, 0.9 * kRadius}, kRadius);
+  BallsOnWall scene(wall, balls, 1.0, 1.0);
+  double& radius = scene.balls.radius[0];
+  for (; radius < kRadius + 0.49 * BallsOnWall::kSkin; radius += 0.01 * BallsOnWall::kSkin) {
+    scene.evaluate();
+    EXPECT_EQ(scene.spring.seen.size(), radius < kBeside ? 1u : 2u) << radius;
+  }
 }
 
 // A wall that comes to a ball at rest, by far more than a skin.
