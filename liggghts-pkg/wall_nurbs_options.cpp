@@ -13,6 +13,7 @@
 #include "model_words.h"
 #include "motion_words.h"
 #include "placement_words.h"
+#include "stock_words.h"
 #include "structure_words.h"
 
 namespace liggghts_pkg {
@@ -260,6 +261,9 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const V
 
     if (const auto* row = find_row(kWallKeywords, keyword)) {
       row->read({keyword, reader, variable, options});
+    } else if (const auto* stock = find_row(kStockWords, keyword)) {
+      fail(fmt::format("'{}' is for walls of LIGGGHTS' own, expected {} (doc/mesh_walls.md)", keyword,
+                       stock->instead));
     } else if (reader.next_is_one_of({"on", "off"})) {
       options.setting_words.push_back(keyword);
       options.setting_words.push_back(reader.keyword());

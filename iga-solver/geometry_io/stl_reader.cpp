@@ -71,6 +71,7 @@ TriangleSoup read_stl(const std::string& bytes, const std::string& file) {
 }
 
 GeometryFile parse_stl(const std::string& bytes, const std::string& file, Units units) {
+  if (bytes.empty()) throw InputError(fmt::format("{}: the file is empty, expected an STL file", file));
   if (!is_binary_stl(bytes)) expect_kind(FileKind::stl, file, bytes);
   std::vector<TriangleMesh> meshes = meshes_of(read_stl(bytes, file));
   if (meshes.empty())

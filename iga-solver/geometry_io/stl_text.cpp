@@ -120,8 +120,10 @@ class TextReader {
       fail_at_line(file_, line_,
                    fmt::format("the file ends within the solid '{}' of line {}, expected {}: is it whole?",
                                shown(name), solid_line_, expected));
-    fail_at_line(file_, line_,
-                 fmt::format("'{}', expected {} in an ASCII STL file", shown(std::string(word)), expected));
+    const char* const cut = solid_line_ > 0 && at_ == end_ ? ", which ends here: is it whole?" : "";
+    fail_at_line(
+        file_, line_,
+        fmt::format("'{}', expected {} in an ASCII STL file{}", shown(std::string(word)), expected, cut));
   }
 
   const char *at_, *end_;

@@ -12,6 +12,7 @@
 #include "model_words.h"
 #include "motion_words.h"
 #include "output_words.h"
+#include "stock_words.h"
 #include "wall_nurbs_options.h"
 
 namespace {
@@ -75,6 +76,15 @@ TEST(Manual, ShowsEveryContactLaw) {
     for (const liggghts_pkg::LawProperty& property : law.properties)
       EXPECT_TRUE(shows(shown, std::string("property/global ") + property.name)) << property.name;
   });
+}
+
+// What a deck is told of words of stock walls has a line there, and is never told of a word of ours.
+TEST(Manual, ShowsWordsOfStockWalls) {
+  const std::string shown = code(page("mesh_walls.md"));
+  for (const liggghts_pkg::StockWord& row : liggghts_pkg::kStockWords) {
+    EXPECT_TRUE(shows(shown, row.word)) << row.word;
+    EXPECT_THAT(first_words(liggghts_pkg::wall_nurbs_syntax()), testing::Not(Contains(row.word)));
+  }
 }
 
 TEST(Manual, ShowsNoOtherWords) {

@@ -165,6 +165,8 @@ DECK_WORDS = {
     "type missing": (GOOD.replace("type 2 ", ""), ["id plate", "'type' is missing"]),
     "unknown keyword": (GOOD.replace("structure", "structur"), ["'structur'", "did you mean 'structure'"]),
     "stock keyword": (GOOD + " primitive zplane 0.", ["'primitive'", "structure"]),
+    "word of a stock mesh": (GOOD + " heal auto_remove_duplicates", ["'heal'", "expected nothing", "mesh_walls.md"]),
+    "switch of a stock mesh": (GOOD + " stress on", ["'stress'", r"f_ID\[1..3\]"]),
     "misplaced model keyword": (f"{GOOD} cohesion sjkr", ["'cohesion'", "first"]),
     "keyword twice": (GOOD + " type 2", ["'type'", "twice"]),
     "structure and geometry": (GOOD + " geometry flat.yaml", ["'structure'", "'geometry'"]),

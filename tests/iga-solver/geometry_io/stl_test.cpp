@@ -216,11 +216,13 @@ TEST(Stl, SaysWhatWasGivenAndWhatWasExpected) {
   const float infinity = std::numeric_limits<float>::infinity();
   std::memcpy(infinite.data() + 84 + 50 + 12 + 4, &infinity, 4);
   const std::vector<std::pair<std::string, std::string>> table = {
-      {"", "part.stl: holds no triangle"},
+      {"", "part.stl: the file is empty, expected an STL file"},
       {"solid a\nendsolid a\n", "part.stl: holds no triangle"},
       {"solid a\nfacet normal 0 0 1\nouter loop\n",
        "part.stl:4: the file ends within the solid 'a' of line 1, expected 'vertex'"},
       {ascii.substr(0, ascii.size() - 15), "expected 'facet' or 'endsolid': is it whole?"},
+      {ascii.substr(0, ascii.rfind("endsolid") + 4),
+       "'ends', expected 'facet' or 'endsolid' in an ASCII STL file, which ends here: is it whole?"},
       {replaced(ascii, "endfacet", "endface"),
        "part.stl:8: 'endface', expected 'endfacet' in an ASCII STL file"},
       {replaced(ascii, "endloop", "vertex 0 0 0"), "part.stl:7: 'vertex', expected 'endloop'"},
