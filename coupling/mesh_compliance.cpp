@@ -33,14 +33,11 @@ LocalCompliance::Value MeshCompliance::at(const nurbs::SurfacePoint& foot, bool 
   }
   using Table = structure::ComplianceTable;
   const Table& table = tables_.of(foot.patch, space.element_index(span));
-  const auto component = [&](Table::Component which) {
-    const auto [c, change] = table.at(which, low, high, foot.xi);
-    return Component{c, change};
-  };
-  Value value{component(Table::normal), {}};
-  if (with_shear)
-    value.along = {component(Table::first), component(Table::second), component(Table::first_second)};
-  return value;
+  const auto component = [](const Table::Value& value) { return Component{value.c, value.change}; };
+  if (!with_shear) return {component(table.at(Table::normal, low, high, foot.xi)), {}};
+  const auto all = table.together(low, high, foot.xi);
+  return {component(all[Table::normal]),
+          {component(all[Table::first]), component(all[Table::second]), component(all[Table::first_second])}};
 }
 
 }  // namespace coupling

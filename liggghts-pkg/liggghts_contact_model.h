@@ -28,6 +28,10 @@ class LiggghtsContactModel final : public contact::ContactModel {
     return constants_.are_known() ? of_pair(particle).normal : ContactModel::hertz_constant(particle);
   }
   double hertz_damping(int particle) const override;
+  double shear_constant(int particle) const override {
+    return springs_.exist() && constants_.are_known() ? of_pair(particle).shear
+                                                      : ContactModel::shear_constant(particle);
+  }
   Shear shear(const contact::Contact& contact) const override;
   /// Before each run.
   void read_constants(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model, int wall_type) {

@@ -121,7 +121,7 @@ void ComplianceCorrection::correct(const ParticleView& particles, const Time& no
                D = model.hertz_damping(i) * std::sqrt(root);
   if (!(contact.overlap > 0.0) && !(D > 0.0 && DampedApproach::held_gap(memory_of(particles, contact)) > 0.0))
     return;
-  const bool has_shear = !now.is_setup && model.shear(contact).constant > 0.0;
+  const bool has_shear = !now.is_setup && model.shear_constant(i) > 0.0;
   const coupling::LocalCompliance::Value c = compliance_.at(contact.foot, has_shear);
   const Vector3 n = contact.delta / contact.distance;
   const double approach = n.dot(contact.wall_velocity - particles.velocity(i));

@@ -63,6 +63,8 @@ class ContactModel {
     Vector3 stretch;  ///< [length]
     Vector3 slip;     ///< how fast the particle's surface slides over the foot [length/time]
   };
+  /// The first of these alone.
+  virtual double shear_constant(int /*particle*/) const { return 0.0; }
   virtual Shear shear(const Contact& /*contact*/) const { return {0.0, Vector3::Zero(), Vector3::Zero()}; }
 };
 

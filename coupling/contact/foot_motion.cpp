@@ -9,7 +9,9 @@ namespace {
 
 using nurbs::Vector3;
 
-/// Functions of one direction at xi, and their derivatives, from their powers on the element.
+/// Functions of one direction at xi, and their derivatives, from their powers on the element; `known`: how
+/// many there are, or 0.
+template <int known>
 struct DirectionValues {
   DirectionValues(const nurbs::Space<2>& space, int d, double xi) {
     const nurbs::KnotVector& knots = space.knots(d);
@@ -18,17 +20,18 @@ struct DirectionValues {
                  scale = 2.0 / (high - low);
     const double s = scale * (xi - low) - 1.0;
     const nurbs::ElementFunctions& functions = space.functions(d, element);
-    count = knots.degree() + 1;
+    count = known > 0 ? known : knots.degree() + 1;
     first = knots.span_of_element(element) - knots.degree();
     for (int j = 0; j < count; ++j) {
-      N[j] = dN[j] = ddN[j] = 0.0;
+      double value = 0.0, by_s = 0.0, bend = 0.0;
       for (int k = count - 1; k >= 0; --k) {
-        ddN[j] = ddN[j] * s + dN[j];
-        dN[j] = dN[j] * s + N[j];
-        N[j] = N[j] * s + functions.power[k][j];
+        bend = bend * s + by_s;
+        by_s = by_s * s + value;
+        value = value * s + functions.power[k][j];
       }
-      dN[j] *= scale;
-      ddN[j] *= 2.0 * scale * scale;
+      N[j] = value;
+      dN[j] = scale * by_s;
+      ddN[j] = 2.0 * scale * scale * bend;
     }
   }
   int first, count;
@@ -46,7 +49,8 @@ struct Sums {
 };
 
 /// The row j of control points, of values V, V_0, V_00 along it.
-inline void add_row(const DirectionValues& v, int j, double V, double V_0, double V_00, Scalar& sum) {
+template <int known>
+inline void add_row(const DirectionValues<known>& v, int j, double V, double V_0, double V_00, Scalar& sum) {
   sum.value += v.N[j] * V;
   sum.along[0] += v.N[j] * V_0;
   sum.along[1] += v.dN[j] * V;
@@ -55,33 +59,43 @@ inline void add_row(const DirectionValues& v, int j, double V, double V_0, doubl
   sum.bend[2] += v.ddN[j] * V;
 }
 
-template <bool rational>
+template <bool rational, int known>
 Sums sums(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const Places& X, int first,
           const Vector3& delta) {
-  const DirectionValues u(space, 0, xi[0]), v(space, 1, xi[1]);
+  const DirectionValues<known> u(space, 0, xi[0]), v(space, 1, xi[1]);
   Sums sums;
-  for (int j = 0; j < v.count; ++j) {
+  for (int j = 0; j < (known > 0 ? known : v.count); ++j) {
     const int begin = u.first + space.control_point_count(0) * (v.first + j);
-    Vector3 A = Vector3::Zero(), A_0 = Vector3::Zero(), B = A, B_0 = A;
-    double B_00 = 0.0, W = 0.0, W_0 = 0.0, W_00 = 0.0;
-    for (int i = 0; i < u.count; ++i) {
+    Vector3 A = Vector3::Zero(), A_0 = Vector3::Zero();
+    double h = 0.0, h_0 = 0.0, h_00 = 0.0, W = 0.0, W_0 = 0.0, W_00 = 0.0;
+    for (int i = 0; i < (known > 0 ? known : u.count); ++i) {
       const double w = rational ? space.weights()[begin + i] : 1.0, N = w * u.N[i], dN = w * u.dN[i],
                    ddN = w * u.ddN[i];
-      const auto now = X.now.col(first + begin + i), undeformed = X.undeformed.col(first + begin + i);
+      const auto now = X.now.col(first + begin + i);
+      const double height = delta.dot(X.undeformed.col(first + begin + i));
       A += N * now;
       A_0 += dN * now;
-      B += N * undeformed;
-      B_0 += dN * undeformed;
-      B_00 += ddN * delta.dot(undeformed);
+      h += N * height;
+      h_0 += dN * height;
+      h_00 += ddN * height;
       if constexpr (rational) W += N, W_0 += dN, W_00 += ddN;
     }
     sums.A += v.N[j] * A;
     sums.along[0] += v.N[j] * A_0;
     sums.along[1] += v.dN[j] * A;
-    add_row(v, j, delta.dot(B), delta.dot(B_0), B_00, sums.height);
+    add_row(v, j, h, h_0, h_00, sums.height);
     if constexpr (rational) add_row(v, j, W, W_0, W_00, sums.W);
   }
   return sums;
+}
+
+template <bool rational>
+Sums sums(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const Places& X, int first,
+          const Vector3& delta) {
+  const int p = space.degree(0), q = space.degree(1);
+  if (p == 2 && q == 2) return sums<rational, 3>(space, xi, X, first, delta);
+  if (p == 3 && q == 3) return sums<rational, 4>(space, xi, X, first, delta);
+  return sums<rational, 0>(space, xi, X, first, delta);
 }
 
 // Of S = A/W: S_i = (A_i - W_i S)/W, S_ij = (A_ij - W_ij S - W_i S_j - W_j S_i)/W; of the heights alike.

@@ -73,30 +73,63 @@ ComplianceTable::ComplianceTable(const std::array<int, 2>& counts,
         of_s * Eigen::MatrixXd::Map(component.data(), counts[0], counts[1]) * of_t.transpose();
     next = std::copy_n(powers.data(), powers.size(), next);
   }
+  const int count = counts[0] * counts[1];
+  for (int k = 0; k < count; ++k)
+    for (int c = 0; c < kTogether; ++c) together_[k * kTogether + c] = powers_[c * count + k];
 }
+
+namespace {
+
+/// Polynomials in s and t, each coefficient of all `count` of them in one place; and their derivatives.
+template <int count>
+struct Polynomials {
+  using Values = Eigen::Array<double, count, 1>;
+
+  Polynomials(const double* first, const std::array<int, 2>& counts, double s, double t) {
+    constexpr int kLine = 64 / sizeof(double);
+    const double* next = first + static_cast<std::ptrdiff_t>(count) * counts[0] * counts[1];
+    for (const double* line = first; line < next; line += kLine) __builtin_prefetch(line);
+    c = by_s = by_t = Values::Zero();
+    for (int j = counts[1]; j > 0; --j) {
+      Values value = Values::Zero(), change = value;
+      for (int i = counts[0]; i > 0; --i) {
+        next -= count;
+        change = change * s + value;
+        value = value * s + Values::Map(next);
+      }
+      by_t = by_t * t + c;
+      c = c * t + value;
+      by_s = by_s * t + change;
+    }
+  }
+  Values c, by_s, by_t;
+};
+
+/// An element's own parameter, from -1 to 1, and its change with that of the patch.
+struct OwnParameter {
+  OwnParameter(double low, double high, double xi)
+      : change(2.0 / (high - low)), value(change * (xi - low) - 1.0) {}
+  double change, value;
+};
+
+}  // namespace
 
 ComplianceTable::Value ComplianceTable::at(Component component, const nurbs::Parameter<2>& low,
                                            const nurbs::Parameter<2>& high,
                                            const nurbs::Parameter<2>& xi) const {
-  constexpr int kLine = 64 / sizeof(double);
   const double* const first = powers_.data() + static_cast<std::size_t>(component) * counts_[0] * counts_[1];
-  for (int k = 0; k < counts_[0] * counts_[1]; k += kLine) __builtin_prefetch(first + k);
-  const double in_s = 2.0 / (high[0] - low[0]), in_t = 2.0 / (high[1] - low[1]);
-  const double s = in_s * (xi[0] - low[0]) - 1.0, t = in_t * (xi[1] - low[1]) - 1.0;
-  const double* row = first + counts_[0] * counts_[1];
-  double c = 0.0, by_s = 0.0, by_t = 0.0;
-  for (int j = counts_[1] - 1; j >= 0; --j) {
-    row -= counts_[0];
-    double value = 0.0, change = 0.0;
-    for (int i = counts_[0] - 1; i >= 0; --i) {
-      change = change * s + value;
-      value = value * s + row[i];
-    }
-    by_t = by_t * t + c;
-    c = c * t + value;
-    by_s = by_s * t + change;
-  }
-  return {c, {by_s * in_s, by_t * in_t}};
+  const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
+  const Polynomials<1> at(first, counts_, s.value, t.value);
+  return {at.c[0], {at.by_s[0] * s.change, at.by_t[0] * t.change}};
+}
+
+std::array<ComplianceTable::Value, ComplianceTable::kTogether> ComplianceTable::together(
+    const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high, const nurbs::Parameter<2>& xi) const {
+  const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
+  const Polynomials<kTogether> at(together_.data(), counts_, s.value, t.value);
+  std::array<Value, kTogether> values;
+  for (int k = 0; k < kTogether; ++k) values[k] = {at.c[k], {at.by_s[k] * s.change, at.by_t[k] * t.change}};
+  return values;
 }
 
 ComplianceTables::ComplianceTables(ReferenceBody body, std::vector<SkinPiece> skin)

@@ -19,6 +19,7 @@ class ComplianceTable {
   /// Components of the tensor in the frame (t_1, t_2, n): t_1 along the surface's first direction, n out of
   /// the body, t_2 = n x t_1.
   enum Component { normal, first, second, first_second, first_normal, second_normal, kComponents };
+  static constexpr int kTogether = first_second + 1;  ///< those that a contact with friction asks for
 
   /// c [length/force], and its changes with the parameters [length/force/parameter].
   struct Value {
@@ -33,6 +34,9 @@ class ComplianceTable {
   /// On the element [low, high] of the parameters.
   Value at(Component component, const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high,
            const nurbs::Parameter<2>& xi) const;
+  /// The first kTogether components, to the last bit as one by one.
+  std::array<Value, kTogether> together(const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high,
+                                        const nurbs::Parameter<2>& xi) const;
   /// Largest value at its points [length/force].
   double largest_normal() const { return largest_normal_; }
 
@@ -42,7 +46,8 @@ class ComplianceTable {
   // In one piece: who asks for a table in a time step finds it in memory, seldom in a cache.
   std::array<int, 2> counts_;
   double largest_normal_;
-  std::array<double, kComponents * kMost> powers_;  // [component][of t][of s] in s, t from -1 to 1
+  std::array<double, kTogether * kMost> together_;  // [of t][of s][component] in s, t from -1 to 1
+  std::array<double, kComponents * kMost> powers_;  // [component][of t][of s], the same
 };
 
 /// Chebyshev's points with both ends of [-1, 1], rising.
