@@ -45,6 +45,11 @@ XML = f"{MODELS} type 2 geometry wall.xml surface all"
 CAD = f"{MODELS} type 2 geometry part.step surface all"
 PLUGIN = f"{MODELS} type 2 structure plugin ./net.so net.txt surface top"
 CORRECTED = " compliance corrected"
+OTHER_LAWS = (
+    "penalty/linear", "penalty/quadratic", "plastic/thornton", "hooke", "hooke/stiffness", "hooke/hysteresis", "hertz/stiffness",
+    "edinburgh", "edinburgh/stiffness", "luding", "thornton_ning",
+)  # fmt: skip
+COHESIONS = ("sjkr", "sjkr2", "washino/capillary/viscous")
 PIPE = f"{MODELS} type 2 geometry round.yaml surface wall"
 
 
@@ -203,9 +208,17 @@ DECK_WORDS = {
     "compliance of another word": (GOOD + " compliance yes", ["'yes'", "'corrected' or 'none'"]),
     "compliance of a rigid wall": (RIGID + CORRECTED, [CORRECTED[1:], "given 'geometry'", "or 'compliance none'"]),
     "compliance of a plug-in": (PLUGIN + CORRECTED, [CORRECTED[1:], "given 'structure plugin'"]),
-    "compliance with another law": (GOOD.replace("hertz", "hooke") + CORRECTED, ["laws hertz and penalty/hertz, given 'model hooke'"]),
-    "compliance with yielding": (GOOD.replace("hertz", "plastic/thornton") + CORRECTED, ["given 'model plastic/thornton'"]),
-    "compliance with cohesion": (GOOD.replace("no_history", "no_history cohesion sjkr") + CORRECTED, ["given 'cohesion sjkr'"]),
+    **{
+        f"compliance with {law}": (
+            GOOD.replace("hertz", law) + CORRECTED, [f"laws hertz and penalty/hertz, given 'model {law}', expected .* 'compliance none'"])
+        for law in OTHER_LAWS
+    },
+    **{
+        f"compliance with {cohesion}": (
+            GOOD.replace("no_history", f"no_history cohesion {cohesion}") + CORRECTED,
+            [f"without cohesion, given 'cohesion {cohesion}', expected 'compliance none'"])
+        for cohesion in COHESIONS
+    },
     "compliance of modes": (GOOD.replace("block.yaml", "block.yaml body modal 4") + CORRECTED, ["given 'body modal'"]),
     "compliance with sub-steps": (GOOD + " substeps auto" + CORRECTED, ["not for 'substeps'"]),
     "contact area without heat": (RIGID + " contact_area projection", ["'contact_area'", "'temperature T'"]),
@@ -273,13 +286,13 @@ class BadInput(unittest.TestCase):
         crash = re.search(r"Signal|backtrace|\*\*\* Process|terminate called", result.text)
         self.assertIsNone(crash, result.text[-3000:])
 
-    def check_table(self, rows):
-        """Runs every row on 1 and 2 ranks, several at once: most of the time mpirun starts or ends, and cores rest."""
+    def check_table(self, rows, on=(1, 2)):
+        """Runs every row on so many ranks, several at once: most of the time mpirun starts or ends, and cores rest."""
         with ThreadPoolExecutor(4) as pool:
             runs = [
                 (name, ranks, expected, pool.submit(attempt, deck, files, ranks))
                 for name, (deck, files, expected) in rows.items()
-                for ranks in (1, 2)
+                for ranks in on
             ]
             for name, ranks, expected, future in runs:
                 with self.subTest(name, ranks=ranks):
@@ -302,6 +315,24 @@ class BadInput(unittest.TestCase):
             name: (bob.prelude() + before + f"fix plate all wall/nurbs {GOOD}\n" + after, {}, expected)
             for name, (before, after, expected) in DECKS.items()
         })
+
+    def test_corrected_contacts_on_three_ranks(self):
+        """What stops a run in a step is seen by one of them alone."""
+        fast = bob.prelude(velocity=(0, 0, -20), timestep=1e-9, processors="* 1 1", ball=(5e9, 0.3))
+        small = bob.block(size=(1e-3, 1e-3, 0.5e-3), elements=(12, 12, 6))
+        one = bob.block(elements=(1, 1, 1))
+        words = f"fix plate all wall/nurbs {GOOD}{CORRECTED}\nrun "
+        self.check_table({
+            "elements that are too small": (
+                fast + words + "4000\n", {"block.yaml": small},
+                ["id plate", r"elements at .* too small for the contact of particle 1 at step \d+", "expected at most 0.9", "'compliance none'"]),
+            "a solid of one element": (
+                fast + words + "100\n", {"block.yaml": one}, ["id plate", "no local compliance of the element about", "too few of them"]),
+            **{
+                name: (bob.prelude() + f"fix plate all wall/nurbs {row[0]}\nrun 1\n", row[1] if len(row) == 3 else {}, row[-1])
+                for name, row in (MODEL_FILES | DECK_WORDS).items() if name.startswith("compliance")
+            },
+        }, on=(1, 3))
 
     def test_the_good_deck_is_good(self):
         for words in (GOOD, RIGID, PIPE, GOOD + " material independent store_force yes tangential_damping on"):
