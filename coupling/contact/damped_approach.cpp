@@ -18,13 +18,12 @@ void DampedApproach::advance(double overlap, double of_particle, double of_surfa
   } else if (overlap > 0.0 && (is_new || rate_ > 0.0)) {
     x_ = overlap, w_ = 0.0;
   }
+  if (x_ > 0.0) root_ = std::sqrt(std::sqrt(x_));
 }
-
-double DampedApproach::dashpot(const DampedLaw& law) const { return law.D * std::sqrt(std::sqrt(x_)); }
 
 void DampedApproach::observe(const DampedLaw& law, double x, double dt) {
   constexpr double kMostPerStep = 0.3, kMostS = 0.9;
-  const double S = 1.5 * law.K * std::sqrt(x_), c = std::max(law.give, 0.0);
+  const double S = 1.5 * law.K * root_ * root_, c = std::max(law.give, 0.0);
   const double slowest =
       c * dashpot(law) / (1.0 - std::min(c * S, kMostS)) + law.delay + kSlow * std::sqrt(law.inertia / S);
   const double turn = std::min(dt / slowest, kMostPerStep), e = x - x_;

@@ -44,7 +44,7 @@ class DampedApproach {
   double x() const { return x_; }
   double rate() const { return rate_; }
   /// gamma [force time/length] and the force of it.
-  double dashpot(const DampedLaw& law) const;
+  double dashpot(const DampedLaw& law) const { return law.D * root_; }
   double damping(const DampedLaw& law) const { return dashpot(law) * rate_; }
   /// With the overlap that its force F leaves, x = overlap + c F.
   void observe(const DampedLaw& law, double x, double dt);
@@ -57,6 +57,7 @@ class DampedApproach {
   static constexpr double kOver = -1.0, kDent = 10.0, kSlow = 0.15;
   double x_, u_, w_;  // x = 0: new; kOver
   double rate_ = 0.0;
+  double root_ = 0.0;  // x^(1/4) as it presses
 };
 
 }  // namespace contact

@@ -27,11 +27,8 @@ ShearCompliance::ShearCompliance(const coupling::LocalCompliance::Value& give,
   const auto& [first, second, both] = give.along;
   c_ = symmetric(first.c, second.c, both.c);
   for (int d = 0; d < 2; ++d) change_[d] = symmetric(first.change[d], second.change[d], both.change[d]);
-}
-
-double ShearCompliance::largest_share() const {
-  const double mean = 0.5 * c_.trace();
-  return k_ * (mean + std::sqrt(std::max(mean * mean - c_.determinant(), 0.0)));
+  const double mean = 0.5 * (first.c + second.c), half = 0.5 * (first.c - second.c);
+  largest_share_ = k_ * (mean + std::sqrt(half * half + both.c * both.c));
 }
 
 // The body's speed is that of this step: one step late its damper would feed vibrations of the foot.
@@ -46,8 +43,8 @@ ShearCompliance::Step ShearCompliance::begin(const Start& start, const double* m
   const Eigen::Vector2d rate = (Eigen::Matrix2d::Identity() - shares).inverse() *
                                (slip + (shares * stretch - on_surface(kept.head<3>())) / start.dt);
   stretch_ = stretch + start.dt * rate;
-  const double share = largest_share();
-  const double slowest = share / k_ * start.dashpot / (1.0 - share) + kSlow * std::sqrt(start.inertia / k_);
+  const double slowest =
+      largest_share_ / k_ * start.dashpot / (1.0 - largest_share_) + kSlow * std::sqrt(start.inertia / k_);
   const double turn = std::min(start.dt / slowest, kMostPerStep);
   body_speed_ = body_speed + turn * (own_speed - rate - body_speed);
   body_speed_if_it_slips_ = body_speed + turn * (own_speed - slip - body_speed);

@@ -31,9 +31,9 @@ class ShearCompliance {
                   const Vector3& n, double stiffness);
 
   /// The largest share of c k, which has to be below 1.
-  double largest_share() const;
+  double largest_share() const { return largest_share_; }
   /// k / (1 - that) [force/length].
-  double stiffness() const { return k_ / (1.0 - largest_share()); }
+  double stiffness() const { return k_ / (1.0 - largest_share_); }
   static constexpr int kMemory = 6;  ///< numbers that a contact keeps; all are 0 in a new one
 
   /// What the law is to see of a step: the rate of slip of its damper [length/time], and what its spring
@@ -60,7 +60,7 @@ class ShearCompliance {
 
   static constexpr double kSlow = 0.15;
 
-  double k_;
+  double k_, largest_share_;
   std::array<Vector3, 2> t_;  // unit vectors along the surface
   SurfaceDirections directions_;
   Eigen::Matrix2d c_;                      // [length/force]

@@ -15,7 +15,7 @@ import numpy as np
 
 from bounds import AtMost
 from study.run.summary import Row, table, write_json
-from wall import contacts
+from wall import contacts, settings
 from wall_runs import WallRuns, fix_times
 
 PER_ROW = 20
@@ -58,25 +58,7 @@ BODIES = {
         "angle: [0, 360], elements: [64, 31, 1]}", "zeta+", "eta-, eta+"),
 }  # fmt: skip
 
-DECK = """
-units si
-atom_style granular
-atom_modify map array
-boundary f f f
-newton off
-communicate single vel yes
-hard_particles yes
-region box block -0.04 0.04 -0.04 0.04 -0.04 0.04 units box
-create_box 2 box
-neighbor 0.0002 bin
-neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype 74.6e9 74.6e9
-fix m2 all property/global poissonsRatio peratomtype 0.2285 0.2285
-fix m3 all property/global coefficientRestitution peratomtypepair 2 0.95 0.95 0.95 0.95
-fix m4 all property/global coefficientFriction peratomtypepair 2 0.3 0.3 0.3 0.3
-pair_style gran model hertz tangential history
-pair_coeff * *
-timestep 1e-9
+DECK = settings("-0.04 0.04 -0.04 0.04 -0.04 0.04", 0.0002, ("74.6e9", "0.2285"), 0.95, 0.3, 1e-9, hard=True) + """\
 modify_timing on
 {spheres}
 set group all diameter {diameter} density 2480

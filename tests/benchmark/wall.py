@@ -11,6 +11,7 @@ import statistics
 import subprocess
 import tempfile
 from pathlib import Path
+from typing import Sequence
 
 import numpy as np
 
@@ -22,24 +23,32 @@ ELEMENTS = 31
 STEPS = (50, 1050)  # the difference of two runs has no set-up in it
 REPETITIONS = 3
 
-DECK = """
+def settings(region: str, skin: float, materials: Sequence[str], restitution: float, friction: float, timestep: float, hard: bool = False) -> str:
+    """What decks of spheres on a wall begin with; the wall is of type 2.  `materials`: Young's modulus and Poisson's ratio."""
+    E, nu = materials
+    return f"""
 units si
 atom_style granular
 atom_modify map array
 boundary f f f
 newton off
 communicate single vel yes
-region box block -0.6 0.6 -0.6 0.6 -0.1 0.2 units box
+{"hard_particles yes" if hard else ""}
+region box block {region} units box
 create_box 2 box
-neighbor 0.001 bin
+neighbor {skin} bin
 neigh_modify delay 0
-fix m1 all property/global youngsModulus peratomtype 1e7 1e7
-fix m2 all property/global poissonsRatio peratomtype 0.3 0.3
-fix m3 all property/global coefficientRestitution peratomtypepair 2 0.5 0.5 0.5 0.5
-fix m4 all property/global coefficientFriction peratomtypepair 2 0.5 0.5 0.5 0.5
+fix m1 all property/global youngsModulus peratomtype {E} {E}
+fix m2 all property/global poissonsRatio peratomtype {nu} {nu}
+fix m3 all property/global coefficientRestitution peratomtypepair 2{4 * f" {restitution}"}
+fix m4 all property/global coefficientFriction peratomtypepair 2{4 * f" {friction}"}
 pair_style gran model hertz tangential history
 pair_coeff * *
-timestep 1e-6
+timestep {timestep}
+"""
+
+
+DECK = settings("-0.6 0.6 -0.6 0.6 -0.1 0.2", 0.001, ("1e7", "0.3"), 0.5, 0.5, 1e-6) + """\
 {spheres}
 set group all diameter {diameter} density 2500
 {wall}
