@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Random impacts on a curved, distorted, graded solid with `compliance corrected`: forces beside those on four times finer
-elements, and energy."""
+"""Energy under `compliance corrected`: random impacts on a curved, distorted, graded solid, whose forces are compared with those
+on four times finer elements, too; and a ball that bounces 200 times on a body that is free to move."""
 
 import unittest
 
@@ -10,7 +10,7 @@ from scipy.interpolate import BSpline
 import ball_on_block as bob
 import decks
 
-GLASS = (74.6e9, 0.2285)
+GLASS, STEEL = (74.6e9, 0.2285), (210.6e9, 0.286)
 MODELS = "model hertz tangential no_history"
 DT, STEPS = 6.25e-9, 1600
 BALLS = 9
@@ -98,6 +98,39 @@ class RandomImpacts(unittest.TestCase):
         self.assertGreater(fine.min(), 1.0)
         self.assertLess(np.abs(coarse / fine - 1.0).max(), 0.01)
         self.assertGreater(np.abs(without / fine - 1.0).min(), 0.01)
+
+
+class Bounces(unittest.TestCase):
+    """A ball that gives way by nothing between a rigid lid and a steel block, which is 56 times as heavy and floats on springs that
+    are soft beside the contact.  Both strike each other, and the block turns and vibrates."""
+
+    GAP, DT, EVERY, BOUNCES = 5e-6, 1e-8, 20, 200  # [m], [s]
+    PERIOD = 4e-5  # of the block on its springs [s]
+
+    def run_on(self, scale: float, steps: int) -> tuple[np.ndarray, int, float]:
+        """Energy of all where nothing touches [J], how often the ball met the block, and the largest estimate of what the mesh takes."""
+        size = scale * np.array([1.2e-3, 1.2e-3, 0.8e-3])
+        ground = 7850.0 * size[2] * (2.0 * np.pi / self.PERIOD) ** 2  # [N/m^3]
+        block = bob.block(size=tuple(size.tolist()), elements=(6, 6, 4), youngs_modulus=STEEL[0], nu=STEEL[1], density=7850.0, fixed=())
+        block += f"boundary: [{{name: ground, spring: {{stiffness: {ground!r}}}, faces: [zeta-]}}]\n"
+        centre = (0.45e-4 * scale, 0.8e-4 * scale, bob.RADIUS + 0.2 * self.GAP)
+        deck = bob.prelude(balls=(centre,), models=MODELS, ball=(1e20, 0.2), wall=STEEL, timestep=self.DT, velocity=(0, 0, -1))
+        deck += f"fix lid all wall/gran {MODELS} primitive type 2 zplane {2 * bob.RADIUS + self.GAP!r}\n"
+        deck += bob.wall(MODELS, "structure block.yaml surface top compliance corrected") + bob.output((7, 15, 16, 32), self.EVERY)
+        table = decks.good(deck + f"run {steps}\n", files={"block.yaml": block}, timeout=500).table
+        touches = table["plate7"] > 0
+        energy = table["KinEng"] + table["plate15"] + table["plate16"]
+        is_free = ~touches & (np.abs(table["fz"]) == 0.0)
+        return energy[is_free], int(np.sum(touches[1:] & ~touches[:-1])), table["plate32"].max()
+
+    def test_200_bounces_on_a_free_body_keep_the_energy(self):
+        energy, bounces, missing = self.run_on(4.0, 380_000)
+        change = energy / energy[0] - 1.0
+        print(f"{bounces} bounces, estimate {missing:.3f}: energy {change.min():.2e} to {change.max():.2e}, at the end {change[-1]:.2e}")
+        self.assertGreaterEqual(bounces, self.BOUNCES)
+        self.assertGreater(missing, 0.03)
+        self.assertLess(np.abs(change).max(), 1e-4)
+        self.assertLess(change.max(), 1e-5)
 
 
 if __name__ == "__main__":
