@@ -154,6 +154,16 @@ void SurfaceExchange::spread(const ContactForce& contact, const Basis& foot) {
   });
 }
 
+void SurfaceExchange::turn(const ContactForce& contact) {
+  const nurbs::MultiPatch& surface = solver_.surface().topology;
+  nurbs::RationalBasis<2> basis;
+  nurbs::evaluate(surface.patch(contact.patch), {contact.xi[0], contact.xi[1]}, 1, basis);
+  const int first = surface.first_control_point(contact.patch);
+  for (int a = 0; a < basis.count; ++a)
+    surface_forces_.col(first + basis.control_point[a]) +=
+        (contact.turn[0] * basis.dR[0][a] + contact.turn[1] * basis.dR[1][a]) * Vector3::Map(contact.lever);
+}
+
 const NodalForces& SurfaceExchange::export_add(const std::vector<ContactForce>& local) {
   forget_forces();
   contacts_.clear();
@@ -170,8 +180,10 @@ const NodalForces& SurfaceExchange::export_add(const std::vector<ContactForce>& 
     if (surface.faces)
       spread(contact, BoxBasis(*surface.faces, brep::point_on(*surface.faces, contact.patch,
                                                               {contact.xi[0], contact.xi[1]})));
-    else
+    else {
       spread(contact, basis_of(contact, surface.topology));
+      if (contact.turn[0] != 0.0 || contact.turn[1] != 0.0) turn(contact);
+    }
   }
   std::sort(touched_.begin(), touched_.end());
   map_.nodes_of(touched_, nodal_forces_.touched);

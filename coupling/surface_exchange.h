@@ -56,6 +56,7 @@ class SurfaceExchange {
   void send_to_owners(const std::vector<ContactForce>& local);
   template <class Basis>
   void spread(const ContactForce& contact, const Basis& foot);
+  void turn(const ContactForce& contact);
   void forget_forces();
 
   MPI_Comm comm_;

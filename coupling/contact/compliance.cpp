@@ -113,11 +113,11 @@ SurfaceDirections ComplianceCorrection::directions_at(const Contact& contact) co
   const nurbs::MultiPatch& surface = wall_.surface();
   const int patch = contact.foot.patch;
   const FootMotion motion =
-      foot_motion(surface.patch(patch), contact.foot.xi, {wall_.control_points(), undeformed_},
+      foot_motion(surface.patch(patch), contact.foot.xi, wall_.control_points(),
                   surface.first_control_point(patch), wall_.to_frame_direction(contact.delta));
-  return {
-      wall_.to_space_direction(motion.first),
-      {wall_.to_space_direction(motion.gradients.col(0)), wall_.to_space_direction(motion.gradients.col(1))}};
+  SurfaceDirections directions{{}, motion.rates};
+  for (int j = 0; j < 2; ++j) directions.tangents.col(j) = wall_.to_space_direction(motion.tangents.col(j));
+  return directions;
 }
 
 void ComplianceCorrection::correct(const ParticleView& particles, const Time& now, const ContactModel& model,
@@ -142,6 +142,7 @@ void ComplianceCorrection::correct(const ParticleView& particles, const Time& no
   }
   if (seen.s >= kLargest) fail_as_too_fine(particles, now.step, contact, seen.s);
   const SurfaceDirections directions = directions_at(contact);
+  before.tangents = directions.tangents;
   before.along = -0.5 * seen.force * seen.force * directions.gradient(c.normal.change);
   before.tangent = 1.5 * K * std::sqrt(std::max(seen.x, now.dt * std::abs(seen.rate))) / (1.0 - seen.s);
   before.dashpot = seen.dashpot;
@@ -191,10 +192,11 @@ void ComplianceCorrection::after(const ParticleView& particles, const ContactMod
   for (Contact* c = begin; c < end; ++c) {
     Contact& contact = *c;
     const Before& before = before_[c - begin];
+    Eigen::Vector2d along = before.along;
     if (before.shear) {
       const Vector3 stretch = model.shear(contact).stretch;
       before.shear->end(stretch, memory_of(particles, contact) + DampedApproach::kMemory);
-      contact.force += before.shear->force_along(stretch);
+      along += before.shear->force_along(stretch);
       contact.shear_tangent = before.shear->stiffness();
       contact.shear_dashpot = before.shear_dashpot;
     }
@@ -203,7 +205,8 @@ void ComplianceCorrection::after(const ParticleView& particles, const ContactMod
     contact.touches = before.touches;
     contact.delta = before.delta;
     contact.wall_velocity = before.wall_velocity;
-    contact.force += before.along;
+    contact.force += before.tangents * along;
+    contact.along = along;
     contact.tangent = before.tangent;
     contact.dashpot = before.dashpot;
   }

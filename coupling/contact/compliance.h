@@ -38,10 +38,10 @@ class ComplianceCorrection {
   /// 1 there is no equilibrium.
   static constexpr double kLargest = 0.9;
 
-  /// Keeps references to all.  The wall is undeformed, all of it.  `mesh`: null if nothing is known of it,
+  /// Keeps references to all.  `mesh`: null if nothing is known of it,
   /// which then gives way at once.
   ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall, const MeshEstimate* mesh)
-      : compliance_(compliance), wall_(wall), mesh_(mesh), undeformed_(wall.control_points()) {}
+      : compliance_(compliance), wall_(wall), mesh_(mesh) {}
 
   /// Numbers that a contact keeps behind those of the model, in each slot of the particles' memory.
   static constexpr int kMemory = DampedApproach::kMemory + ShearCompliance::kMemory;
@@ -67,9 +67,10 @@ class ComplianceCorrection {
     double overlap, distance;
     bool touches;
     Vector3 delta, wall_velocity;
-    Vector3 along = Vector3::Zero();            // force [force]
-    double tangent = 0.0, stiffness = 0.0;      // behind the mesh, and the law's own [force/length]
-    double dashpot = 0.0, shear_dashpot = 0.0;  // [force time/length]
+    Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();
+    Eigen::Vector2d along = Eigen::Vector2d::Zero();  // force in units of the tangents [force/length]
+    double tangent = 0.0, stiffness = 0.0;            // behind the mesh, and the law's own [force/length]
+    double dashpot = 0.0, shear_dashpot = 0.0;        // [force time/length]
     std::optional<ShearCompliance> shear = std::nullopt;
   };
   /// What a law is called with, and what it is to answer.
@@ -92,7 +93,6 @@ class ComplianceCorrection {
   coupling::LocalCompliance& compliance_;
   const Wall& wall_;
   const MeshEstimate* mesh_;
-  nurbs::NodalVectors undeformed_;
   std::vector<Before> before_;
 };
 

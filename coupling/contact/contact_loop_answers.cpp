@@ -80,12 +80,15 @@ inline void ContactLoop::look_at_mesh(const ParticleView& particles, const StepI
 
 void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
   expect_stable(particles, step, contact);
-  const Vector3 on_body = -(wall_.frame().rotation.transpose() * contact.force);
+  const Vector3 on_body = -wall_.to_frame_direction(contact.force),
+                lever = wall_.to_frame_direction(contact.delta);
   forces_on_body_.push_back({particles.tag[contact.particle],
                              contact.slot,
                              contact.foot.patch,
                              {contact.foot.xi[0], contact.foot.xi[1]},
-                             {on_body[0], on_body[1], on_body[2]}});
+                             {on_body[0], on_body[1], on_body[2]},
+                             {contact.along[0], contact.along[1]},
+                             {lever[0], lever[1], lever[2]}});
 }
 
 namespace {

@@ -45,7 +45,7 @@ struct Scalar {
 
 struct Sums {
   Vector3 A = Vector3::Zero(), along[2] = {Vector3::Zero(), Vector3::Zero()};
-  Scalar height, W;  // of A below delta, undeformed, and the weights'
+  Scalar height, W;  // of A along delta, and the weights'
 };
 
 /// The row j of control points, of values V, V_0, V_00 along it.
@@ -60,8 +60,8 @@ inline void add_row(const DirectionValues<known>& v, int j, double V, double V_0
 }
 
 template <bool rational, int known>
-Sums sums(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const Places& X, int first,
-          const Vector3& delta) {
+Sums sums(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const nurbs::NodalVectors& X,
+          int first, const Vector3& delta) {
   const DirectionValues<known> u(space, 0, xi[0]), v(space, 1, xi[1]);
   Sums sums;
   for (int j = 0; j < (known > 0 ? known : v.count); ++j) {
@@ -71,8 +71,8 @@ Sums sums(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const Pla
     for (int i = 0; i < (known > 0 ? known : u.count); ++i) {
       const double w = rational ? space.weights()[begin + i] : 1.0, N = w * u.N[i], dN = w * u.dN[i],
                    ddN = w * u.ddN[i];
-      const auto now = X.now.col(first + begin + i);
-      const double height = delta.dot(X.undeformed.col(first + begin + i));
+      const auto now = X.col(first + begin + i);
+      const double height = delta.dot(now);
       A += N * now;
       A_0 += dN * now;
       h += N * height;
@@ -90,8 +90,8 @@ Sums sums(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const Pla
 }
 
 template <bool rational>
-Sums sums(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const Places& X, int first,
-          const Vector3& delta) {
+Sums sums(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const nurbs::NodalVectors& X,
+          int first, const Vector3& delta) {
   const int p = space.degree(0), q = space.degree(1);
   if (p == 2 && q == 2) return sums<rational, 3>(space, xi, X, first, delta);
   if (p == 3 && q == 3) return sums<rational, 4>(space, xi, X, first, delta);
@@ -115,8 +115,8 @@ void divide_by_weight(Sums& sums) {
 
 }  // namespace
 
-FootMotion foot_motion(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const Places& X,
-                       int first, const Vector3& delta) {
+FootMotion foot_motion(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi,
+                       const nurbs::NodalVectors& X, int first, const Vector3& delta) {
   Sums found =
       space.rational() ? sums<true>(space, xi, X, first, delta) : sums<false>(space, xi, X, first, delta);
   if (space.rational()) divide_by_weight(found);
@@ -128,7 +128,7 @@ FootMotion foot_motion(const nurbs::Space<2>& space, const nurbs::Parameter<2>& 
   M(1, 1) -= bend[2];
   M(0, 1) -= bend[1];
   M(1, 0) -= bend[1];
-  return {tangents.col(0), tangents * M.inverse()};
+  return {tangents, M.inverse()};
 }
 
 }  // namespace contact

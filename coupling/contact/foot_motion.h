@@ -8,22 +8,17 @@
 
 namespace contact {
 
-/// Of all control points, 3 x n [length].
-struct Places {
-  const nurbs::NodalVectors &now, &undeformed;
-};
-
 struct FootMotion {
-  nurbs::Vector3 first;                   ///< dS/dxi of the patch [length]
-  Eigen::Matrix<double, 3, 2> gradients;  ///< of the two parameters with the centre's place [1/length]
+  Eigen::Matrix<double, 3, 2> tangents;  ///< S_j, of the two parameters [length]
+  Eigen::Matrix2d rates;                 ///< of the parameters by S_i . d(centre) [1/length^2]
 };
 
-/// On a patch whose control points are columns of X from `first` on; `delta`: from the foot to the centre,
-/// normal to the surface [length].  From (centre - S) . S_i = 0:
-///   (S_i . S_j - delta . S_ij) d(xi_j) = S_i . d(centre),
-/// so over a hill the foot is slower than the centre, and in a hollow faster.  S_ij are those of the
-/// undeformed surface: the dent below a ball goes along with it, and does not bend its way.
-FootMotion foot_motion(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const Places& X,
-                       int first, const nurbs::Vector3& delta);
+/// On a patch whose control points are columns of X (3 x n) [length] from `first` on; `delta`: from the foot
+/// to the centre, normal to the surface [length].  From (centre - S) . S_i = 0:
+///   (S_i . S_j - delta . S_ij) d(xi_j) = S_i . d(centre) - sum over A of (R_A S_i - R_A,i delta) . d(X_A),
+/// so over a hill the foot is slower than the centre, and in a hollow faster; and what moves it by turning
+/// the surface below the centre, the last term, is a couple for a force that depends on the foot.
+FootMotion foot_motion(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi,
+                       const nurbs::NodalVectors& X, int first, const nurbs::Vector3& delta);
 
 }  // namespace contact

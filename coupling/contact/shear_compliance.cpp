@@ -22,7 +22,8 @@ Eigen::Matrix2d symmetric(double first, double second, double both) {
 ShearCompliance::ShearCompliance(const coupling::LocalCompliance::Value& give,
                                  const SurfaceDirections& directions, const Vector3& n, double stiffness)
     : k_(stiffness), directions_(directions) {
-  t_[0] = (directions.first - n.dot(directions.first) * n).normalized();
+  const Vector3 first_tangent = directions.tangents.col(0);
+  t_[0] = (first_tangent - n.dot(first_tangent) * n).normalized();
   t_[1] = n.cross(t_[0]);
   const auto& [first, second, both] = give.along;
   c_ = symmetric(first.c, second.c, both.c);
@@ -61,7 +62,7 @@ void ShearCompliance::end(const Vector3& stretch, double* memory) const {
   Eigen::Map<Vector3>{memory + 3} = to_space(slips ? body_speed_if_it_slips_ : body_speed_);
 }
 
-Vector3 ShearCompliance::force_along(const Vector3& stretch) const {
+Eigen::Vector2d ShearCompliance::force_along(const Vector3& stretch) const {
   const Eigen::Vector2d F = k_ * on_surface(stretch);
   return -0.5 * directions_.gradient({F.dot(change_[0] * F), F.dot(change_[1] * F)});
 }

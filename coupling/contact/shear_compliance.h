@@ -51,8 +51,8 @@ class ShearCompliance {
   Step begin(const Start& start, const double* memory);
   /// The stretch after it [length].
   void end(const Vector3& stretch, double* memory) const;
-  /// The force on the particle that belongs to the change of c [force].
-  Vector3 force_along(const Vector3& stretch) const;
+  /// The force on the particle that belongs to the change of c, in units of S_j [force/length].
+  Eigen::Vector2d force_along(const Vector3& stretch) const;
 
  private:
   Eigen::Vector2d on_surface(const Vector3& v) const { return {t_[0].dot(v), t_[1].dot(v)}; }

@@ -2,6 +2,7 @@
 // Directions along a wall of patches as it now is: what changes along the surface is worked out with.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 
 #include "coupling/contact/wall.h"
@@ -9,13 +10,12 @@
 namespace contact {
 
 struct SurfaceDirections {
-  Vector3 first;  ///< dS/dxi of the patch, in space [length]
-  std::array<Vector3, 2>
-      dual;  ///< gradients of a foot's two parameters with the centre's place, in space [1/length]
+  Eigen::Matrix<double, 3, 2> tangents;  ///< S_j of the patch, in space [length]
+  Eigen::Matrix2d rates;                 ///< foot_motion.h [1/length^2]
 
-  /// Of what changes with the parameters like this.
-  Vector3 gradient(const std::array<double, 2>& change) const {
-    return change[0] * dual[0] + change[1] * dual[1];
+  /// Of what changes with the parameters like this, the gradient with the centre's place along S_j.
+  Eigen::Vector2d gradient(const std::array<double, 2>& change) const {
+    return rates * Eigen::Vector2d(change[0], change[1]);
   }
 };
 

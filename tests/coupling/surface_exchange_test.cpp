@@ -73,6 +73,33 @@ TEST(SurfaceExchange, ForcesAreBitwiseTheSameOnAnyNumberOfRanks) {
   EXPECT_LE((forces.rowwise().sum() - total).norm(), 1e-13 * total.norm());
 }
 
+// Of control points that move as a rigid body the couple is (sum of turn_j S_j) x lever, and no force.
+TEST(SurfaceExchange, ACoupleIsItsLeversMomentAndNoForce) {
+  const Ranks ranks;
+  coupling::RigidSurface rigid({test::wavy_surface(), test::wavy_surface()});
+  coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
+  ContactForce one = contact(4, 1);
+  std::vector<ContactForce> mine;
+  const auto nodal_forces = [&] { return NodalVectors(exchange.export_add(mine).values); };
+  if (ranks.me == 0) mine = {one};
+  const NodalVectors of_force = nodal_forces();
+  one.turn[0] = 0.7, one.turn[1] = -0.4;
+  one.lever[0] = 0.1, one.lever[1] = 0.3, one.lever[2] = 1.9;
+  if (ranks.me == 0) mine = {one};
+  const NodalVectors f = nodal_forces() - of_force, &X = exchange.positions();
+  Vector3 moment = Vector3::Zero(), tangent = Vector3::Zero();
+  for (Eigen::Index A = 0; A < X.cols(); ++A) moment += Vector3(X.col(A)).cross(Vector3(f.col(A)));
+  constexpr double kStep = 1e-6;
+  for (const double side : {1.0, -1.0}) {
+    const nurbs::Parameter<2> beside = {one.xi[0] + side * kStep * one.turn[0],
+                                        one.xi[1] + side * kStep * one.turn[1]};
+    tangent += 0.5 * side / kStep * coupling::FootBasis(rigid.surface().topology, {1, beside}).interpolate(X);
+  }
+  const Vector3 expected = tangent.cross(Vector3::Map(one.lever));
+  EXPECT_LT(f.rowwise().sum().norm(), 1e-8 * of_force.norm() * 1e-6);
+  EXPECT_LT((moment - expected).norm(), 1e-6 * expected.norm());
+}
+
 TEST(SurfaceExchange, RanksWithoutContactsTakePart) {
   const Ranks ranks;
   coupling::RigidSurface rigid({test::wavy_surface()});

@@ -55,6 +55,19 @@ class Ranks(unittest.TestCase):
         self.assertGreater(np.abs(table["plate11"]).max(), 1e-7 * mass)
 
 
+    def test_angular_momentum_goes_to_the_block_too(self):
+        """Of a law that turns with the body, without friction."""
+        settings = SETTINGS | dict(balls=((0.3e-3, 0.2e-3, 1e-3),), friction=0.0, restitution=1.0, timestep=5e-9, velocity=(0.4, -0.3, -1.0))
+        deck = bob.prelude(**settings) + bob.wall(MODELS, CORRECTED) + bob.output((9, 10, 11, 12, 13, 14)) + "run 400\n"
+        block = glass((4e-3, 4e-3, 2e-3), (12, 12, 6), ()).replace("linear_elastic", "saint_venant_kirchhoff")
+        table = decks.good(deck, files={"block.yaml": block}).table
+        mass = 4.0 / 3.0 * np.pi * bob.RADIUS**3 * bob.DENSITY
+        place, velocity = (np.stack([table[f"{v}{d}"] for d in "xyz"], axis=1) for v in ("", "v"))
+        total = mass * np.cross(place, velocity) + np.stack([table[f"plate{k}"] for k in (12, 13, 14)], axis=1)
+        self.assertLess(np.abs(total - total[0]).max(), 1e-12 * mass * bob.RADIUS)
+        self.assertGreater(np.abs(table["plate12"]).max(), 1e-3 * mass * bob.RADIUS)
+
+
 class Restart(unittest.TestCase):
     def test_a_run_goes_on_in_a_contact_to_the_last_bit(self):
         wall = bob.wall(MODELS, CORRECTED) + bob.output((3, 7, 15))
