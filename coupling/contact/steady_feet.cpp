@@ -66,7 +66,6 @@ void SteadyFeet::go_on(int candidate, int before, const nurbs::Vector3& centre, 
     own.reach = reach;
     own.marks.slot = kNone;  // somebody may have looked at the particle's memory meanwhile
   }
-  if (!followed_.empty()) followed_[candidate] = followed_before_[before];
 }
 
 int SteadyFeet::add_group(int particle, const double* x, const double* v, double touch_reach,

@@ -29,13 +29,13 @@ class SteadyFeet {
 
   /// For a new list; those of the last are at hand to go_on() with.
   void forget_all(std::size_t candidates) {
-    rests_.swap(rests_before_), further_.swap(further_before_), followed_.swap(followed_before_);
+    rests_.swap(rests_before_), further_.swap(further_before_);
     rests_.assign(candidates, Rest());
     further_.clear();
     if (search_.surface().patches) followed_.resize(candidates);
   }
   /// With the feet of candidate `before` of the last list, of which all is known that is within `known` of
-  /// `centre` [length].
+  /// `centre` [length]; they are on faces in closed form.
   void go_on(int candidate, int before, const nurbs::Vector3& centre, double known);
   void forget(int candidate) { rests_[candidate].piece = kNone; }
 
@@ -157,8 +157,7 @@ class SteadyFeet {
     nurbs::Vector3 up;  // from the foot to the centre
   };
   std::vector<Followed> followed_;                   // per candidate, of feet on patches
-  std::vector<Rest> rests_before_, further_before_;  // of the last list; so is the next
-  std::vector<Followed> followed_before_;
+  std::vector<Rest> rests_before_, further_before_;  // of the last list
 
   FeetKernel kernel_;
   const coupling::RigidFrame* frame_ = nullptr;
