@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is known of candidates when their list is new.
 #include <algorithm>
-#include <utility>
 
 #include "coupling/contact/face_tracker.h"
 
@@ -29,7 +28,8 @@ void FaceTracker::go_on(const Listed& particles) {
   const std::vector<Candidate>& all = candidates_.candidates();
   for (int c = 0; c < static_cast<int>(all.size()); ++c) {
     const int i = all[c].particle;
-    const Vector3 centre = candidates_.frame_at_build().to_body(Vector3::Map(particles.x + 3 * i));
+    const nurbs::Vector3 centre =
+        candidates_.frame_at_build().to_body(nurbs::Vector3::Map(particles.x + 3 * i));
     const bool itself = is_near_wall_itself(all[c]);
     known_.push_back({i, particles.tag[i], centre, particles.reach[i],
                       itself ? candidates_.image_elements(all[c])->first : -1, all[c].first_image});
