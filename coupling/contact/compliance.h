@@ -38,8 +38,7 @@ class ComplianceCorrection {
   /// 1 there is no equilibrium.
   static constexpr double kLargest = 0.9;
 
-  /// Keeps references to all.  `mesh`: null if nothing is known of it,
-  /// which then gives way at once.
+  /// Keeps references to all.  `mesh`: null if nothing is known of it, which then gives way at once.
   ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall, const MeshEstimate* mesh)
       : compliance_(compliance), wall_(wall), mesh_(mesh) {}
 

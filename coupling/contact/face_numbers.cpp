@@ -1,35 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The kernel of face_kernel.cpp, which is compiled once for each instruction set.
-#include <fmt/format.h>
-
+// What a face in closed form is to its kernel.
 #include <cmath>
-#include <stdexcept>
 
 #include "brep/face.h"
 #include "coupling/contact/face_kernel.h"
 
 namespace contact {
-
-namespace portable {
-FaceKernel face_kernel();
-}
-namespace avx2 {
-FaceKernel face_kernel();
-}
-namespace avx512 {
-FaceKernel face_kernel();
-}
-
-FaceKernel face_kernel(nurbs::SimdLevel level) {
-  if (!nurbs::available(level))
-    throw std::invalid_argument(
-        fmt::format("this machine or this program has no {} kernels", nurbs::name(level)));
-#ifdef NURBS_X86_64
-  if (level == nurbs::SimdLevel::avx512) return avx512::face_kernel();
-  if (level == nurbs::SimdLevel::avx2) return avx2::face_kernel();
-#endif
-  return portable::face_kernel();
-}
 
 FaceNumbers FaceNumbers::of(const brep::Face& face) {
   using brep::Kind;
