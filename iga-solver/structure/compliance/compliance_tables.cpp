@@ -148,63 +148,26 @@ ComplianceTables::ComplianceTables(ReferenceBody body, std::vector<SkinPiece> sk
   }
 }
 
-BodyElement ComplianceTables::volume_element(int piece, int element) const {
-  const auto [p, face] = skin_[piece];
-  const nurbs::Space<3>& space = body_.patches[p].space;
-  const nurbs::Indices<2> span = surfaces_[piece].space().element_indices(element);
-  const int d = static_cast<int>(face) / 2;
-  nurbs::Indices<3> at{};
-  at[d] = static_cast<int>(face) % 2 == 0 ? 0 : space.knots(d).element_count() - 1;
-  at[d == 0 ? 1 : 0] = span[0];
-  at[d == 2 ? 1 : 2] = span[1];
-  return {p, space.element_index(at)};
+LocalPatch ComplianceTables::patch_of(const HitElement& hit) const {
+  return {body_, near_, hit.volume(), extent_for(body_.patches[hit.volume().patch].space)};
 }
 
-// At a free edge the half-space's traction on the other face is not finite: nearer than a quarter of an
-// element the half-space is that of a foot which is so far from the edge.
-SkinPoint ComplianceTables::foot(int piece, int element, nurbs::Parameter<2> xi) const {
-  constexpr double kNearest = 0.25;
-  const FaceSurface& surface = surfaces_[piece];
-  SkinPoint foot = surface.at(element, xi);
-  const nurbs::Indices<2> span = surface.space().element_indices(element);
-  const int d = static_cast<int>(skin_[piece].face) / 2;
-  const int directions[2] = {d == 0 ? 1 : 0, d == 2 ? 1 : 2};
-  for (int k = 0; k < 2; ++k) {
-    const nurbs::KnotVector& knots = surface.space().knots(k);
-    const double low = knots.breaks()[span[k]], high = knots.breaks()[span[k] + 1];
-    const auto is_free = [&](int side) {
-      return near_.is_free(skin_[piece].patch, static_cast<nurbs::Face>(2 * directions[k] + side));
-    };
-    if (span[k] == 0 && is_free(0)) xi[k] = std::max(xi[k], low + kNearest * (high - low));
-    if (span[k] == knots.element_count() - 1 && is_free(1))
-      xi[k] = std::min(xi[k], high - kNearest * (high - low));
-  }
-  const SkinPoint inside = surface.at(element, xi);
-  foot.point = inside.point;
-  foot.outward_normal = inside.outward_normal;
-  return foot;
-}
-
-std::unique_ptr<ComplianceTable> ComplianceTables::solve(int piece, int element,
-                                                         const LocalPatch& patch) const {
-  const FaceSurface& surface = surfaces_[piece];
-  const nurbs::Indices<2> span = surface.space().element_indices(element);
+std::unique_ptr<ComplianceTable> ComplianceTables::solve(int piece, const HitElement& hit) const {
   std::vector<double> points[2];
   std::array<int, 2> counts;
   for (int d = 0; d < 2; ++d) {
-    const nurbs::KnotVector& knots = surface.space().knots(d);
-    const double low = knots.breaks()[span[d]], high = knots.breaks()[span[d] + 1];
-    counts[d] = 2 * knots.degree() + 1;
+    counts[d] = 2 * surfaces_[piece].space().degree(d) + 1;
     for (const double s : lobatto_points(counts[d]))
-      points[d].push_back(0.5 * ((1.0 - s) * low + (1.0 + s) * high));
+      points[d].push_back(0.5 * ((1.0 - s) * hit.low()[d] + (1.0 + s) * hit.high()[d]));
   }
   std::vector<SkinPoint> feet;
   std::vector<Matrix3> frames;
   for (const double eta : points[1])
     for (const double xi : points[0]) {
-      feet.push_back(foot(piece, element, {xi, eta}));
-      frames.push_back(surface.frame(element, {xi, eta}));
+      feet.push_back(hit.foot({xi, eta}));
+      frames.push_back(hit.frame({xi, eta}));
     }
+  const LocalPatch patch = patch_of(hit);
   const std::vector<Matrix3> tensors = LocalProblem(patch, gradients_).compliances(feet);
   std::vector<std::vector<double>> values(ComplianceTable::kComponents);
   for (std::size_t f = 0; f < feet.size(); ++f) {
@@ -227,10 +190,8 @@ const ComplianceTable& ComplianceTables::of(int piece, int element) {
   const int first = space.element_index(span);
   std::unique_ptr<ComplianceTable>& table = tables_[piece][first];
   if (table) return *table;
-  const BodyElement hit = volume_element(piece, first);
   try {
-    const LocalPatch patch(body_, near_, hit, extent_for(body_.patches[hit.patch].space));
-    table = solve(piece, first, patch);
+    table = solve(piece, {body_, near_, skin_[piece], surfaces_[piece], first});
   } catch (const std::invalid_argument& problem) {
     const Vector3 X = surfaces_[piece].at_centre(element);
     throw std::invalid_argument(
@@ -242,9 +203,9 @@ const ComplianceTable& ComplianceTables::of(int piece, int element) {
 }
 
 Matrix3 ComplianceTables::direct(int piece, int element, const nurbs::Parameter<2>& xi) const {
-  const BodyElement hit = volume_element(piece, element);
-  const LocalPatch patch(body_, near_, hit, extent_for(body_.patches[hit.patch].space));
-  return LocalProblem(patch, gradients_).compliances({foot(piece, element, xi)}).front();
+  const HitElement hit(body_, near_, skin_[piece], surfaces_[piece], element);
+  const LocalPatch patch = patch_of(hit);
+  return LocalProblem(patch, gradients_).compliances({hit.foot(xi)}).front();
 }
 
 }  // namespace structure

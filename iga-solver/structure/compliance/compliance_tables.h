@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "structure/compliance/hit_element.h"
 #include "structure/compliance/local_problem.h"
 
 namespace structure {
@@ -71,9 +72,8 @@ class ComplianceTables {
   int made() const { return made_; }  ///< how many tables
 
  private:
-  BodyElement volume_element(int piece, int element) const;
-  SkinPoint foot(int piece, int element, nurbs::Parameter<2> xi) const;
-  std::unique_ptr<ComplianceTable> solve(int piece, int element, const LocalPatch& patch) const;
+  LocalPatch patch_of(const HitElement& hit) const;
+  std::unique_ptr<ComplianceTable> solve(int piece, const HitElement& hit) const;
 
   ReferenceBody body_;
   NearElements near_;

@@ -17,7 +17,8 @@ class HalfSpace {
   HalfSpace(double youngs_modulus, double poissons_ratio, const Vector3& outward_normal);
 
   /// Column j: displacement at x [length], which is counted from the point of the force, by a unit force
-  /// along e_j [length/force].  0 at infinity, not finite at x = 0.
+  /// along e_j [length/force].  0 at infinity, not finite at x = 0.  In a cone of 26 degrees half angle above
+  /// the force, where the solution goes to infinity, it is cut off: the far side of a bore may be there.
   Matrix3 displacement(const Vector3& x) const;
   /// Column j: traction [pressure/force] on a plane through x with the unit normal m by the same force: that
   /// of what m points into on what it points out of.

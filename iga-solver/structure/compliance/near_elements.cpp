@@ -71,6 +71,33 @@ NearElements::Corners NearElements::corners(const BodyElement& element) const {
 
 namespace {
 
+constexpr double kSamePlace = 1e-6;  // of an element
+
+double size(const std::array<Vector3, 8>& corners) { return (corners[7] - corners[0]).norm(); }
+
+}  // namespace
+
+double NearElements::rise(const BodyElement& element, const Vector3& point, const Vector3& normal) const {
+  const Corners at = corners(element);
+  double steepest = -1.0;
+  for (const Vector3& corner : at) {
+    const double height = normal.dot(corner - point);
+    if (height > kSamePlace * size(at)) steepest = std::max(steepest, height / (corner - point).norm());
+  }
+  return steepest;
+}
+
+bool NearElements::has_corners(const BodyElement& element, const std::vector<Vector3>& points) const {
+  const Corners at = corners(element);
+  return std::all_of(points.begin(), points.end(), [&](const Vector3& point) {
+    return std::any_of(at.begin(), at.end(), [&](const Vector3& corner) {
+      return (corner - point).norm() <= kSamePlace * size(at);
+    });
+  });
+}
+
+namespace {
+
 double distance(const std::array<Vector3, 8>& a, const std::array<Vector3, 8>& b) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Vector3& x : a)
@@ -89,7 +116,6 @@ double longest_edge(const std::array<Vector3, 8>& corners) {
 
 // Elements of two patches, or at both ends of one that is welded to itself, which share nodes and a corner.
 void NearElements::append_across_welds(const BodyElement& element, std::vector<BodyElement>& found) const {
-  constexpr double kSamePlace = 1e-6;  // of the longest edge
   const nurbs::Space<3>& space = body_.patches[element.patch].space;
   std::vector<int> control_points(space.functions_per_element());
   space.element_control_points(element.element, control_points.data());

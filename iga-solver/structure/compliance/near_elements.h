@@ -19,6 +19,11 @@ class NearElements {
   std::vector<BodyElement> around(const BodyElement& element, int layers, double reach) const;
   /// Those with a common vertex, itself included, in any order.
   std::vector<BodyElement> neighbours(const BodyElement& element) const;
+  /// The sine of the largest angle at which an element's corners are seen above a plane from a point of it;
+  /// -1 if none is above.
+  double rise(const BodyElement& element, const Vector3& point, const Vector3& normal) const;
+  /// Whether all of these are corners of the element.
+  bool has_corners(const BodyElement& element, const std::vector<Vector3>& points) const;
   /// How many elements of the body have the node.
   int elements_of(Id node) const;
   /// Whether a face of a patch is part of the body's skin.
