@@ -31,7 +31,8 @@ FootSearch::FootSearch(const Surface& surface)
       same_point_(kSamePoint * surface.slack),
       border_slack_(largest_border_slack(surface)),
       has_inside_(std::any_of(surface.faces.begin(), surface.faces.end(),
-                              [](const Face& face) { return face.outward != 0; })) {}
+                              [](const Face& face) { return face.outward != 0; })),
+      edge_sides_(surface) {}
 
 void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) const {
   const size_t begin = pieces.size();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "brep/chart.h"
+#include "brep/edge_sides.h"
 #include "brep/foot.h"
 #include "brep/piece_tree.h"
 #include "brep/plane_triangles.h"
@@ -78,9 +79,16 @@ class FootSearch {
   void add_feet(Minima& minima, const Vector3& d, double reach, const int* pieces, int count) const;
   bool is_well_inside_patch(const int* pieces, int count, const Vector3& d, double reach) const;
   bool is_well_inside_curved(const Piece& piece, const Vector3& d, double reach, double margin) const;
+  struct Border {
+    int piece;
+    EdgeSides::Sides sides;  // of an edge
+  };
+  bool may_come_over(const Border& border, int face) const;
   bool may_have_foot(const Piece& piece, const Vector3& d, double reach, double margin,
-                     bool near_border) const;
-  bool is_border(const Piece& piece, int face) const;
+                     const std::vector<Border>& borders) const;
+  int without_patches(const Vector3& d, double reach, int* pieces, int count,
+                      const std::vector<Border>& borders) const;
+  bool has_no_foot_to_come(const int* elements, int count, const Vector3& d, double reach) const;
   double room_on_trimmed(const Vector3& d, double reach, const int* pieces, int count,
                          const std::vector<Foot>& feet, int* below) const;
   double room_beside_edge(const Piece& piece, const Vector3& d, double reach) const;
@@ -94,6 +102,7 @@ class FootSearch {
   double same_point_;
   double border_slack_;  // how far borders of trimmed faces may be from their edges
   bool has_inside_;
+  mutable EdgeSides edge_sides_;  // finds out about an edge when something is near it
 };
 
 }  // namespace brep

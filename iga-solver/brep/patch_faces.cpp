@@ -60,9 +60,7 @@ PatchFaces::PatchFaces(const std::vector<nurbs::Surface>& patches, double edge_a
   }
 }
 
-Vector3 PatchFaces::point(int p, const Parameter<2>& xi) const {
-  return nurbs::interpolate(patches_[p].space, patches_[p].control_points, xi);
-}
+Vector3 PatchFaces::point(int p, const Parameter<2>& xi) const { return projectors_[p]->tangents(xi).point; }
 
 nurbs::SurfaceShape PatchFaces::shape(int p, const Parameter<2>& xi) const {
   return nurbs::shape_near(patches_[p].space, patches_[p].control_points, xi);
@@ -73,10 +71,11 @@ Vector3 PatchFaces::tangent(int p, const Parameter<2>& xi, int i) const {
 }
 
 Vector3 PatchFaces::normal(int p, const Parameter<2>& xi) const {
-  const auto tangents = tangents_of(patches_[p], xi);
-  const Vector3 normal = tangents[0].cross(tangents[1]);
-  const double length = normal.norm();
-  return length > 0.0 ? Vector3(normal / length) : shape(p, xi).normal;
+  constexpr double kClearly = 1e-6;  // beside a pole round-off would be what is left of a tangent
+  const search::SurfaceProjector::Tangents at = projectors_[p]->tangents(xi);
+  const Vector3 normal = at.along[0].cross(at.along[1]);
+  const double length = normal.norm(), most = std::max(at.along[0].norm(), at.along[1].norm());
+  return length > kClearly * most * most ? Vector3(normal / length) : shape(p, xi).normal;
 }
 
 // Those given are some of an element, so as much again: they change little within small elements.

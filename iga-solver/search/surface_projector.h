@@ -94,6 +94,20 @@ class SurfaceProjector {
   void all_minima_on(const Vector3& d, double reach, const int* elements, int count,
                      std::vector<Foot>& out) const;
 
+  /// A point of the surface with its derivatives by local coordinates of its element, which are the
+  /// parameters' but for a factor each [length].
+  struct Tangents {
+    Vector3 point, along[2];
+  };
+  Tangents tangents(const Parameter<2>& xi) const {
+    const Start at = start(xi);
+    const ElementKernel& kernel = elements_.kernel();
+    constexpr double kOrigin[3] = {0.0, 0.0, 0.0};
+    DistanceJet jet;
+    kernel.evaluate(kernel.p, kernel.q, at.element.row, at.at.s, kOrigin, jet);
+    return {Vector3::Map(jet.r), {Vector3::Map(jet.S_i[0]), Vector3::Map(jet.S_i[1])}};
+  }
+
   const Space<2>& space() const { return space_; }
   /// Where there is no second foot; begin_list() is up to the caller.
   SecondFoot& second_foot() { return second_foot_; }
