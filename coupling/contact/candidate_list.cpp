@@ -16,7 +16,7 @@ void CandidateList::build(const coupling::RigidFrame& frame, const std::vector<V
     const int first_image = static_cast<int>(image_elements_.size());
     for (size_t image = 0; image < images.size(); ++image) {
       const int first = static_cast<int>(elements_.size());
-      near(frame.to_body(Vector3::Map(particles.centre + 3 * i) - images[image]), particles.reach[i],
+      near(i, frame.to_body(Vector3::Map(particles.centre + 3 * i) - images[image]), particles.reach[i],
            elements_);
       const int count = static_cast<int>(elements_.size()) - first;
       if (count > 0) image_elements_.push_back({static_cast<int>(image), first, count});

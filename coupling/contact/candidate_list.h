@@ -32,8 +32,9 @@ struct Surroundings {
 class CandidateList {
  public:
   /// Adds the numbers, in rising order, of all elements that may be within `reach` of a point in the wall's
-  /// frame.
-  using Near = std::function<void(const nurbs::Vector3& point, double reach, std::vector<int>& out)>;
+  /// frame, where that particle is, or an image of it.
+  using Near =
+      std::function<void(int particle, const nurbs::Vector3& point, double reach, std::vector<int>& out)>;
   /// Each particle becomes a candidate of the elements that, moved by one of the images, are within its
   /// reach.
   void build(const coupling::RigidFrame& frame, const std::vector<nurbs::Vector3>& images,

@@ -46,8 +46,9 @@ void ContactLoop::build_list(const ParticleView& particles, const ListReach& rea
   const std::vector<Vector3> images = wall_images(reach.box, wall_.bounds(), wall_.frame(), largest);
   expect_images_to_stay(images);
   candidates_.build(wall_.frame(), images, {particles.count, particles.x, list_reach_.data()},
-                    [&](const Vector3& point, double near, std::vector<int>& elements) {
-                      wall_.shape().near(point, near, elements);
+                    [&](int particle, const Vector3& point, double near, std::vector<int>& elements) {
+                      if (images.size() > 1) return wall_.shape().near(point, near, elements);
+                      wall_.shape().near_particle(particle, point, near, elements);
                     });
   if (wall_.deforms()) wall_.follow(candidates_.all_elements());
   tracker_->list_is_new();

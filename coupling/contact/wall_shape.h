@@ -11,6 +11,7 @@
 #include "brep/near_cells.h"
 #include "coupling/contact/feet_tracker.h"
 #include "coupling/contact/local_search.h"
+#include "coupling/contact/near_lists.h"
 #include "nurbs/curvature.h"
 #include "search/multi_patch_tree.h"
 
@@ -27,6 +28,11 @@ class WallShape {
   /// begin_list.
   virtual search::Box bounds() const = 0;
   virtual void near(const nurbs::Vector3& point, double reach, std::vector<int>& elements) const = 0;
+  /// The same of a particle: what was found where it was may serve again.
+  virtual void near_particle(int /*particle*/, const nurbs::Vector3& point, double reach,
+                             std::vector<int>& elements) const {
+    near(point, reach, elements);
+  }
   /// Both must outlive the tracker.
   virtual std::unique_ptr<FeetTracker> track(const CandidateList& candidates, SearchMethod method,
                                              SearchCounts& counts) const = 0;
@@ -79,15 +85,21 @@ class ShapeOnFaces : public WallShape {
   void near(const nurbs::Vector3& point, double reach, std::vector<int>& elements) const final {
     cells_.near(point, reach, elements);
   }
+  void near_particle(int particle, const nurbs::Vector3& point, double reach,
+                     std::vector<int>& elements) const final {
+    lists_.near(particle, point, reach, elements);
+  }
 
  protected:
   /// Keeps a reference.
-  explicit ShapeOnFaces(const brep::Surface& surface) : search_(surface), cells_(search_) {}
+  explicit ShapeOnFaces(const brep::Surface& surface)
+      : search_(surface), cells_(search_), lists_(search_, cells_) {}
 
   brep::FootSearch search_;
 
  private:
   mutable brep::NearCells cells_;  // what has been asked before
+  mutable NearLists lists_;        // the same, particle by particle
 };
 
 /// Of nothing else.

@@ -40,7 +40,7 @@ class Scene {
     }
     const std::vector<double> reach(centres_.size(), list_);
     candidates_.build({}, images, {static_cast<int>(centres_.size()), centres_[0].data(), reach.data()},
-                      [this](const Vector3& point, double near, std::vector<int>& elements) {
+                      [this](int, const Vector3& point, double near, std::vector<int>& elements) {
                         shape_.near(point, near, elements);
                       });
     tracker_->list_is_new();
