@@ -70,7 +70,7 @@ class FaceTracker : public FeetTracker {
   PiecesHere pieces_of_wall_itself(const Query& query) const;
   bool is_near_wall_itself(const Candidate& candidate) const;
   void go_on(int candidate, int before);
-  bool is_near_patch(const Candidate& candidate) const;
+  bool is_near_patch(const Candidate& candidate, const Known& known) const;
   void choose_fewer_pieces(const Query& query);
   void choose_pieces(const Query& query);
   void choose_pieces(const Query& query, Of of, double margin);

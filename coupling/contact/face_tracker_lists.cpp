@@ -34,19 +34,23 @@ void FaceTracker::go_on(const Listed& particles) {
     known_.push_back({i, particles.tag[i], centre, particles.reach[i],
                       itself ? candidates_.image_elements(all[c])->first : -1, all[c].first_image});
     const int before = i < static_cast<int>(of_particle_.size()) ? of_particle_[i] : -1;
-    if (itself && before >= 0 && !is_near_patch(all[c])) go_on(c, before);
+    if (itself && before >= 0 && !is_near_patch(all[c], known_.back())) go_on(c, before);
   }
 }
 
 // There the last digits of feet are those of where they were followed from, and since when: a particle that
 // comes from another rank, of which nothing is known here, must have the same.
-bool FaceTracker::is_near_patch(const Candidate& candidate) const {
+bool FaceTracker::is_near_patch(const Candidate& candidate, const Known& known) const {
   const brep::Surface& surface = search_.surface();
   if (!surface.patches) return false;
   const ImageElements& itself = *candidates_.image_elements(candidate);
   const int* const listed = candidates_.elements(itself);
-  return std::any_of(listed, listed + itself.count,
-                     [&](int piece) { return surface.pieces[piece].kind == brep::Piece::Kind::element; });
+  return std::any_of(listed, listed + itself.count, [&](int number) {
+    const brep::Piece& piece = surface.pieces[number];
+    if (piece.kind != brep::Piece::Kind::element) return false;
+    const brep::ElementHull& hull = surface.patches->hull(surface.faces[piece.face].patch, piece.element());
+    return hull.squared_distance(known.centre) <= known.reach * known.reach;
+  });
 }
 
 void FaceTracker::go_on(int candidate, int before) {

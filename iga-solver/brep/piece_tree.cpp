@@ -89,13 +89,15 @@ inline PieceTree::OfGroup PieceTree::off2(const Query& query, const std::vector<
 
 // Boxes are looked at in groups, of which most are too far.  What query() adds to a reach is taken off here.
 double PieceTree::distance_of_boxes(const Query& query, int first, int end) const {
-  float least2 = std::numeric_limits<float>::infinity();
+  const float beyond2 = std::nextafter(query.reach * query.reach, std::numeric_limits<float>::infinity());
+  float least2 = beyond2;
   for (int groups = first; groups < end; groups += kGroup * kGroup) {
     const OfGroup of_groups = off2(query, group_low_, group_high_, groups / kGroup);
     for (int k = 0; k < kGroup; ++k)
       if (of_groups[k] < least2)
         least2 = std::min(least2, off2(query, part_low_, part_high_, groups + kGroup * k).minCoeff());
   }
+  if (!(least2 < beyond2)) return std::numeric_limits<double>::infinity();
   const double least = std::sqrt(static_cast<double>(least2));
   const double far = std::abs(query.d[0]) + std::abs(query.d[1]) + std::abs(query.d[2]);
   const double sure = least * (1.0 - kRoundOffOfSquares) - kRoundOff * (1.0 + far);

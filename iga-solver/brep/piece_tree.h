@@ -39,7 +39,7 @@ class PieceTree {
     return number;
   }
   /// Distance of the boxes of a piece that has several, in parts: such a piece is much less than the surface
-  /// that it is cut from [length], rounded down; else 0.
+  /// that it is cut from [length], rounded down, infinite if it is beyond the reach; else 0.
   double distance_of_parts(const Query& query, int piece) const {
     return first_part_.empty() || first_part_[piece] == first_part_[piece + 1]
                ? 0.0
