@@ -188,9 +188,11 @@ namespace {
 
 constexpr double kDeep = 0.5;  // of the radius
 
-// The side changes where the branch goes on to another patch, and where the centre passes the surface.
-bool keeps_side(const ContactSlot& slot, const Foot& foot, double radius) {
-  return slot.is_beside(foot.patch) && foot.distance >= kDeep * radius;
+// The side changes where the branch goes on to another patch or, of one that is cut, to another part, and
+// where the centre passes the surface.
+bool keeps_side(const ContactSlot& slot, const TrackedFoot& tracked, double radius) {
+  return slot.is_beside(tracked.foot.patch) && (tracked.side == 0 || tracked.side == slot.side()) &&
+         tracked.foot.distance >= kDeep * radius;
 }
 
 }  // namespace
@@ -202,7 +204,7 @@ bool ContactLoop::settle(const ParticleView& particles, SteadyFeet& steady, cons
   if (slots.filled() != lines.count) return false;
   for (int k = lines.first; k < lines.first + lines.count; ++k) {
     int s = 0;
-    while (s < slots.used() && !slots.slot(s).is_beside(steady.face(k))) ++s;
+    while (s < slots.used() && !steady.has_been_on_face(slots.slot(s), k)) ++s;
     if (s == slots.used()) return false;
     steady.settle(k, s);
   }
@@ -298,7 +300,7 @@ inline int ContactLoop::take_slot(const ParticleView& particles, const StepInfo&
     throw TooManyContacts(fmt::format("particle {} touches the wall in more than {} places at step {}",
                                       particles.tag[i], slots.slot_count(), step.number));
   ContactSlot slot = slots.slot(place);
-  if (keeps_side(slot, tracked.foot, particles.radius[i]))
+  if (keeps_side(slot, tracked, particles.radius[i]))
     slot.set_parameters(tracked.foot.at());
   else
     slot.set_foot(tracked.foot.at(), tracked.side != 0 ? tracked.side : wall_.side_of(tracked.foot, delta));

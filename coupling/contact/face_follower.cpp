@@ -21,7 +21,7 @@ void FaceFollower::follow(Query* queries, int count) {
   for (const Query* query = queries; query < queries + count; ++query) {
     const Branches& branches = branches_[query->candidate];
     for (int k = 0; k < branches.count; ++k)
-      ways_.push_back({&followed_[branches.first + k].foot, &query->centre});
+      ways_.push_back({&followed_[branches.first + k], &query->centre});
   }
   advance();
   for (const Query* query = queries; query < queries + count; ++query)
@@ -32,11 +32,11 @@ void FaceFollower::follow(Query* queries, int count) {
 // Those of one patch together.
 void FaceFollower::advance() {
   for (auto begin = ways_.begin(); begin != ways_.end();) {
-    const int face = begin->foot->patch;
+    const int face = begin->tracked->face;
     const auto end =
-        std::partition(begin, ways_.end(), [&](const Way& way) { return way.foot->patch == face; });
+        std::partition(begin, ways_.end(), [&](const Way& way) { return way.tracked->face == face; });
     feet_.clear(), centres_.clear();
-    for (; begin != end; ++begin) feet_.push_back(begin->foot), centres_.push_back(*begin->centre);
+    for (; begin != end; ++begin) feet_.push_back(&begin->tracked->foot), centres_.push_back(*begin->centre);
     const brep::Surface& surface = search().surface();
     surface.patches->projector(surface.faces[face].patch)
         .warm_batch(centres_.data(), feet_.data(), static_cast<int>(feet_.size()));
@@ -49,7 +49,7 @@ bool FaceFollower::keeps_side(const Query& query, const TrackedFoot& tracked) co
   constexpr double kDeep = 0.5;  // of its reach
   const Foot& foot = tracked.foot;
   if (foot.distance >= kDeep * query.touch_reach) return true;
-  const Vector3 normal = brep::normal_on(search().surface(), foot.patch, foot.xi);
+  const Vector3 normal = brep::normal_on(search().surface(), tracked.face, foot.xi);
   return tracked.side * normal.dot(query.centre - foot.point) > 0.0;
 }
 

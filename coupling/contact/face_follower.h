@@ -15,9 +15,10 @@ namespace contact {
 
 class FaceFollower final : public FaceTracker {
  public:
-  /// Keeps references to all.  Feet are given in the faces' own parameters.
-  FaceFollower(const brep::FootSearch& search, const CandidateList& candidates, SearchCounts& counts)
-      : FaceTracker(search, nullptr, candidates, counts) {}
+  /// Keeps references to all.  Feet are given in the faces' own parameters: `names` has no charts.
+  FaceFollower(const brep::FootSearch& search, const FaceNames& names, const CandidateList& candidates,
+               SearchCounts& counts)
+      : FaceTracker(search, names, candidates, counts) {}
 
   void list_is_new() override;
   void follow(Query* queries, int count) override;
@@ -29,7 +30,7 @@ class FaceFollower final : public FaceTracker {
     bool is_new = true, followed = false;
   };
   struct Way {
-    search::Foot* foot;
+    TrackedFoot* tracked;
     const nurbs::Vector3* centre;
   };
   bool may_be_followed(const Query& query);

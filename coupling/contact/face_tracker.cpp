@@ -193,10 +193,10 @@ bool FaceTracker::may_be_behind(const Query& query, const ParticleSlots& slots) 
   for (int s = 0; s < slots.used(); ++s) {
     if (slots.slot(s).empty()) continue;
     const nurbs::SurfacePoint last = slots.slot(s).foot();
-    const int outward = search_.surface().faces[last.patch].outward;
+    const int face = names_.face_at(last), outward = search_.surface().faces[face].outward;
     if (outward == 0) continue;
-    const Vector3 point = brep::point_on(search_.surface(), last.patch, last.xi),
-                  out = outward * brep::normal_on(search_.surface(), last.patch, last.xi);
+    const Vector3 point = brep::point_on(search_.surface(), face, last.xi),
+                  out = outward * brep::normal_on(search_.surface(), face, last.xi);
     bool is_deep = false;
     for_each_image(query, Of::chosen, [&](const Vector3& d, const int*, int, const Vector3&) {
       is_deep |= out.dot(d - point) < kDeep * query.touch_reach;
@@ -270,17 +270,22 @@ double FaceTracker::squared_way(const Query& query, const Vector3& last, const V
 double FaceTracker::squared_way(const Query& query, const ContactSlot& slot, const brep::Foot& foot) const {
   const nurbs::SurfacePoint last = slot.foot();
   const brep::Surface& surface = search_.surface();
-  if (surface.sheet(last.patch, of_patch(last.patch, slot.side())) != foot.sheet) return kNoWay;
-  const brep::Parameter<2> xi = charts_ ? (*charts_)[last.patch].to_face(last.xi) : last.xi;
-  const double way2 = squared_way(query, brep::point_on(surface, last.patch, xi), foot.point);
+  const int face = names_.face_at(last);
+  if (surface.sheet(face, names_.side(face, slot.side())) != foot.sheet) return kNoWay;
+  const brep::Parameter<2> xi = names_.charts ? (*names_.charts)[face].to_face(last.xi) : last.xi;
+  const double way2 = squared_way(query, brep::point_on(surface, face, xi), foot.point);
   // On one face a particle may have been displaced, however far.
-  return last.patch == foot.patch || way2 <= query.touch_reach * query.touch_reach ? way2 : kNoWay;
+  return face == foot.patch || way2 <= query.touch_reach * query.touch_reach ? way2 : kNoWay;
 }
 
 TrackedFoot FaceTracker::tracked(const brep::Foot& foot) const {
   const search::Foot& on_surface = foot;
-  TrackedFoot tracked{on_surface, -1, of_patch(foot.patch, foot.side)};
-  if (charts_) tracked.foot.xi = (*charts_)[foot.patch].to_patch(foot.xi);
+  TrackedFoot tracked{on_surface, -1, names_.side(foot.patch, foot.side), foot.patch};
+  if (names_.charts) tracked.foot.xi = (*names_.charts)[foot.patch].to_patch(foot.xi);
+  if (names_.parts) {
+    tracked.foot.patch = names_.parts->patch_of(foot.patch);
+    names_.parts->keep_in(foot.patch, tracked.foot.xi);
+  }
   return tracked;
 }
 

@@ -12,8 +12,8 @@
 
 #include <vector>
 
-#include "brep/chart.h"
 #include "brep/foot_search.h"
+#include "coupling/contact/face_names.h"
 #include "coupling/contact/feet_tracker.h"
 #include "coupling/contact/search_counts.h"
 
@@ -21,10 +21,10 @@ namespace contact {
 
 class FaceTracker : public FeetTracker {
  public:
-  /// Keeps references to all.  `charts`: to the parameters that feet are given in; null: the faces' own.
-  FaceTracker(const brep::FootSearch& search, const std::vector<brep::Chart>* charts,
-              const CandidateList& candidates, SearchCounts& counts)
-      : FeetTracker(candidates), search_(search), charts_(charts), counts_(counts), steady_(search, charts) {}
+  /// Keeps references to all.
+  FaceTracker(const brep::FootSearch& search, const FaceNames& names, const CandidateList& candidates,
+              SearchCounts& counts)
+      : FeetTracker(candidates), search_(search), names_(names), counts_(counts), steady_(search, names) {}
 
   void list_is_new() override;
   void go_on(const Listed& particles) override;
@@ -91,11 +91,8 @@ class FaceTracker : public FeetTracker {
   TrackedFoot tracked(const brep::Foot& foot) const;
   FeetRange none(const Query& query, const ParticleSlots& slots, double clearance);
 
-  // A side of the face as one of the patch, and back.
-  int of_patch(int face, int side) const { return charts_ ? (*charts_)[face].side * side : side; }
-
   const brep::FootSearch& search_;
-  const std::vector<brep::Chart>* charts_;
+  FaceNames names_;
   SearchCounts& counts_;
   SteadyFeet steady_;
   std::vector<State> states_, states_before_;  // per candidate, of this list and of the last

@@ -17,8 +17,9 @@ namespace contact {
 
 struct TrackedFoot {
   search::Foot foot;
-  int slot;      ///< of the particle's memory; -1: none yet
-  int side = 0;  ///< of the surface that the centre is on, as ContactSlot::side(); 0: nobody has looked
+  int slot;       ///< of the particle's memory; -1: none yet
+  int side = 0;   ///< of the surface that the centre is on, as ContactSlot::side(); 0: nobody has looked
+  int face = -1;  ///< on a wall of faces: its number, of a patch that is cut that of the part
 };
 struct FeetRange {
   TrackedFoot* first;

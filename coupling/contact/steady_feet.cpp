@@ -6,13 +6,14 @@
 
 namespace contact {
 
-SteadyFeet::SteadyFeet(const brep::FootSearch& search, const std::vector<brep::Chart>* charts)
+SteadyFeet::SteadyFeet(const brep::FootSearch& search, const FaceNames& names)
     : search_(search),
-      charts_(charts),
+      names_(names),
+      charts_(names.charts),
       waits_for_memory_(search.outgrows_cache()),
       kernel_(feet_kernel(nurbs::simd_level())),
       face_kernel_(face_kernel(nurbs::simd_level())) {
-  if (!charts && search.surface().trimmed())
+  if (!charts_ && search.surface().trimmed())
     for (const brep::Face& face : search.surface().faces) faces_.push_back(FaceNumbers::of(face));
 }
 

@@ -11,7 +11,9 @@
 #include <vector>
 
 #include "brep/foot_search.h"
+#include "coupling/contact/contact_memory.h"
 #include "coupling/contact/face_kernel.h"
+#include "coupling/contact/face_names.h"
 #include "coupling/contact/feet_kernel.h"
 #include "coupling/rigid_frame.h"
 #include "nurbs/assert.h"
@@ -24,8 +26,8 @@ class SteadyFeet {
   static constexpr int kBlock = FeetBlock::kCapacity;
   static constexpr int kMostFeet = 4;  ///< of one candidate
 
-  /// Keeps references.  `charts`: to the parameters that feet are given in; null: the faces' own.
-  SteadyFeet(const brep::FootSearch& search, const std::vector<brep::Chart>* charts);
+  /// Keeps references.
+  SteadyFeet(const brep::FootSearch& search, const FaceNames& names);
 
   /// For a new list; those of the last are at hand to go_on() with.
   void forget_all(std::size_t candidates) {
@@ -83,8 +85,14 @@ class SteadyFeet {
   void drop(const Group& group) {
     for (int k = group.first; k < group.first + group.count; ++k) block_.room[k] = 0.0;
   }
-  nurbs::SurfacePoint at(int k) const { return {face_[k], {block_.xi[0][k], block_.xi[1][k]}}; }
-  int face(int k) const { return face_[k]; }
+  nurbs::SurfacePoint at(int k) const {
+    return {names_.patch_of(face_[k]), {block_.xi[0][k], block_.xi[1][k]}};
+  }
+  /// Whether a slot has been on the foot's face, on a side that is known.
+  bool has_been_on_face(const ContactSlot& slot, int k) const {
+    return slot.is_beside(names_.patch_of(face_[k])) &&
+           (!names_.parts || names_.parts->part_at(slot.foot()) == face_[k]);
+  }
   /// From the foot to the centre, in space [length].
   nurbs::Vector3 delta(int k) const { return {block_.delta[0][k], block_.delta[1][k], block_.delta[2][k]}; }
   double distance(int k) const { return block_.distance[k]; }
@@ -135,9 +143,7 @@ class SteadyFeet {
     return marks_[k].number == 0 ? first : further_[first.further + marks_[k].number - 1];
   }
   static void set(Rest& rest, const Room& room, int piece, int face, int side);
-  std::int8_t of_patch(int face, int side) const {
-    return static_cast<std::int8_t>(charts_ ? (*charts_)[face].side * side : side);
-  }
+  std::int8_t of_patch(int face, int side) const { return static_cast<std::int8_t>(names_.side(face, side)); }
   bool is_one_face() const;
   void find_in_frame();
   void find_on_planes();
@@ -148,7 +154,8 @@ class SteadyFeet {
   void bring_together(const Group& group);
 
   const brep::FootSearch& search_;
-  const std::vector<brep::Chart>* charts_;
+  FaceNames names_;
+  const std::vector<brep::Chart>* charts_;  // of these
   bool waits_for_memory_;
   std::vector<Rest> rests_;    // per candidate
   std::vector<Rest> further_;  // kMostFeet - 1 for each that has had several feet

@@ -40,8 +40,9 @@ SurfaceShape PatchShape::shape_near(const Foot& foot) const {
 
 std::unique_ptr<FeetTracker> FacedPatchShape::track(const CandidateList& candidates, SearchMethod /*method*/,
                                                     SearchCounts& counts) const {
-  if (charts_.empty()) return std::make_unique<FaceFollower>(search_, candidates, counts);
-  return std::make_unique<FaceTracker>(search_, &charts_, candidates, counts);
+  const FaceNames names(charts_, parts_);
+  if (charts_.empty()) return std::make_unique<FaceFollower>(search_, names, candidates, counts);
+  return std::make_unique<FaceTracker>(search_, names, candidates, counts);
 }
 
 Vector3 FacedPatchShape::normal_at(const Foot& foot) const {
@@ -53,8 +54,9 @@ SurfaceShape FacedPatchShape::shape_near(const Foot& foot) const {
   if (!is_on_closed_form(foot))
     return nurbs::shape_near(surface_.patch(foot.patch),
                              surface_.control_points_of(foot.patch, control_points_), foot.xi);
-  const brep::Chart& chart = charts_[foot.patch];
-  const brep::Face& face = search_.surface().faces[foot.patch];
+  const int part = parts_.part_at(foot.at());
+  const brep::Chart& chart = charts_[part];
+  const brep::Face& face = search_.surface().faces[part];
   const brep::Parameter<2> xi = chart.to_face(foot.xi), of_face = face.curvatures(xi);
   const double k[2] = {chart.side * of_face[0], chart.side * of_face[1]};
   return {foot.point, chart.side * face.normal(xi), {std::min(k[0], k[1]), std::max(k[0], k[1])}};
@@ -62,8 +64,9 @@ SurfaceShape FacedPatchShape::shape_near(const Foot& foot) const {
 
 std::unique_ptr<FeetTracker> FaceShape::track(const CandidateList& candidates, SearchMethod /*method*/,
                                               SearchCounts& counts) const {
-  if (search_.surface().patches) return std::make_unique<FaceFollower>(search_, candidates, counts);
-  return std::make_unique<FaceTracker>(search_, nullptr, candidates, counts);
+  if (search_.surface().patches)
+    return std::make_unique<FaceFollower>(search_, FaceNames(), candidates, counts);
+  return std::make_unique<FaceTracker>(search_, FaceNames(), candidates, counts);
 }
 
 Vector3 FaceShape::normal_at(const Foot& foot) const {

@@ -121,6 +121,7 @@ class FacedPatchShape final : public ShapeOnFaces {
                   const nurbs::NodalVectors& control_points, const std::vector<int>& outward_sign)
       : ShapeOnFaces(faced.surface),
         charts_(faced.charts),
+        parts_(faced.parts),
         surface_(surface),
         control_points_(control_points),
         outward_sign_(outward_sign) {}
@@ -139,6 +140,7 @@ class FacedPatchShape final : public ShapeOnFaces {
   }
 
   const std::vector<brep::Chart>& charts_;
+  const brep::PatchParts& parts_;
   const nurbs::MultiPatch& surface_;
   const nurbs::NodalVectors& control_points_;
   const std::vector<int>& outward_sign_;

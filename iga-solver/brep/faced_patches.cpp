@@ -61,7 +61,8 @@ class Modeller {
   Modeller(const std::vector<nurbs::Surface>& patches, const nurbs::Borders& borders)
       : patches_(patches),
         borders_(borders),
-        edges_(patches.size(), {kNone, kNone, kNone, kNone}),
+        curves_(nurbs::curves_of_sides(patches)),
+        edges_(nurbs::kSideCount * patches.size(), {kNone, false}),
         corners_(kMeet * size_of(patches), 4 * patches.size()) {
     model_.patches = patches;
     for (int p = 0; p < static_cast<int>(patches.size()); ++p) add_face(p);
@@ -70,6 +71,10 @@ class Modeller {
 
  private:
   static constexpr int kNone = -1;
+  struct MadeEdge {
+    int number;
+    bool reversed;  // it runs against the side, or against the first of the sides that are this curve
+  };
 
   // Counterclockwise: along eta-, xi+, and back along eta+ and xi-.
   void add_face(int p) {
@@ -85,24 +90,24 @@ class Modeller {
     for (int k = 0; k < 4; ++k) {
       Trim trim;
       trim.curve = {1, {0, 0, 1, 1}, (Eigen::Matrix2d() << corner[k], corner[(k + 1) % 4]).finished(), {}};
-      trim.edge = edge_of(p, kSides[k]);
-      trim.forward = (k < 2) == runs_along_[p][kSides[k]];
+      const MadeEdge edge = edge_of(p, kSides[k]);
+      trim.edge = edge.number;
+      trim.forward = (k < 2) != edge.reversed;
       face.loops.back().push_back(std::move(trim));
     }
     model_.faces.push_back(std::move(face));
   }
 
-  // A welded side has the edge that its neighbour has already; a pole has none.
-  int edge_of(int p, int side) {
-    runs_along_.resize(patches_.size(), {true, true, true, true});
-    const Border& border = borders_[p][side];
-    if (border.kind == Border::pole) return kNone;
-    if (border.kind == Border::welded && edges_[border.patch][border.side] != kNone) {
-      runs_along_[p][side] = runs_along_[border.patch][border.side] != border.reversed;
-      return edges_[p][side] = edges_[border.patch][border.side];
+  // Sides that are one curve have the edge of the one that comes first; a pole has none.
+  MadeEdge edge_of(int p, int side) {
+    if (borders_[p][side].kind == Border::pole) return {kNone, false};
+    const nurbs::SideCurve& curve = curves_[p][side];
+    MadeEdge& made = edges_[curve.first];
+    if (made.number == kNone) {
+      model_.edges.push_back(along(side_of(patches_[p], side)));
+      made = {static_cast<int>(model_.edges.size()) - 1, curve.reversed};
     }
-    model_.edges.push_back(along(side_of(patches_[p], side)));
-    return edges_[p][side] = static_cast<int>(model_.edges.size()) - 1;
+    return {made.number, made.reversed != curve.reversed};
   }
 
   CadEdge along(Spline<3> curve) {
@@ -135,8 +140,8 @@ class Modeller {
   const std::vector<nurbs::Surface>& patches_;
   const nurbs::Borders& borders_;
   CadModel model_;
-  std::vector<std::array<int, nurbs::kSideCount>> edges_;
-  std::vector<std::array<bool, nurbs::kSideCount>> runs_along_;  // the edge, the patch's own direction
+  std::vector<std::array<nurbs::SideCurve, nurbs::kSideCount>> curves_;
+  std::vector<MadeEdge> edges_;  // of the first side of each curve
   nurbs::PointGrid corners_;
 };
 
@@ -147,13 +152,9 @@ bool any_turn(const nurbs::Borders& borders, double edge_angle) {
   return false;
 }
 
-bool turns_inside(const nurbs::Surface& patch, double edge_angle) {
-  return nurbs::largest_kink(patch, 0) > edge_angle || nurbs::largest_kink(patch, 1) > edge_angle;
-}
-
-// Free sides that lie on others, of which two are welded.
+// More than two sides in one place.
 bool more_meet(const std::vector<nurbs::Surface>& patches, const nurbs::Borders& borders) {
-  nurbs::PointGrid middles(kMeet * size_of(patches), 4 * patches.size());
+  nurbs::PointGrid middles(kMeet * size_of(patches), nurbs::kSideCount * patches.size());
   const auto middle = [&](size_t p, int side) {
     const nurbs::Space<2>& space = patches[p].space;
     nurbs::Parameter<2> xi;
@@ -161,16 +162,28 @@ bool more_meet(const std::vector<nurbs::Surface>& patches, const nurbs::Borders&
     xi[side / 2] = side % 2 == 1 ? space.knots(side / 2).back() : space.knots(side / 2).front();
     return nurbs::interpolate(space, patches[p].control_points, xi);
   };
-  bool found = false;
-  for (const bool free : {false, true})
-    for (size_t p = 0; p < patches.size(); ++p)
-      for (int side = 0; side < nurbs::kSideCount; ++side) {
-        const Border::Kind kind = borders[p][side].kind;
-        if (kind == Border::pole || (kind == Border::free) != free) continue;
-        if (free) middles.for_each_near(middle(p, side), [&](int) { found = true; });
-        middles.add(static_cast<int>(p), middle(p, side));
-      }
-  return found;
+  for (size_t p = 0; p < patches.size(); ++p)
+    for (int side = 0; side < nurbs::kSideCount; ++side) {
+      if (borders[p][side].kind == Border::pole) continue;
+      const Vector3 at = middle(p, side);
+      int others = 0;
+      middles.for_each_near(at, [&](int) { ++others; });
+      if (others > 1) return true;
+      middles.add(static_cast<int>(p), at);
+    }
+  return false;
+}
+
+// Nothing but a line: its control points are.
+bool has_no_area(const nurbs::Surface& patch) {
+  const Vector3 start = patch.control_points.col(0);
+  Eigen::Index farthest;
+  const double length =
+      std::sqrt((patch.control_points.colwise() - start).colwise().squaredNorm().maxCoeff(&farthest));
+  const Vector3 way = patch.control_points.col(farthest) - start;
+  for (const auto& point : patch.control_points.colwise())
+    if (way.cross(point - start).norm() > kMeet * length * length) return false;
+  return true;
 }
 
 }  // namespace
@@ -184,7 +197,7 @@ std::optional<FacedPatches> closed_forms(const std::vector<nurbs::Surface>& patc
     faces.push_back(form->face);
     charts.push_back(form->chart);
   }
-  return FacedPatches{from_faces(faces, edge_angle), std::move(charts)};
+  return FacedPatches{from_faces(faces, edge_angle), std::move(charts), {}};
 }
 
 CadModel model_of(const std::vector<nurbs::Surface>& patches, const nurbs::Borders& borders) {
@@ -193,16 +206,20 @@ CadModel model_of(const std::vector<nurbs::Surface>& patches, const nurbs::Borde
 
 std::optional<FacedPatches> faced_patches(const std::vector<nurbs::Surface>& patches, bool from_words,
                                           double edge_angle) {
-  const nurbs::Borders borders = nurbs::find_borders(patches);
-  const bool turn = any_turn(borders, edge_angle);
+  PatchParts cut(patches, edge_angle);
+  const std::vector<nurbs::Surface> parts = cut.parts_of(patches);
+  const nurbs::Borders borders = nurbs::find_borders(parts);
+  const bool turn = !cut.none() || any_turn(borders, edge_angle) || more_meet(parts, borders);
   if (!turn && !from_words) return std::nullopt;
-  if (std::optional<FacedPatches> closed = closed_forms(patches, edge_angle)) return closed;
-  if (!turn || more_meet(patches, borders)) return std::nullopt;
-  for (const nurbs::Surface& patch : patches)
-    if (turns_inside(patch, edge_angle)) return std::nullopt;
-  std::vector<int> all(patches.size());
-  std::iota(all.begin(), all.end(), 0);
-  return FacedPatches{from_cad(model_of(patches, borders), all, edge_angle), {}};
+  std::optional<FacedPatches> faced = closed_forms(parts, edge_angle);
+  if (!faced && (!turn || std::any_of(parts.begin(), parts.end(), has_no_area))) return std::nullopt;
+  if (!faced) {
+    std::vector<int> all(parts.size());
+    std::iota(all.begin(), all.end(), 0);
+    faced = FacedPatches{from_cad(model_of(parts, borders), all, edge_angle), {}, {}};
+  }
+  faced->parts = std::move(cut);
+  return faced;
 }
 
 }  // namespace brep

@@ -219,10 +219,10 @@ bool same_orientation(int side, const Border& border) {
   return (on_the_left(side) == on_the_left(border.side)) == border.reversed;
 }
 
-double largest_kink(const Surface& surface, int direction) {
+double kink_at(const Surface& surface, int direction, double knot) {
   const KnotVector &across = surface.space.knots(direction), &along = surface.space.knots(1 - direction);
   double largest = 0.0;
-  const auto look_at = [&](double knot, int element, double at) {
+  const auto look_at = [&](int element, double at) {
     Vector3 normal[2];
     for (const int after : {0, 1}) {
       Parameter<2> xi;
@@ -240,11 +240,44 @@ double largest_kink(const Surface& surface, int direction) {
     }
     largest = std::max(largest, std::atan2(normal[0].cross(normal[1]).norm(), normal[0].dot(normal[1])));
   };
-  for (size_t c = 1; c + 1 < across.creases().size(); ++c)
-    for (int e = 0; e < along.element_count(); ++e)
-      for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0})
-        look_at(across.creases()[c], e, along.breaks()[e] + t * (along.breaks()[e + 1] - along.breaks()[e]));
+  for (int e = 0; e < along.element_count(); ++e)
+    for (const double t : {0.0, 0.25, 0.5, 0.75, 1.0})
+      look_at(e, along.breaks()[e] + t * (along.breaks()[e + 1] - along.breaks()[e]));
   return largest;
+}
+
+double largest_kink(const Surface& surface, int direction) {
+  const std::vector<double>& creases = surface.space.knots(direction).creases();
+  double largest = 0.0;
+  for (size_t c = 1; c + 1 < creases.size(); ++c)
+    largest = std::max(largest, kink_at(surface, direction, creases[c]));
+  return largest;
+}
+
+std::vector<std::array<SideCurve, kSideCount>> curves_of_sides(const std::vector<Surface>& patches,
+                                                               double relative_tolerance) {
+  const double tolerance = relative_tolerance * diagonal(patches);
+  std::vector<Edge> edges;
+  for (const Surface& patch : patches)
+    for (int side = 0; side < kSideCount; ++side) edges.emplace_back(patch, side);
+  Borders poles(patches.size());
+  std::vector<std::array<SideCurve, kSideCount>> curves(patches.size());
+  const auto curve_of = [&](int edge) -> SideCurve& { return curves[edge / kSideCount][edge % kSideCount]; };
+  for (int e = 0; e < static_cast<int>(edges.size()); ++e) {
+    curve_of(e).first = e;
+    if (edges[e].is_pole(tolerance)) poles[e / kSideCount][e % kSideCount].kind = Border::pole;
+  }
+  const Vector3 in_place = Vector3::Zero();
+  for (const Candidate& c : candidates(edges, poles, {in_place}, tolerance)) {
+    SideCurve& other = curve_of(c.other);
+    if (other.first != c.other) continue;
+    for (const bool reversed : {false, true})
+      if (common_points(edges[c.edge], edges[c.other], in_place, reversed, tolerance)) {
+        other = {curve_of(c.edge).first, curve_of(c.edge).reversed != reversed};
+        break;
+      }
+  }
+  return curves;
 }
 
 Borders find_borders(const std::vector<Surface>& patches, double relative_tolerance,

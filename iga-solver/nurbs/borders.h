@@ -40,8 +40,18 @@ using MayWeld = std::function<bool(int patch, int side, int other_patch, int oth
 Borders find_borders(const std::vector<Surface>& patches, double relative_tolerance = 1e-9,
                      const std::vector<Vector3>& periods = {}, const MayWeld& may_weld = {});
 
-/// Largest angle between the normals on both sides of the C0 knots inside a patch, of one direction; poles do
-/// not count [rad].
+/// Of the sides that are one curve, in the sense of find_borders, the first (kSideCount * patch + side).
+struct SideCurve {
+  int first;
+  bool reversed = false;  ///< it runs against the first
+};
+/// Of all sides [patch][side]; a pole is its own first.
+std::vector<std::array<SideCurve, kSideCount>> curves_of_sides(const std::vector<Surface>& patches,
+                                                               double relative_tolerance = 1e-9);
+
+/// Largest angle between the normals on both sides of a C0 knot inside a patch, or of all those of one
+/// direction; poles do not count [rad].
+double kink_at(const Surface& surface, int direction, double knot);
 double largest_kink(const Surface& surface, int direction);
 
 /// Whether dS/dxi x dS/deta lies on the same side of both patches beyond the border of `side`.  max_angle

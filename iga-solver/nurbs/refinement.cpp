@@ -127,10 +127,56 @@ Patch<Dim> elevate_degree(const Patch<Dim>& patch, int direction, int times) {
   return result;
 }
 
+namespace {
+
+// Times that it stands inside; the ends count as often as they may.
+int multiplicity(const KnotVector& knots, double xi) {
+  if (xi == knots.front() || xi == knots.back()) return knots.degree();
+  return static_cast<int>(std::count(knots.knots().begin(), knots.knots().end(), xi));
+}
+
+}  // namespace
+
+// Between knots that stand `degree` times, control points from one of these to the other.
+template <int Dim>
+Patch<Dim> part_between(const Patch<Dim>& patch, int direction, double begin, double end) {
+  check_arguments(patch, direction, 0);
+  const KnotVector& given = patch.space.knots(direction);
+  if (!(given.front() <= begin && begin < end && end <= given.back()))
+    throw std::invalid_argument(fmt::format("the part is {} to {}, expected a range within {} to {}", begin,
+                                            end, given.front(), given.back()));
+  std::vector<double> missing;
+  for (const double xi : {begin, end})
+    missing.insert(missing.end(), given.degree() - multiplicity(given, xi), xi);
+  const Patch<Dim> whole = missing.empty() ? patch : insert_knots(patch, direction, missing);
+  const std::vector<double>& all = whole.space.knots(direction).knots();
+  const auto inner = std::upper_bound(all.begin(), all.end(), begin),
+             behind = std::lower_bound(all.begin(), all.end(), end);
+  std::vector<double> knots(given.degree() + 1, begin);
+  knots.insert(knots.end(), inner, behind);
+  knots.insert(knots.end(), given.degree() + 1, end);
+  const int first = static_cast<int>(inner - all.begin()) - given.degree() - 1;
+  std::array<KnotVector, Dim> all_knots = whole.space.knots();
+  all_knots[direction] = KnotVector(given.degree(), std::move(knots));
+  const int old_length = whole.space.control_point_count(direction),
+            length = all_knots[direction].control_point_count();
+  int stride = 1;
+  for (int d = 0; d < direction; ++d) stride *= whole.space.control_point_count(d);
+  NodalVectors control_points(3, whole.space.control_point_count() / old_length * length);
+  std::vector<double> weights;
+  for (int a = 0; a < control_points.cols(); ++a) {
+    const int b = a % stride + stride * (first + a / stride % length + old_length * (a / stride / length));
+    control_points.col(a) = whole.control_points.col(b);
+    if (whole.space.rational()) weights.push_back(whole.space.weight(b));
+  }
+  return {Space<Dim>(std::move(all_knots), std::move(weights)), std::move(control_points)};
+}
+
 #define INSTANTIATE(Dim)                                                                \
   template Patch<Dim> insert_knots(const Patch<Dim>&, int, const std::vector<double>&); \
   template Patch<Dim> insert_knot(const Patch<Dim>&, int, double, int);                 \
-  template Patch<Dim> elevate_degree(const Patch<Dim>&, int, int);
+  template Patch<Dim> elevate_degree(const Patch<Dim>&, int, int);                      \
+  template Patch<Dim> part_between(const Patch<Dim>&, int, double, double);
 INSTANTIATE(1)
 INSTANTIATE(2)
 INSTANTIATE(3)

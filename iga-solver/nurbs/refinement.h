@@ -25,4 +25,10 @@ Patch<Dim> insert_knot(const Patch<Dim>& patch, int direction, double xi, int ti
 template <int Dim>
 Patch<Dim> elevate_degree(const Patch<Dim>& patch, int direction, int times = 1);
 
+/// The part of a patch between two parameters of one direction, with the same parameters; knots are inserted
+/// where an end of it has fewer than the degree.  Throws std::invalid_argument unless begin < end, both in
+/// the range.
+template <int Dim>
+Patch<Dim> part_between(const Patch<Dim>& patch, int direction, double begin, double end);
+
 }  // namespace nurbs

@@ -58,6 +58,9 @@ class TriangleTrial final : public Trial {
   /// A surface that was made from the wall; `rounded`: by way of a file in single precision.
   TriangleTrial(const Wall& meant, const Surface& surface, bool rounded, const std::mt19937& random)
       : TriangleTrial(meant, surface, surface, rounded, random) {}
+  /// The same whose faces are not of triangles; they have the numbers that the planes of triangles have.
+  TriangleTrial(const Wall& meant, const Surface& surface, const std::mt19937& random)
+      : TriangleTrial(meant, from_triangles(meant.coordinates(), meant.corners()), surface, false, random) {}
   std::string try_sheets() override;
 
  private:
