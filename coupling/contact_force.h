@@ -10,9 +10,9 @@ struct ContactForce {
   int patch;     ///< of the foot
   double xi[2];  ///< foot on the patch
   double F[3];   ///< force on the surface [force]
-  /// And a couple: forces turn[j] dR_A/dxi_j lever on its control points, whose sum is zero [force/length],
-  /// [length].
-  double turn[2] = {0.0, 0.0}, lever[3] = {0.0, 0.0, 0.0};
+  /// And a couple: forces dR_A/dxi_j couple[j] on its control points, whose sum is zero [force].
+  bool has_couple = false;
+  double couple[2][3] = {};
 };
 
 }  // namespace coupling

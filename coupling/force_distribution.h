@@ -5,10 +5,18 @@
 // F).
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "coupling/contact_surface.h"
-#include "nurbs/surface_values.h"
+#include "nurbs/surface_slopes.h"
 
 namespace coupling {
+
+template <class Function>
+void for_each(const nurbs::SurfaceValues& values, Function f) {
+  for (int j = 0; j <= values.q; ++j)
+    for (int i = 0; i <= values.p; ++i) f(values.first + i + values.stride * j);
+}
 
 /// Values R_A at one foot; the same object serves both directions of the transfer.
 class FootBasis {
@@ -39,13 +47,46 @@ class FootBasis {
   /// f(index) for those that it spreads to.
   template <class Function>
   void for_each_control_point(Function f) const {
-    for (int j = 0; j <= values_.q; ++j)
-      for (int i = 0; i <= values_.p; ++i) f(values_.first + i + values_.stride * j);
+    for_each(values_, f);
   }
 
  private:
   nurbs::SurfaceValues values_;
 };
+
+/// Values and derivatives there: a force and a couple, which is forces that sum to zero,
+///   f_A = R_A(xi) F + sum_j dR_A/dxi_j G_j,   whose moment about the foot is   sum_j S_j x G_j.
+class FootSlopes {
+ public:
+  FootSlopes(const nurbs::MultiPatch& surface, const nurbs::SurfacePoint& foot) {
+    nurbs::evaluate_slopes(surface.patch(foot.patch), foot.xi, slopes_);
+    slopes_.values.first += surface.first_control_point(foot.patch);
+  }
+
+  /// S_j, from the control points X (3 x n).
+  nurbs::Tangents tangents(const NodalVectors& X) const { return nurbs::interpolate_slopes(slopes_, X); }
+  void distribute(const Vector3& F, const nurbs::Tangents& G, NodalVectors& f) const {
+    nurbs::distribute(slopes_, F, G, f);
+  }
+  template <class Function>
+  void for_each_control_point(Function f) const {
+    for_each(slopes_.values, f);
+  }
+
+ private:
+  nurbs::SurfaceSlopes slopes_;
+};
+
+/// G of a couple C where the tangents are S: along the normal what tilts the surface, along it what turns it
+/// about the normal.
+inline nurbs::Tangents couple_forces(const nurbs::Tangents& S, const Vector3& C) {
+  const Vector3 first = S.col(0), second = S.col(1), normal = first.cross(second);
+  const double share = 1.0 / normal.squaredNorm(), turn = 0.5 * share * C.dot(normal);
+  nurbs::Tangents G;
+  G.col(0) = turn * second - share * C.dot(second) * normal;
+  G.col(1) = share * C.dot(first) * normal - turn * first;
+  return G;
+}
 
 /// The same for a rigid wall of faces, whose nodes are four corners of the box around it: barycentric
 /// coordinates, so force and torque of all nodes together are those at the foot.

@@ -27,8 +27,8 @@ void expect_int(std::int64_t contacts) {
                              std::to_string(kMost));
 }
 
-FootBasis basis_of(const ContactForce& contact, const nurbs::MultiPatch& surface) {
-  return {surface, {contact.patch, {contact.xi[0], contact.xi[1]}}};
+nurbs::SurfacePoint foot_of(const ContactForce& contact) {
+  return {contact.patch, {contact.xi[0], contact.xi[1]}};
 }
 
 /// Control points of these elements and of those around each in its patch: a foot may wander a little beyond.
@@ -146,22 +146,30 @@ bool SurfaceExchange::any(bool here) const {
 }
 
 template <class Basis>
-void SurfaceExchange::spread(const ContactForce& contact, const Basis& foot) {
-  foot.distribute(Vector3::Map(contact.F), surface_forces_);
+void SurfaceExchange::touch(const Basis& foot) {
   foot.for_each_control_point([&](int c) {
     if (!is_touched_[c]) touched_.push_back(c);
     is_touched_[c] = true;
   });
 }
 
-void SurfaceExchange::turn(const ContactForce& contact) {
-  const nurbs::MultiPatch& surface = solver_.surface().topology;
-  nurbs::RationalBasis<2> basis;
-  nurbs::evaluate(surface.patch(contact.patch), {contact.xi[0], contact.xi[1]}, 1, basis);
-  const int first = surface.first_control_point(contact.patch);
-  for (int a = 0; a < basis.count; ++a)
-    surface_forces_.col(first + basis.control_point[a]) +=
-        (contact.turn[0] * basis.dR[0][a] + contact.turn[1] * basis.dR[1][a]) * Vector3::Map(contact.lever);
+void SurfaceExchange::spread(const ContactForce& contact) {
+  const ContactSurface& surface = solver_.surface();
+  const Vector3 F = Vector3::Map(contact.F);
+  if (surface.faces) {
+    const Vector3 foot = brep::point_on(*surface.faces, contact.patch, {contact.xi[0], contact.xi[1]});
+    const BoxBasis box(*surface.faces, foot);
+    box.distribute(F, surface_forces_);
+    return touch(box);
+  }
+  if (contact.has_couple) {
+    const FootSlopes foot = {surface.topology, foot_of(contact)};
+    foot.distribute(F, nurbs::Tangents::Map(contact.couple[0]), surface_forces_);
+    return touch(foot);
+  }
+  const FootBasis foot = {surface.topology, foot_of(contact)};
+  foot.distribute(F, surface_forces_);
+  touch(foot);
 }
 
 const NodalForces& SurfaceExchange::export_add(const std::vector<ContactForce>& local) {
@@ -176,14 +184,7 @@ const NodalForces& SurfaceExchange::export_add(const std::vector<ContactForce>& 
   });
   for (const ContactForce& contact : contacts_) {
     NURBS_ASSERT(Vector3::Map(contact.F).allFinite(), contact.tag, contact.F[0], contact.F[1], contact.F[2]);
-    const ContactSurface& surface = solver_.surface();
-    if (surface.faces)
-      spread(contact, BoxBasis(*surface.faces, brep::point_on(*surface.faces, contact.patch,
-                                                              {contact.xi[0], contact.xi[1]})));
-    else {
-      spread(contact, basis_of(contact, surface.topology));
-      if (contact.turn[0] != 0.0 || contact.turn[1] != 0.0) turn(contact);
-    }
+    spread(contact);
   }
   std::sort(touched_.begin(), touched_.end());
   map_.nodes_of(touched_, nodal_forces_.touched);
@@ -207,7 +208,7 @@ void SurfaceExchange::send_to_owners(const std::vector<ContactForce>& local) {
   for (const ContactForce& contact : local) {
     std::vector<int>& owners = owners_of_contact_;
     owners.clear();
-    basis_of(contact, solver_.surface().topology).for_each_control_point([&](int c) {
+    FootBasis(solver_.surface().topology, foot_of(contact)).for_each_control_point([&](int c) {
       const int owner = owners_->owner(c);
       if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
     });

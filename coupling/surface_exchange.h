@@ -54,9 +54,9 @@ class SurfaceExchange {
   void import_masses();
   void gather(const std::vector<ContactForce>& local);
   void send_to_owners(const std::vector<ContactForce>& local);
+  void spread(const ContactForce& contact);
   template <class Basis>
-  void spread(const ContactForce& contact, const Basis& foot);
-  void turn(const ContactForce& contact);
+  void touch(const Basis& foot);
   void forget_forces();
 
   MPI_Comm comm_;

@@ -14,21 +14,25 @@ namespace contact {
 
 // With c > 0 the left side is concave and Newton's steps come up from below; with c < 0 it is convex, and
 // they come down from above.  They begin at the first terms of Lagrange's series in e = c K overlap^(1/2),
-// 1 + e + 3/2 e^2 + 21/8 e^3 + ..., which is on that side.  After a step the error is 1/4 s/(1 - s) of the
-// step's share of x, squared.
+// 1 + e + 3/2 e^2 + 21/8 e^3 + 5 e^4 + ..., which is on that side.  After a step the error is 1/4 s/(1 - s)
+// of the step's share of x, squared.
 CorrectedOverlap corrected_overlap(double overlap, double c, double K, double limit) {
   constexpr int kMostSteps = 60;
   constexpr double kSame = 5e-9, kSeries = 0.5;
   const double e = c * K * std::sqrt(overlap);
-  CorrectedOverlap at{std::abs(e) < kSeries ? overlap * (1.0 + e * (1.0 + 1.5 * e)) : overlap, 0.0};
+  const double series = 1.0 + e * (1.0 + e * (1.5 + e * (2.625 + e * 5.0)));
+  CorrectedOverlap at{std::abs(e) < kSeries ? overlap * series : overlap, 0.0, 0.0};
   for (int step = 0; step < kMostSteps; ++step) {
-    const double cK_root = c * K * std::sqrt(at.x);
+    at.root = std::sqrt(at.x);
+    const double cK_root = c * K * at.root;
     at.s = 1.5 * cK_root;
     if (at.s >= limit) return at;
     const double change = (overlap - at.x * (1.0 - cK_root)) / (1.0 - at.s);
     at.x += change;
     if (std::abs(change) <= kSame * at.x) {
-      at.s *= 1.0 + 0.5 * change / at.x;
+      const double share = 1.0 + 0.5 * change / at.x;
+      at.s *= share;
+      at.root *= share;
       break;
     }
   }
@@ -84,14 +88,14 @@ double ComplianceCorrection::held_gap(const ParticleSlots& slots, int history_co
 // dx/dt = d(overlap)/dt / (1 - s), for what depends on it.
 ComplianceCorrection::Seen ComplianceCorrection::elastic(double approach, double K, double c,
                                                          const Contact& contact) const {
-  const auto [x, s] = corrected_overlap(contact.overlap, c, K, kLargest);
-  return {x, approach / (1.0 - s), x, s, K * x * std::sqrt(x), 0.0};
+  const auto [x, s, root] = corrected_overlap(contact.overlap, c, K, kLargest);
+  return {x, root, approach / (1.0 - s), s, K * x * root, 0.0};
 }
 
 // The law is called with the x that is kept, and with a rate by which its force is that of both.
 bool ComplianceCorrection::damped(const ParticleView& particles, const Time& now, const DampedLaw& law,
-                                  double approach, const Contact& contact, Seen& seen) const {
-  const Vector3 n = contact.delta / contact.distance;
+                                  const Vector3& n, double approach, const Contact& contact,
+                                  Seen& seen) const {
   const double of_surface = n.dot(contact.wall_velocity), dt = now.is_setup ? 0.0 : now.dt;
   double* const memory = memory_of(particles, contact);
   DampedApproach kept(memory);
@@ -99,9 +103,9 @@ bool ComplianceCorrection::damped(const ParticleView& particles, const Time& now
   if (kept.is_on()) {
     const double damping = kept.damping(law), left = contact.overlap + law.give * damping;
     const CorrectedOverlap own =
-        left > 0.0 ? corrected_overlap(left, law.give, law.K, kLargest) : CorrectedOverlap{0.0, 0.0};
-    seen = {kept.x(), 0.0, own.x, own.s, law.K * own.x * std::sqrt(own.x) + damping, kept.dashpot(law)};
-    seen.rate = (seen.force - law.K * seen.x * std::sqrt(seen.x)) / seen.dashpot;
+        left > 0.0 ? corrected_overlap(left, law.give, law.K, kLargest) : CorrectedOverlap{0.0, 0.0, 0.0};
+    seen = {kept.x(), kept.root(), 0.0, own.s, law.K * own.x * own.root + damping, kept.dashpot(law)};
+    seen.rate = (seen.force - law.K * seen.x * seen.root) / seen.dashpot;
     if (!now.is_setup) kept.observe(law, contact.overlap + law.give * seen.force, dt);
   }
   if (!now.is_setup) kept.keep(memory);
@@ -129,45 +133,51 @@ void ComplianceCorrection::correct(const ParticleView& particles, const Time& no
     return;
   const bool has_shear = !now.is_setup && model.shear_constant(i) > 0.0;
   const coupling::LocalCompliance::Value c = compliance_.at(contact.foot, has_shear);
-  const Vector3 n = contact.delta / contact.distance;
+  const double of_distance = 1.0 / contact.distance;
+  const Vector3 n = of_distance * contact.delta;
   const double approach = n.dot(contact.wall_velocity - particles.velocity(i));
   Seen seen;
   if (D > 0.0) {
     const double delay = mesh_ ? mesh_->delay(contact.foot) : 0.0;
     const DampedLaw law = {K, D, mass_of(particles, i), c.normal.c, delay};
-    contact.touches = damped(particles, now, law, approach, contact, seen);
+    contact.touches = damped(particles, now, law, n, approach, contact, seen);
     if (!contact.touches) return forget_shear(particles, now, contact);
   } else {
     seen = elastic(approach, K, c.normal.c, contact);
   }
   if (seen.s >= kLargest) fail_as_too_fine(particles, now.step, contact, seen.s);
   const SurfaceDirections directions = directions_at(contact);
+  before.has_tangents = true;
   before.tangents = directions.tangents;
   before.along = -0.5 * seen.force * seen.force * directions.gradient(c.normal.change);
-  before.tangent = 1.5 * K * std::sqrt(std::max(seen.x, now.dt * std::abs(seen.rate))) / (1.0 - seen.s);
+  const double way = now.dt * std::abs(seen.rate);
   before.dashpot = seen.dashpot;
-  before.stiffness = 1.5 * K * std::sqrt(seen.x);
+  before.stiffness = 1.5 * K * seen.root;
+  before.tangent = (way > seen.x ? 1.5 * K * std::sqrt(way) : before.stiffness) / (1.0 - seen.s);
   contact.wall_velocity += (seen.rate - approach) * n;
   const double distance = contact.distance + contact.overlap - seen.x;
-  contact.delta *= distance / contact.distance;
+  contact.delta *= distance * of_distance;
   contact.distance = distance;
   contact.overlap = seen.x;
-  if (has_shear) correct_shear(particles, now, model.shear(contact), c, directions, contact, before);
+  if (!has_shear) return;
+  const ContactModel::Shear shear = model.shear(contact);
+  correct_shear(particles, now, shear, {n, shear.constant * root * seen.root}, c, directions, contact,
+                before);
 }
 
 void ComplianceCorrection::correct_shear(const ParticleView& particles, const Time& now,
-                                         const ContactModel::Shear& shear,
+                                         const ContactModel::Shear& shear, const Spring& spring,
                                          const coupling::LocalCompliance::Value& c,
                                          const SurfaceDirections& directions, Contact& contact,
                                          Before& before) {
   constexpr double kSphere = 2.0 / 7.0;  // of its mass is what moves its surface along itself
-  const double stiffness = shear.constant * std::sqrt(contact.effective_radius * contact.overlap);
-  const Vector3 n = contact.delta / contact.distance, slip = shear.slip - n.dot(shear.slip) * n;
+  const auto& [n, stiffness] = spring;
+  const Vector3 slip = shear.slip - n.dot(shear.slip) * n;
   before.shear.emplace(c, directions, n, stiffness);
   const double share = before.shear->largest_share();
   if (share >= kLargest) fail_as_too_fine(particles, now.step, contact, share);
   // dampers of both directions have the same share of critical damping
-  before.shear_dashpot = before.dashpot * std::sqrt(stiffness / before.stiffness);
+  if (before.dashpot > 0.0) before.shear_dashpot = before.dashpot * std::sqrt(stiffness / before.stiffness);
   const double inertia = kSphere * mass_of(particles, contact.particle);
   const ShearCompliance::Step seen = before.shear->begin(
       {slip, slip + contact.wall_velocity, shear.stretch, before.shear_dashpot, inertia, now.dt},
@@ -206,7 +216,8 @@ void ComplianceCorrection::after(const ParticleView& particles, const ContactMod
     contact.delta = before.delta;
     contact.wall_velocity = before.wall_velocity;
     contact.force += before.tangents * along;
-    contact.along = along;
+    contact.has_tangents = before.has_tangents;
+    contact.tangents = before.tangents;
     contact.tangent = before.tangent;
     contact.dashpot = before.dashpot;
   }

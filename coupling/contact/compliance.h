@@ -26,7 +26,7 @@ namespace contact {
 
 /// Overlap of a law F = K x^(3/2) behind a compliance c [length/force], and s = 3/2 c K x^(1/2) there.
 struct CorrectedOverlap {
-  double x, s;
+  double x, s, root;  // x^(1/2)
 };
 /// Newton's method from x = overlap > 0, monotone for either sign of c; where s comes to `limit` on the way,
 /// it is left there, and at the solution it is no smaller.
@@ -66,6 +66,7 @@ class ComplianceCorrection {
     double overlap, distance;
     bool touches;
     Vector3 delta, wall_velocity;
+    bool has_tangents = false;
     Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();
     Eigen::Vector2d along = Eigen::Vector2d::Zero();  // force in units of the tangents [force/length]
     double tangent = 0.0, stiffness = 0.0;            // behind the mesh, and the law's own [force/length]
@@ -74,19 +75,24 @@ class ComplianceCorrection {
   };
   /// What a law is called with, and what it is to answer.
   struct Seen {
-    double x, rate;  // of approach [length/time]
-    double own, s;   // overlap of the elastic force, and s there
+    double x, root;  // x^(1/2)
+    double rate;     // of approach [length/time]
+    double s;        // where the elastic force is
     double force;    // [force]
     double dashpot;  // [force time/length]
   };
   Seen elastic(double approach, double K, double c, const Contact& contact) const;
-  bool damped(const ParticleView& particles, const Time& now, const DampedLaw& law, double approach,
-              const Contact& contact, Seen& seen) const;
+  bool damped(const ParticleView& particles, const Time& now, const DampedLaw& law, const Vector3& n,
+              double approach, const Contact& contact, Seen& seen) const;
   void correct(const ParticleView& particles, const Time& now, const ContactModel& model, Contact& contact,
                Before& before);
+  struct Spring {
+    Vector3 n;
+    double stiffness;  // along the surface [force/length]
+  };
   void correct_shear(const ParticleView& particles, const Time& now, const ContactModel::Shear& shear,
-                     const coupling::LocalCompliance::Value& c, const SurfaceDirections& directions,
-                     Contact& contact, Before& before);
+                     const Spring& spring, const coupling::LocalCompliance::Value& c,
+                     const SurfaceDirections& directions, Contact& contact, Before& before);
   SurfaceDirections directions_at(const Contact& contact) const;
 
   coupling::LocalCompliance& compliance_;

@@ -135,6 +135,7 @@ class ContactLoop {
   Contact& add_contact(const ParticleView& particles, int particle, const nurbs::SurfacePoint& foot, int slot,
                        double distance, const Vector3& delta, const Vector3& v_wall);
   void push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact);
+  void turn_body(const Contact& contact, coupling::ContactForce& on_body) const;
   void answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,
               ContactObserver* observer, std::size_t first);
   void look_at(const ParticleView& particles, const StepInfo& step, const ContactModel& model,

@@ -2,6 +2,7 @@
 // What becomes of the model's answers: forces on particles and on the body, alarms.
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -80,15 +81,27 @@ inline void ContactLoop::look_at_mesh(const ParticleView& particles, const StepI
 
 void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
   expect_stable(particles, step, contact);
-  const Vector3 on_body = -wall_.to_frame_direction(contact.force),
-                lever = wall_.to_frame_direction(contact.delta);
+  const Vector3 on_body = -wall_.to_frame_direction(contact.force);
   forces_on_body_.push_back({particles.tag[contact.particle],
                              contact.slot,
                              contact.foot.patch,
                              {contact.foot.xi[0], contact.foot.xi[1]},
-                             {on_body[0], on_body[1], on_body[2]},
-                             {contact.along[0], contact.along[1]},
-                             {lever[0], lever[1], lever[2]}});
+                             {on_body[0], on_body[1], on_body[2]}});
+  if (wall_.deforms() && (contact.has_tangents || !contact.torque.isZero(0.0)))
+    turn_body(contact, forces_on_body_.back());
+}
+
+// What acts on the particle has a moment about the foot if the law has its point of contact elsewhere, or
+// resists rolling: the body has the opposite one.  A rigid wall takes it from the contact's torque.
+inline void ContactLoop::turn_body(const Contact& contact, coupling::ContactForce& on_body) const {
+  const Vector3 couple = -wall_.to_frame_direction(contact.torque + contact.delta.cross(contact.force));
+  nurbs::Tangents tangents;
+  if (contact.has_tangents)
+    for (int j = 0; j < 2; ++j) tangents.col(j) = wall_.to_frame_direction(contact.tangents.col(j));
+  else
+    tangents = coupling::FootSlopes(wall_.surface(), contact.foot).tangents(wall_.control_points());
+  on_body.has_couple = true;
+  nurbs::Tangents::Map(on_body.couple[0]) = coupling::couple_forces(tangents, couple);
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "nurbs/multi_patch.h"
+#include "nurbs/surface_slopes.h"
 
 namespace contact {
 
@@ -15,7 +16,7 @@ struct Contact {
   Contact() {}  // not set to zero first
   void forget_stiffness() {
     further_slip.setZero();
-    along.setZero();
+    has_tangents = false;
     tangent = dashpot = shear_tangent = shear_dashpot = 0.0;
   }
   int particle;              ///< of this rank, in this step
@@ -39,13 +40,14 @@ struct Contact {
 
   // Of a wall that needs forces, else not set; 0: not known (last, so that other walls need not have it at
   // hand):
-  Vector3 further_slip;   ///< of this step, beside that of the velocities; springs add it to their stretch
-                          ///< [length]
-  Eigen::Vector2d along;  ///< of the force, what depends on the foot: in units of S_j [force/length]
-  double tangent;         ///< d(force)/d(overlap) [force/length]
-  double dashpot;         ///< of damping, by the particle's speed alone [force time/length]
-  double shear_tangent;   ///< along the surface [force/length]
-  double shear_dashpot;   ///< along the surface, of the particle's speed [force time/length]
+  Vector3 further_slip;  ///< of this step, beside that of the velocities; springs add it to their stretch
+                         ///< [length]
+  bool has_tangents;
+  nurbs::Tangents tangents;  ///< if so, S_j of the patch, in space [length]
+  double tangent;            ///< d(force)/d(overlap) [force/length]
+  double dashpot;            ///< of damping, by the particle's speed alone [force time/length]
+  double shear_tangent;      ///< along the surface [force/length]
+  double shear_dashpot;      ///< along the surface, of the particle's speed [force time/length]
 };
 
 /// A law of contact, normal and tangential: a DEM code's own, or a spring.

@@ -42,6 +42,7 @@ class DampedApproach {
   /// Whether it presses, or pulls; else it is over, although the surfaces may not have come apart yet.
   bool is_on() const { return x_ > 0.0; }
   double x() const { return x_; }
+  double root() const { return root_ * root_; }  ///< x^(1/2), where it is on
   double rate() const { return rate_; }
   /// gamma [force time/length] and the force of it.
   double dashpot(const DampedLaw& law) const { return law.D * root_; }

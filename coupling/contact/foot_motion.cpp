@@ -22,18 +22,16 @@ struct DirectionValues {
     const nurbs::ElementFunctions& functions = space.functions(d, element);
     count = known > 0 ? known : knots.degree() + 1;
     first = knots.span_of_element(element) - knots.degree();
-    for (int j = 0; j < count; ++j) {
-      double value = 0.0, by_s = 0.0, bend = 0.0;
-      for (int k = count - 1; k >= 0; --k) {
-        bend = bend * s + by_s;
-        by_s = by_s * s + value;
-        value = value * s + functions.power[k][j];
+    for (int j = 0; j < size(); ++j) N[j] = dN[j] = ddN[j] = 0.0;
+    for (int k = size() - 1; k >= 0; --k)
+      for (int j = 0; j < size(); ++j) {
+        ddN[j] = ddN[j] * s + dN[j];
+        dN[j] = dN[j] * s + N[j];
+        N[j] = N[j] * s + functions.power[k][j];
       }
-      N[j] = value;
-      dN[j] = scale * by_s;
-      ddN[j] = 2.0 * scale * scale * bend;
-    }
+    for (int j = 0; j < size(); ++j) dN[j] *= scale, ddN[j] *= 2.0 * scale * scale;
   }
+  int size() const { return known > 0 ? known : count; }
   int first, count;
   double N[nurbs::kMaxDegree + 1], dN[nurbs::kMaxDegree + 1], ddN[nurbs::kMaxDegree + 1];
 };
@@ -64,11 +62,11 @@ Sums sums(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const nur
           int first, const Vector3& delta) {
   const DirectionValues<known> u(space, 0, xi[0]), v(space, 1, xi[1]);
   Sums sums;
-  for (int j = 0; j < (known > 0 ? known : v.count); ++j) {
+  for (int j = 0; j < v.size(); ++j) {
     const int begin = u.first + space.control_point_count(0) * (v.first + j);
     Vector3 A = Vector3::Zero(), A_0 = Vector3::Zero();
     double h = 0.0, h_0 = 0.0, h_00 = 0.0, W = 0.0, W_0 = 0.0, W_00 = 0.0;
-    for (int i = 0; i < (known > 0 ? known : u.count); ++i) {
+    for (int i = 0; i < u.size(); ++i) {
       const double w = rational ? space.weights()[begin + i] : 1.0, N = w * u.N[i], dN = w * u.dN[i],
                    ddN = w * u.ddN[i];
       const auto now = X.col(first + begin + i);

@@ -57,7 +57,7 @@ ShearCompliance::Step ShearCompliance::begin(const Start& start, const double* m
 void ShearCompliance::end(const Vector3& stretch, double* memory) const {
   constexpr double kSame = 1e-9;
   const Eigen::Vector2d now = on_surface(stretch);
-  const bool slips = now.norm() < (1.0 - kSame) * stretch_.norm();
+  const bool slips = now.squaredNorm() < (1.0 - 2.0 * kSame) * stretch_.squaredNorm();
   Eigen::Map<Vector3>{memory} = to_space(k_ * (c_ * now));
   Eigen::Map<Vector3>{memory + 3} = to_space(slips ? body_speed_if_it_slips_ : body_speed_);
 }

@@ -73,8 +73,9 @@ TEST(SurfaceExchange, ForcesAreBitwiseTheSameOnAnyNumberOfRanks) {
   EXPECT_LE((forces.rowwise().sum() - total).norm(), 1e-13 * total.norm());
 }
 
-// Of control points that move as a rigid body the couple is (sum of turn_j S_j) x lever, and no force.
-TEST(SurfaceExchange, ACoupleIsItsLeversMomentAndNoForce) {
+// Of control points that move as a rigid body the moment of these forces is the couple, and their sum
+// nothing.
+TEST(SurfaceExchange, ACoupleIsItsMomentAndNoForce) {
   const Ranks ranks;
   coupling::RigidSurface rigid({test::wavy_surface(), test::wavy_surface()});
   coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
@@ -82,22 +83,23 @@ TEST(SurfaceExchange, ACoupleIsItsLeversMomentAndNoForce) {
   std::vector<ContactForce> mine;
   const auto nodal_forces = [&] { return NodalVectors(exchange.export_add(mine).values); };
   if (ranks.me == 0) mine = {one};
-  const NodalVectors of_force = nodal_forces();
-  one.turn[0] = 0.7, one.turn[1] = -0.4;
-  one.lever[0] = 0.1, one.lever[1] = 0.3, one.lever[2] = 1.9;
-  if (ranks.me == 0) mine = {one};
-  const NodalVectors f = nodal_forces() - of_force, &X = exchange.positions();
-  Vector3 moment = Vector3::Zero(), tangent = Vector3::Zero();
-  for (Eigen::Index A = 0; A < X.cols(); ++A) moment += Vector3(X.col(A)).cross(Vector3(f.col(A)));
+  const NodalVectors of_force = nodal_forces(), &X = exchange.positions();
+  const auto foot = [&](double xi, double eta) {
+    return coupling::FootBasis(rigid.surface().topology, {one.patch, {xi, eta}}).interpolate(X);
+  };
   constexpr double kStep = 1e-6;
-  for (const double side : {1.0, -1.0}) {
-    const nurbs::Parameter<2> beside = {one.xi[0] + side * kStep * one.turn[0],
-                                        one.xi[1] + side * kStep * one.turn[1]};
-    tangent += 0.5 * side / kStep * coupling::FootBasis(rigid.surface().topology, {1, beside}).interpolate(X);
-  }
-  const Vector3 expected = tangent.cross(Vector3::Map(one.lever));
-  EXPECT_LT(f.rowwise().sum().norm(), 1e-8 * of_force.norm() * 1e-6);
-  EXPECT_LT((moment - expected).norm(), 1e-6 * expected.norm());
+  nurbs::Tangents S;
+  S.col(0) = 0.5 / kStep * (foot(one.xi[0] + kStep, one.xi[1]) - foot(one.xi[0] - kStep, one.xi[1]));
+  S.col(1) = 0.5 / kStep * (foot(one.xi[0], one.xi[1] + kStep) - foot(one.xi[0], one.xi[1] - kStep));
+  const Vector3 couple(0.7, -0.4, 0.3);
+  one.has_couple = true;
+  nurbs::Tangents::Map(one.couple[0]) = coupling::couple_forces(S, couple);
+  if (ranks.me == 0) mine = {one};
+  const NodalVectors f = nodal_forces() - of_force;
+  Vector3 moment = Vector3::Zero();
+  for (Eigen::Index A = 0; A < X.cols(); ++A) moment += Vector3(X.col(A)).cross(Vector3(f.col(A)));
+  EXPECT_LT(f.rowwise().sum().norm(), 1e-14 * of_force.norm());
+  EXPECT_LT((moment - couple).norm(), 1e-8);
 }
 
 TEST(SurfaceExchange, RanksWithoutContactsTakePart) {

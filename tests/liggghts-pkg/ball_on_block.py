@@ -72,10 +72,10 @@ def wall(models="model hertz tangential no_history", rest="structure block.yaml 
     return f"fix plate all wall/nurbs {models} type 2 {rest}\n"
 
 
-def output(columns=(), every=1) -> str:
-    """Thermo columns with 17 digits: the ball's motion (z, vz, fz, ...), the kinetic energy of all particles (KinEng),
-    and f_plate[n] as plate<n>: LIGGGHTS' own header cuts names after eight characters."""
-    values = {name: f"{name}[1]" for name in ("x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz")}
+def output(columns=(), every=1, more=()) -> str:
+    """Thermo columns with 17 digits: the ball's motion (z, vz, fz, ...) and what is asked for `more`, the kinetic energy of all particles
+    (KinEng), and f_plate[n] as plate<n>: LIGGGHTS' own header cuts names after eight characters."""
+    values = {name: f"{name}[1]" for name in ("x", "y", "z", "vx", "vy", "vz", "fx", "fy", "fz", *more)}
     values |= {f"plate{c}": f"f_plate[{c}]" for c in columns}
     variables = "\n".join(f"variable {name} equal {value}" for name, value in values.items())
     shown = " ".join(f"v_{name}" for name in values)

@@ -56,16 +56,29 @@ class Ranks(unittest.TestCase):
 
 
     def test_angular_momentum_goes_to_the_block_too(self):
-        """Of a law that turns with the body, without friction."""
-        settings = SETTINGS | dict(balls=((0.3e-3, 0.2e-3, 1e-3),), friction=0.0, restitution=1.0, timestep=5e-9, velocity=(0.4, -0.3, -1.0))
-        deck = bob.prelude(**settings) + bob.wall(MODELS, CORRECTED) + bob.output((9, 10, 11, 12, 13, 14)) + "run 400\n"
-        block = glass((4e-3, 4e-3, 2e-3), (12, 12, 6), ()).replace("linear_elastic", "saint_venant_kirchhoff")
-        table = decks.good(deck, files={"block.yaml": block}).table
-        mass = 4.0 / 3.0 * np.pi * bob.RADIUS**3 * bob.DENSITY
-        place, velocity = (np.stack([table[f"{v}{d}"] for d in "xyz"], axis=1) for v in ("", "v"))
-        total = mass * np.cross(place, velocity) + np.stack([table[f"plate{k}"] for k in (12, 13, 14)], axis=1)
-        self.assertLess(np.abs(total - total[0]).max(), 1e-12 * mass * bob.RADIUS)
-        self.assertGreater(np.abs(table["plate12"]).max(), 1e-3 * mass * bob.RADIUS)
+        """Of a law that turns with the body.  Friction acts between the surfaces of ball and block, off the foot, and turns both;
+        rolling friction, too."""
+        rolling = "model hertz tangential history rolling_friction cdt"
+        for name, models, friction, words, spin in (
+            ("corrected", MODELS, 0.0, CORRECTED, 0.0),
+            ("friction", MODELS, 0.3, "structure block.yaml surface top", 1.0),
+            ("friction, corrected", MODELS, 0.3, CORRECTED, 1.0),
+            ("rolling friction", rolling, 0.3, "structure block.yaml surface top", 1.0),
+        ):
+            with self.subTest(name):
+                settings = SETTINGS | dict(models=models, balls=((0.3e-3, 0.2e-3, 1e-3),), friction=friction, restitution=1.0, timestep=5e-9)
+                material = "fix r all property/global coefficientRollingFriction peratomtypepair 2 0.2 0.2 0.2 0.2\n" * ("rolling" in models)
+                deck = bob.prelude(**settings).replace("pair_style", material + "pair_style", 1) + bob.wall(models, words)
+                deck += bob.output((9, 10, 11, 12, 13, 14), more=("omegax", "omegay", "omegaz")) + "run 400\n"
+                block = glass((4e-3, 4e-3, 2e-3), (12, 12, 6), ()).replace("linear_elastic", "saint_venant_kirchhoff")
+                table = decks.good(deck, files={"block.yaml": block}).table
+                mass = 4.0 / 3.0 * np.pi * bob.RADIUS**3 * bob.DENSITY
+                place, velocity, omega = (np.stack([table[f"{v}{d}"] for d in "xyz"], axis=1) for v in ("", "v", "omega"))
+                total = mass * np.cross(place, velocity) + 0.4 * mass * bob.RADIUS**2 * omega
+                total += np.stack([table[f"plate{k}"] for k in (12, 13, 14)], axis=1)
+                self.assertLess(np.abs(total - total[0]).max(), 1e-12 * mass * bob.RADIUS)
+                self.assertGreater(np.abs(table["plate12"]).max(), 1e-3 * mass * bob.RADIUS)
+                self.assertGreaterEqual(bob.RADIUS * np.abs(omega).max(), 0.05 * spin)
 
 
 class Restart(unittest.TestCase):

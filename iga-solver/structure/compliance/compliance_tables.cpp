@@ -141,6 +141,7 @@ ComplianceTables::ComplianceTables(ReferenceBody body, std::vector<SkinPiece> sk
     expect_degrees(patch.space);
     surfaces_.emplace_back(body_, piece);
     tables_.emplace_back(surfaces_.back().space().element_count());
+    known_.emplace_back(tables_.back().size(), nullptr);
     const int d = static_cast<int>(piece.face) / 2;
     const LocalExtent extent = extent_for(patch.space);
     alike_.push_back(
@@ -183,13 +184,13 @@ std::unique_ptr<ComplianceTable> ComplianceTables::solve(int piece, const HitEle
   return std::make_unique<ComplianceTable>(counts, values);
 }
 
-const ComplianceTable& ComplianceTables::of(int piece, int element) {
+const ComplianceTable& ComplianceTables::find(int piece, int element) {
   const nurbs::Space<2>& space = surfaces_[piece].space();
   nurbs::Indices<2> span = space.element_indices(element);
   for (int d = 0; d < 2; ++d) span[d] = alike_[piece][d][span[d]];
   const int first = space.element_index(span);
   std::unique_ptr<ComplianceTable>& table = tables_[piece][first];
-  if (table) return *table;
+  if (table) return *(known_[piece][element] = table.get());
   try {
     table = solve(piece, {body_, near_, skin_[piece], surfaces_[piece], first});
   } catch (const std::invalid_argument& problem) {
@@ -199,7 +200,7 @@ const ComplianceTable& ComplianceTables::of(int piece, int element) {
                     problem.what()));
   }
   ++made_;
-  return *table;
+  return *(known_[piece][element] = table.get());
 }
 
 Matrix3 ComplianceTables::direct(int piece, int element, const nurbs::Parameter<2>& xi) const {

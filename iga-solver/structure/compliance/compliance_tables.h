@@ -65,13 +65,17 @@ class ComplianceTables {
 
   /// Of an element of a piece's surface.  Throws std::invalid_argument, with the place, where none can be
   /// made.
-  const ComplianceTable& of(int piece, int element);
+  const ComplianceTable& of(int piece, int element) {
+    const ComplianceTable* const known = known_[piece][element];
+    return known ? *known : find(piece, element);
+  }
   /// The same at any point of it without a table: the tensor in space.
   Matrix3 direct(int piece, int element, const nurbs::Parameter<2>& xi) const;
 
   int made() const { return made_; }  ///< how many tables
 
  private:
+  const ComplianceTable& find(int piece, int element);
   LocalPatch patch_of(const HitElement& hit) const;
   std::unique_ptr<ComplianceTable> solve(int piece, const HitElement& hit) const;
 
@@ -82,6 +86,7 @@ class ComplianceTables {
   std::vector<FaceSurface> surfaces_;
   std::vector<std::array<std::vector<int>, 2>> alike_;  // per piece and direction (alike_elements.h)
   std::vector<std::vector<std::unique_ptr<ComplianceTable>>> tables_;  // [piece][element]; null: not made yet
+  std::vector<std::vector<const ComplianceTable*>> known_;  // the same, of each element that was asked for
   int made_ = 0;
 };
 

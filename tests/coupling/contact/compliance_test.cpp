@@ -113,9 +113,10 @@ struct Scene {
 TEST(CorrectedOverlap, SolvesForTheLawsOwn) {
   for (const double c : {3e-4, 1e-5, 0.0, -1e-5, -3e-3})
     for (const double overlap : {1e-12, 1e-4, 3e-2}) {
-      const auto [x, s] = corrected_overlap(overlap, c, kK, 0.9);
+      const auto [x, s, root] = corrected_overlap(overlap, c, kK, 0.9);
       EXPECT_NEAR(x - c * kK * x * std::sqrt(x), overlap, 1e-15 + 1e-13 * overlap) << c;
       EXPECT_NEAR(s, 1.5 * c * kK * std::sqrt(x), 1e-9);
+      EXPECT_NEAR(root, std::sqrt(x), 1e-14 * root);
     }
 }
 
@@ -216,7 +217,7 @@ TEST(ComplianceCorrection, ModelsSeeTheirOwnOverlapAndItsRate) {
   Scene scene(compliance, {0.3, 0.2, kRadius - overlap}, {0.5, 0, -2}, 1e-5);
   scene.begin();
   const contact::Contact& seen = scene.model.seen;
-  const auto [x, s] = corrected_overlap(overlap, c, kK, kLargest);
+  const auto [x, s, root] = corrected_overlap(overlap, c, kK, kLargest);
   EXPECT_NEAR(seen.overlap, x, 1e-15);
   EXPECT_NEAR(seen.delta.norm(), kRadius - x, 1e-15);
   EXPECT_NEAR(seen.wall_velocity[2], 2.0 / (1.0 - s) - 2.0, 1e-12);
@@ -245,7 +246,7 @@ void expect_stable_up_to(double step, double below, double above, double overlap
 
 TEST(ComplianceCorrection, IsAsStiffAsItIsToTheTimeStep) {
   const double overlap = 0.02, c = 1.5e-4;
-  const auto [x, s] = corrected_overlap(overlap, c, kK, kLargest);
+  const auto [x, s, root] = corrected_overlap(overlap, c, kK, kLargest);
   const double tangent = 1.5 * kK * std::sqrt(x) / (1.0 - s);
   expect_stable_up_to(2.0 / std::sqrt(tangent), 0.9995, 1.0005, overlap, c);
 }

@@ -1,13 +1,39 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The quick values of the functions are those of the Cox-de Boor recursion.
-#include "nurbs/surface_values.h"
+// The quick values of the functions, and their slopes, are those of the Cox-de Boor recursion.
+#include "nurbs/surface_slopes.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 #include "nurbs/shapes.h"
 
 namespace nurbs {
 namespace {
+
+void expect_slopes(const Space<2>& space, const Parameter<2>& xi) {
+  RationalBasis<2> basis;
+  evaluate(space, xi, 1, basis);
+  SurfaceSlopes slopes;
+  evaluate_slopes(space, xi, slopes);
+  const Vector3 F(1.3, -0.2, 7.1);
+  const Tangents G = (Tangents() << 0.3, -2.0, 1.1, 0.4, -0.6, 0.9).finished();
+  NodalVectors f = NodalVectors::Constant(3, space.control_point_count(), 0.5), expected = f;
+  distribute(slopes, F, G, f);
+  double largest = 0.0;
+  for (int a = 0; a < basis.count; ++a) {
+    expected.col(basis.control_point[a]) +=
+        basis.R[a] * F + basis.dR[0][a] * G.col(0) + basis.dR[1][a] * G.col(1);
+    largest = std::max({largest, std::abs(basis.dR[0][a]), std::abs(basis.dR[1][a])});
+  }
+  EXPECT_LE((f - expected).norm(), 1e-12 * (1.0 + largest));
+  const NodalVectors X = NodalVectors::Random(3, space.control_point_count());
+  Tangents S = Tangents::Zero();
+  for (int a = 0; a < basis.count; ++a)
+    for (int d = 0; d < 2; ++d) S.col(d) += basis.dR[d][a] * X.col(basis.control_point[a]);
+  EXPECT_LE((interpolate_slopes(slopes, X) - S).norm(), 1e-12 * (1.0 + largest));
+}
 
 TEST(SurfaceValues, AreThoseOfTheRecursion) {
   shapes::Random random(31);
@@ -42,6 +68,7 @@ TEST(SurfaceValues, AreThoseOfTheRecursion) {
       distribute(values, F, f);
       for (int a = 0; a < basis.count; ++a) expected.col(basis.control_point[a]) += basis.R[a] * F;
       EXPECT_LE((f - expected).norm(), 1e-12);
+      expect_slopes(surface.space, xi);
     }
   }
 }
@@ -63,6 +90,7 @@ TEST(SurfaceValues, OfDegreesTwoAndThree) {
         SurfaceValues values;
         evaluate_values(space, xi, values);
         for (int a = 0; a < basis.count; ++a) EXPECT_NEAR(values.R[a], basis.R[a], 1e-14);
+        expect_slopes(space, xi);
       }
     }
 }
