@@ -59,14 +59,18 @@ class Wall {
   bool is_turned() const { return is_turned_; }
   bool needs_forces() const { return needs_forces_; }
 
-  Vector3 to_frame(const Vector3& x) const {
-    const Vector3 from_origin = x - frame_.origin;
-    return is_turned_ ? Vector3(frame_.rotation.transpose() * from_origin) : from_origin;
-  }
+  // In the order in which feet_kernel.cpp adds up: Eigen's own is another one for a vector's last component.
+  Vector3 to_frame(const Vector3& x) const { return to_frame_direction(x - frame_.origin); }
   Vector3 to_frame_direction(const Vector3& x) const {
-    return is_turned_ ? Vector3(frame_.rotation.transpose() * x) : x;
+    const Eigen::Matrix3d& R = frame_.rotation;
+    return is_turned_ ? Vector3(x[0] * R.row(0).transpose() + x[1] * R.row(1).transpose() +
+                                x[2] * R.row(2).transpose())
+                      : x;
   }
-  Vector3 to_space_direction(const Vector3& X) const { return is_turned_ ? Vector3(frame_.rotation * X) : X; }
+  Vector3 to_space_direction(const Vector3& X) const {
+    const Eigen::Matrix3d& R = frame_.rotation;
+    return is_turned_ ? Vector3(X[0] * R.col(0) + X[1] * R.col(1) + X[2] * R.col(2)) : X;
+  }
   /// At most, of any of its points [length/time].
   double max_speed() const;
   /// At a foot, which is at `point` in space.

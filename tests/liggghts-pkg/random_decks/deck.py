@@ -12,6 +12,7 @@ import numpy as np
 
 import changes
 import motions
+import parts
 import solids
 import walls
 from prelude import Prelude
@@ -20,20 +21,28 @@ from walls import BOX, Site, Wall
 DENSITY = (1500.0, 3000.0)
 RADII = (0.35e-3, 0.6e-3)
 SPEED = 0.6  # largest one towards the wall [m/s]
-# Of a deck of each kind: the wall, whether things are changed between runs, whether energy is conserved.
+RIGID = (*walls.CURVED, *solids.RIGID)
+# Of a deck of each kind: the walls it may have, whether things are changed between runs, whether energy is conserved.
 KINDS = {
-    "plane": (walls.stock_plane, False, False),
-    "plane, changes": (walls.stock_plane, True, False),
-    "cylinder": (walls.stock_cylinder, False, False),
-    "flat twin": (walls.tilted_plane, False, False),
-    "solid": (solids.solid, False, False),
-    "rigid": (None, False, False),
-    "rigid, changes": (None, True, False),
-    "cylinder, changes": (walls.stock_cylinder, True, False),
-    "curved twin": (None, False, True),
-    "rigid, energy": (None, False, True),
-    "solid, energy": (solids.solid, False, True),
+    "plane": ((walls.stock_plane,), False, False),
+    "plane, changes": ((walls.stock_plane,), True, False),
+    "cylinder": ((walls.stock_cylinder,), False, False),
+    "flat twin": ((walls.tilted_plane,), False, False),
+    "solid": ((solids.solid,), False, False),
+    "rigid": (RIGID, False, False),
+    "rigid, changes": (RIGID, True, False),
+    "cylinder, changes": ((walls.stock_cylinder,), True, False),
+    "curved twin": (walls.CURVED, False, True),
+    "rigid, energy": (RIGID, False, True),
+    "solid, energy": ((solids.solid,), False, True),
+    "triangles": (parts.TRIANGLES, False, False),
+    "triangles, changes": (parts.TRIANGLES, True, False),
+    "hull, energy": ((parts.hull,), False, True),
+    "corrected": ((solids.corrected,), False, False),
+    "corrected, energy": ((solids.corrected,), False, True),
 }
+if parts.have_cad():
+    KINDS |= {"part": ((parts.cad_part,), False, False), "part, changes": ((parts.cad_part,), True, False)}
 
 
 @dataclass
@@ -89,7 +98,8 @@ class Deck:
         return start.again("half.restart") if begin else start.text()
 
     def wall_lines(self, variant: str) -> list[str]:
-        source = f"{'structure' if self.wall.deforms else 'geometry'} wall.yaml surface wall"
+        wall = self.wall
+        source = f"{'structure' if wall.deforms else 'geometry'} {wall.name} surface {wall.surface} {wall.placement}"
         if variant == "nurbs":
             return [f"fix wall all wall/nurbs {self.models} type 2 {source} {self.words} {self.motion.words} {self.settings}"]
         if variant == "primitive":
@@ -166,15 +176,17 @@ def draw_material(rng: Random, wall: Wall, conservative: bool) -> dict:
     return dict(E=E, nu=nu, e=e, mu=mu, further=further)
 
 
-def draw_models(rng: Random, conservative: bool, stock: bool) -> tuple[str, str]:
+def draw_models(rng: Random, conservative: bool, stock: bool, corrected: bool) -> tuple[str, str]:
     """Contact models, and settings of them."""
     normal = rng.choice(("hertz", "hertz", "hertz", "hooke") if stock else ("hertz", "hertz", "hooke", "penalty/hertz"))
-    if not stock and not conservative and rng.random() < 0.2:
+    if corrected:
+        normal = rng.choice(("hertz", "penalty/hertz"))
+    elif not stock and not conservative and rng.random() < 0.2:
         normal = "plastic/thornton"
     if conservative:
         return f"model {normal} tangential {rng.choice(('no_history', 'history'))}", ""
     words = [f"model {normal}", f"tangential {rng.choice(('history', 'history', 'no_history'))}"]
-    if rng.random() < 0.2:
+    if not corrected and rng.random() < 0.2:
         words.append("cohesion sjkr")
     if rng.random() < 0.6:
         # the torque of cdt has one size and the direction of the roll: where that ends, round-off chooses the direction
@@ -248,7 +260,8 @@ def draw(seed: int) -> Deck:
     """The deck of a seed; its kind goes through all of KINDS as seeds follow each other."""
     rng = Random(seed)
     kind = list(KINDS)[seed % len(KINDS)]
-    make, changing, conservative = KINDS[kind]
+    makers, changing, conservative = KINDS[kind]
+    make = rng.choice(makers)
     stock = make in (walls.stock_plane, walls.stock_cylinder)
     periodic = (False, False, False)
     if stock and rng.random() < 0.4:
@@ -256,8 +269,6 @@ def draw(seed: int) -> Deck:
         if make is walls.stock_plane:
             cuts += [(True, True, False), (False, True, True), (True, False, True)]
         periodic = rng.choice(cuts)
-    if make is None:
-        make = rng.choice(walls.CURVED if kind == "curved twin" else walls.CURVED + solids.RIGID)
     wall = make(rng, periodic) if stock else make(rng)
 
     material = draw_material(rng, wall, conservative)
@@ -265,11 +276,13 @@ def draw(seed: int) -> Deck:
     if curved_twin:
         models, settings = "model hertz tangential no_history", ""
     else:
-        models, settings = draw_models(rng, conservative, stock or kind == "flat twin")
-    words = []
-    if not stock and not curved_twin and rng.random() < 0.2:
+        models, settings = draw_models(rng, conservative, stock or kind == "flat twin", wall.corrected)
+    words = ["compliance corrected"] * wall.corrected
+    if not stock and not curved_twin and not wall.corrected and rng.random() < 0.2:
         words.append("rstar curvature")
-    if rng.random() < 0.2:
+    if wall.slots:
+        words.append(f"contacts {wall.slots}")
+    elif rng.random() < 0.2:
         words.append(f"contacts {rng.randint(5, 8)}")
     motion = motions.draw(rng, wall, kind)
 

@@ -41,7 +41,8 @@ class Outcome:
 def run_variant(deck: random_deck.Deck, folder: Path, name: str, ranks: int = 1, **words) -> checks.Run:
     sub = folder / name
     sub.mkdir()
-    (sub / "wall.yaml").write_text(deck.wall.file)
+    file = deck.wall.file
+    (sub / deck.wall.name).write_bytes(file if isinstance(file, bytes) else file.encode())
     if words.get("begin"):
         (sub / "half.restart").write_bytes((folder / "ranks_a" / "half.restart").read_bytes())
     program = decks.STOCK if words.get("variant") == "primitive" else decks.NURBS

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from random import Random
 from typing import Callable
 
@@ -92,13 +93,18 @@ probes: {{middle: {{face: {face}, at: [0.5, 0.5]}}}}
 """
 
 
-def solid(rng: Random) -> Wall:
+def corrected(rng: Random) -> Wall:
+    """One whose contacts are corrected for what its mesh gives way."""
+    return replace(solid(rng, (2, 3)), corrected=True)
+
+
+def solid(rng: Random, degrees=(1, 2, 3)) -> Wall:
     """A deforming wall: a block, a rolled plate or a tube, held at two of its faces or at one."""
     kind = rng.choice(("box", "rolled_plate", "tube"))
     face = "zeta+"
     if kind == "box":
         size = np.array([rng.uniform(6e-3, 9e-3), rng.uniform(6e-3, 9e-3), rng.uniform(1e-3, 2e-3)])
-        shape = f"box: {{origin: {text(-size / 2)}, size: {text(size)}, elements: [4, 3, 1], degree: {rng.randint(1, 3)}}}"
+        shape = f"box: {{origin: {text(-size / 2)}, size: {text(size)}, elements: [4, 3, 1], degree: {rng.choice(degrees)}}}"
         site = on_box(-size / 2, size, (5,))
     elif kind == "rolled_plate":
         shape, both = rolled_plate(rng)

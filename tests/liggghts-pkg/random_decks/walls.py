@@ -32,15 +32,19 @@ class Site:
 @dataclass
 class Wall:
     kind: str
-    file: str  # text of the geometry or model file
+    file: str | bytes  # the geometry or model file
     site: Callable[[Random], Site]
     surface: str = "wall"
+    name: str = "wall.yaml"  # of the file
+    placement: str = ""  # scale, move and rotate
+    slots: int = 0  # contacts that a ball may have; 0: what the fix has unless told otherwise
     primitive: str = ""  # words of the same wall as a stock primitive
     facet: float | None = None  # angle between a facet of the twin and the surface [rad]; 0: the twin is exact; None: no twin
     twin: int = 1
     curvature: float = 0.0  # the largest of the surface, where there is a curved twin
     outward: bool = False  # balls start on the side of the normal alone
     deforms: bool = False
+    corrected: bool = False  # compliance corrected
     material: tuple[float, float] | None = None  # E and nu of a solid
     stable_step: float = math.inf  # of a solid, from below [s]
 
