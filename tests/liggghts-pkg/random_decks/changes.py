@@ -28,7 +28,6 @@ class Changes:
         self.rng, self.wall, self.alike = rng, wall, alike
         self.timestep, self.gravity = timestep, gravity
         self.alive = list(range(1, len(balls) + 1))
-        self.next_number = len(balls) + 1
         self.radius = {k: ball.radius for k, ball in enumerate(balls, 1)}
         self.groups = 0
 
@@ -99,7 +98,7 @@ class Changes:
         return lines + ["fix grow all adapt 1 atom diameter v_size"], ["unfix grow", "variable size delete"]
 
     def insert(self):
-        k, self.next_number = self.next_number, self.next_number + 1
+        k = max(self.alive) + 1  # as create_atoms counts: a number that was deleted comes again
         self.radius[k] = self.rng.uniform(0.8, 1.0) * max(self.radius.values())
         self.alive.append(k)
         self.alike = False
