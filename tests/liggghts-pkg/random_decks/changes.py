@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import itertools
 from random import Random
 
 import numpy as np
@@ -29,6 +30,7 @@ class Changes:
         self.timestep, self.gravity = timestep, gravity
         self.alive = list(range(1, len(balls) + 1))
         self.radius = {k: ball.radius for k, ball in enumerate(balls, 1)}
+        self.places = [ball.x for ball in balls]  # where balls were put
         self.groups = 0
 
     def numbers(self, *values: float) -> str:
@@ -40,12 +42,14 @@ class Changes:
         return name, f"group {name} id {self.rng.choice(self.alive)}"
 
     def near_the_wall(self, radius: float, gap: float) -> np.ndarray:
-        """A place there, off the faces of the box."""
-        while True:
+        """A place there, off the faces of the box, and away from where other balls were put, if there is one."""
+        for attempt in itertools.count():
             site = self.wall.site(self.rng)
             side = 1 if self.wall.outward else self.rng.choice((1, -1))
             x = site.point + side * (radius + gap) * site.normal
-            if site.hollow[0 if side > 0 else 1] > 1.6 * radius + gap and np.abs(x).max() < BOX - 1e-3:
+            apart = min(np.linalg.norm(x - place) for place in self.places) > 4 * radius or attempt > 100
+            if site.hollow[0 if side > 0 else 1] > 1.6 * radius + gap and np.abs(x).max() < BOX - 1e-3 and apart:
+                self.places.append(x)
                 return x
 
     # each returns the lines before the run and those after it
