@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string_view>
@@ -48,14 +49,14 @@ class TextReader {
  private:
   void read_solid() {
     solid_line_ = line_;
-    soup_.blocks.push_back({rest_of_line(), static_cast<int>(soup_.place.size())});
+    soup_.blocks.push_back({name(false), static_cast<int>(soup_.place.size())});
     for (;;) {
       const string_view word = next_word();
       if (is_word(word, "endsolid")) break;
       if (!is_word(word, "facet")) fail(word, "'facet' or 'endsolid'");
       read_facet();
     }
-    rest_of_line();
+    name(true);
     solid_line_ = 0;
   }
 
@@ -99,10 +100,29 @@ class TextReader {
   // Lines end with LF, CR LF, or CR.
   void count_line() { line_ += *at_ == '\n' || (*at_ == '\r' && (at_ + 1 == end_ || at_[1] != '\n')); }
 
-  // Without what follows a ';' or '#'; blanks inside as one.
-  std::string rest_of_line() {
+  // The line's end, or where its first facet begins: some files are one line.  `of_end`: or the solid that
+  // this facet is of.
+  const char* end_of_name(bool of_end) const {
+    const char* const line_end = std::find_if(at_, end_, ends_line);
+    string_view before;
+    const char* solid = nullptr;
+    for (const char* at = at_; at != line_end;) {
+      at = std::find_if_not(at, line_end, is_blank);
+      const char* const begin = at;
+      at = std::find_if(at, line_end, is_blank);
+      const string_view word(begin, static_cast<std::size_t>(at - begin));
+      if (is_word(word, "normal") && is_word(before, "facet")) return of_end && solid ? solid : before.data();
+      if (is_word(word, "solid")) solid = begin;
+      before = word;
+    }
+    return line_end;
+  }
+
+  // What follows 'solid' and 'endsolid', without what follows a ';' or '#'; blanks inside as one.
+  std::string name(bool of_end) {
     std::string name;
-    for (bool comment = false; at_ != end_ && !ends_line(*at_); ++at_) {
+    bool comment = false;
+    for (const char* const end = end_of_name(of_end); at_ != end; ++at_) {
       comment |= *at_ == ';' || *at_ == '#';
       if (comment) continue;
       if (!is_blank(*at_))

@@ -97,6 +97,21 @@ TEST(Stl, LinesAreCountedInAnyLayout) {
   }
 }
 
+TEST(Stl, AFileMayBeOneLine) {
+  const std::vector<Facet> facets = cube_facets();
+  const std::string text = ascii_stl({facets[0], facets[1]}, "solid facet of  steel") +
+                           ascii_stl({facets.begin() + 2, facets.end()}, "lid");
+  const GeometryFile lines = parsed_stl(text), one_line = parsed_stl(replaced(text, "\n", " "));
+  ASSERT_EQ(one_line.patches.size(), 2u);
+  for (int block = 0; block < 2; ++block) {
+    EXPECT_EQ(mesh(one_line, block).name, mesh(lines, block).name);
+    EXPECT_EQ(mesh(one_line, block).points, mesh(lines, block).points);
+    EXPECT_EQ(mesh(one_line, block).triangles, mesh(lines, block).triangles);
+  }
+  EXPECT_EQ(mesh(one_line).name, "solid facet of steel");
+  EXPECT_THAT(mesh(one_line, 1).place, testing::Each(1));
+}
+
 TEST(Stl, SolidsAreSurfacesByName) {
   const std::vector<Facet> facets = cube_facets();
   const auto side = [&](int d) { return std::vector<Facet>{facets[2 * d], facets[2 * d + 1]}; };
