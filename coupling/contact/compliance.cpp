@@ -131,7 +131,7 @@ void ComplianceCorrection::correct(const ParticleView& particles, const Time& no
                D = model.hertz_damping(i) * std::sqrt(root);
   if (!(contact.overlap > 0.0) && !(D > 0.0 && DampedApproach::held_gap(memory_of(particles, contact)) > 0.0))
     return;
-  const bool has_shear = !now.is_setup && model.shear_constant(i) > 0.0;
+  const bool has_shear = model.shear_constant(i) > 0.0;
   const coupling::LocalCompliance::Value c = compliance_.at(contact.foot, has_shear);
   const double of_distance = 1.0 / contact.distance;
   const Vector3 n = of_distance * contact.delta;
@@ -176,6 +176,7 @@ void ComplianceCorrection::correct_shear(const ParticleView& particles, const Ti
   before.shear.emplace(c, directions, n, stiffness);
   const double share = before.shear->largest_share();
   if (share >= kLargest) fail_as_too_fine(particles, now.step, contact, share);
+  if (now.is_setup) return;
   // dampers of both directions have the same share of critical damping
   if (before.dashpot > 0.0) before.shear_dashpot = before.dashpot * std::sqrt(stiffness / before.stiffness);
   const double inertia = kSphere * mass_of(particles, contact.particle);
@@ -184,6 +185,7 @@ void ComplianceCorrection::correct_shear(const ParticleView& particles, const Ti
       memory_of(particles, contact) + DampedApproach::kMemory);
   contact.wall_velocity -= seen.rate - slip;
   contact.further_slip = seen.more;
+  before.goes_on = true;
 }
 
 void ComplianceCorrection::before(const ParticleView& particles, const Time& now, const ContactModel& model,
@@ -193,6 +195,7 @@ void ComplianceCorrection::before(const ParticleView& particles, const Time& now
     Contact& contact = *c;
     Before& before = before_[c - begin];
     before = {contact.overlap, contact.distance, contact.touches, contact.delta, contact.wall_velocity};
+    contact.further_slip.setZero();  // of the last step, if somebody asks once more
     correct(particles, now, model, contact, before);
   }
 }
@@ -205,7 +208,7 @@ void ComplianceCorrection::after(const ParticleView& particles, const ContactMod
     Eigen::Vector2d along = before.along;
     if (before.shear) {
       const Vector3 stretch = model.shear(contact).stretch;
-      before.shear->end(stretch, memory_of(particles, contact) + DampedApproach::kMemory);
+      if (before.goes_on) before.shear->end(stretch, memory_of(particles, contact) + DampedApproach::kMemory);
       along += before.shear->force_along(stretch);
       contact.shear_tangent = before.shear->stiffness();
       contact.shear_dashpot = before.shear_dashpot;

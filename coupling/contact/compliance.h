@@ -72,6 +72,7 @@ class ComplianceCorrection {
     double tangent = 0.0, stiffness = 0.0;            // behind the mesh, and the law's own [force/length]
     double dashpot = 0.0, shear_dashpot = 0.0;        // [force time/length]
     std::optional<ShearCompliance> shear = std::nullopt;
+    bool goes_on = false;  // the spring does, in this step
   };
   /// What a law is called with, and what it is to answer.
   struct Seen {

@@ -126,6 +126,31 @@ fix heat all heat/gran initial_temperature 300.
         self.assertAlmostEqual(row[14] / run.table["heat"][-1], 1.0, delta=1e-5)
 
 
+    def test_with_friction_it_has_them_too_and_does_not_change_the_run(self):
+        """Its springs stay as they are: the same run to the last bit as without it."""
+        balls = ((0.06e-3, 0.05e-3, 1e-3),)
+        deck = bob.prelude(balls=balls, **SETTINGS | dict(restitution=1.0)) + bob.wall(MODELS, CORRECTED)
+        asked = "compute contacts all wall/gran/local force\n"
+        asked += f"dump rows all local 1 rows.* {' '.join(f'c_contacts[{k}]' for k in (1, 2, 3))}\n"
+        asked += f"dump_modify rows format \"{' '.join(['%.17g'] * 3)}\"\n"
+        runs, forces = [], {}
+        for words in ("", asked):
+            with tempfile.TemporaryDirectory() as folder:
+                (Path(folder) / "block.yaml").write_text(glass((4e-3, 4e-3, 2e-3), (16, 16, 8)))
+                run = decks.run_in(Path(folder), deck + words + bob.output() + "run 250\n")
+                self.assertEqual(run.code, 0, run.text[-2000:])
+                runs.append(run.table)
+                forces |= {int(file.suffix[1:]): entries(file, 3) for file in Path(folder).glob("rows.*")}
+        for column in runs[0]:
+            self.assertTrue((runs[0][column] == runs[1][column]).all(), column)
+        acted = np.column_stack([runs[0][name] for name in ("fx", "fy", "fz")])
+        touching = [k for k, step in enumerate(runs[0]["Step"]) if len(forces[int(step)]) == 1]
+        self.assertGreater(len(touching), 150)
+        for k in touching:
+            told = forces[int(runs[0]["Step"][k])][0]
+            np.testing.assert_allclose(told, acted[k], rtol=0, atol=1e-13 * np.abs(acted).max(), err_msg=str(k))
+
+
 class Meshes(unittest.TestCase):
     def peak(self, elements, words=CORRECTED):
         deck = bob.prelude(**SETTINGS | dict(restitution=1.0, friction=0.0, velocity=(0, 0, -1))) + bob.wall(MODELS, words)
