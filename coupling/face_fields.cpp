@@ -123,7 +123,7 @@ ContactFields::State FaceFields::state(const NodalVectors& /*control_points*/, c
   vtk::TriangleFields fields{brep::triangles_of(*surface_), fields_of_places(per_area, frame, selection)};
   for (vtk::Field& field : fields_of_cells(all_contacts(), selection))
     fields.cells.push_back(std::move(field));
-  fields.mesh.vertices = (frame.rotation * fields.mesh.vertices).colwise() + frame.origin;
+  fields.mesh.vertices = frame.all_to_space(fields.mesh.vertices);
   return fields;
 }
 

@@ -19,8 +19,21 @@ struct RigidFrame {
   nurbs::Vector3 velocity = nurbs::Vector3::Zero();          ///< of the body point at `origin` [length/time]
   nurbs::Vector3 angular_velocity = nurbs::Vector3::Zero();  ///< [1/time]
 
-  nurbs::Vector3 to_space(const nurbs::Vector3& X) const { return rotation * X + origin; }
-  nurbs::Vector3 to_body(const nurbs::Vector3& x) const { return rotation.transpose() * (x - origin); }
+  nurbs::Vector3 to_space(const nurbs::Vector3& X) const { return direction_to_space(X) + origin; }
+  /// Of points 3 x n.
+  nurbs::NodalVectors all_to_space(const nurbs::NodalVectors& X) const {
+    nurbs::NodalVectors x(3, X.cols());
+    for (Eigen::Index a = 0; a < X.cols(); ++a) x.col(a) = to_space(nurbs::Vector3(X.col(a)));
+    return x;
+  }
+  nurbs::Vector3 to_body(const nurbs::Vector3& x) const { return direction_to_body(x - origin); }
+  // In the order in which contact/feet_kernel.cpp adds up: Eigen's own is another one for the last component.
+  nurbs::Vector3 direction_to_space(const nurbs::Vector3& X) const {
+    return X[0] * rotation.col(0) + X[1] * rotation.col(1) + X[2] * rotation.col(2);
+  }
+  nurbs::Vector3 direction_to_body(const nurbs::Vector3& x) const {
+    return (x[0] * rotation.row(0) + x[1] * rotation.row(1) + x[2] * rotation.row(2)).transpose();
+  }
   nurbs::Vector3 velocity_at(const nurbs::Vector3& x) const {
     return velocity + angular_velocity.cross(x - origin);
   }

@@ -67,7 +67,7 @@ std::vector<vtk::PatchFields<2>> SurfaceFields::fields(const NodalVectors& contr
                                                        const RigidFrame& frame, const Selection& selection) {
   measure(control_points);
   const Eigen::MatrixXd values = per_area(all_forces()), count = all_contacts();
-  const NodalVectors in_space = (frame.rotation * control_points).colwise() + frame.origin;
+  const NodalVectors in_space = frame.all_to_space(control_points);
 
   std::vector<vtk::PatchFields<2>> result;
   for (nurbs::Surface& patch : nurbs::split(surface_, in_space)) {

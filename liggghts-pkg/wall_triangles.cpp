@@ -45,7 +45,7 @@ nurbs::TriangleMesh WallTriangles::in_body() const {
 nurbs::TriangleMesh WallTriangles::in_space() const {
   nurbs::TriangleMesh mesh = in_body();
   const coupling::RigidFrame frame = structure_.frame();
-  mesh.vertices = (frame.rotation * mesh.vertices).colwise() + frame.origin;
+  mesh.vertices = frame.all_to_space(mesh.vertices);
   return mesh;
 }
 

@@ -3,38 +3,13 @@
 
 #include <Eigen/LU>
 
+#include "nurbs/direction_functions.h"
+
 namespace contact {
 
 namespace {
 
 using nurbs::Vector3;
-
-/// Functions of one direction at xi, and their derivatives, from their powers on the element; `known`: how
-/// many there are, or 0.
-template <int known>
-struct DirectionValues {
-  DirectionValues(const nurbs::Space<2>& space, int d, double xi) {
-    const nurbs::KnotVector& knots = space.knots(d);
-    const int element = knots.element_at(xi);
-    const double low = knots.breaks()[element], high = knots.breaks()[element + 1],
-                 scale = 2.0 / (high - low);
-    const double s = scale * (xi - low) - 1.0;
-    const nurbs::ElementFunctions& functions = space.functions(d, element);
-    count = known > 0 ? known : knots.degree() + 1;
-    first = knots.span_of_element(element) - knots.degree();
-    for (int j = 0; j < size(); ++j) N[j] = dN[j] = ddN[j] = 0.0;
-    for (int k = size() - 1; k >= 0; --k)
-      for (int j = 0; j < size(); ++j) {
-        ddN[j] = ddN[j] * s + dN[j];
-        dN[j] = dN[j] * s + N[j];
-        N[j] = N[j] * s + functions.power[k][j];
-      }
-    for (int j = 0; j < size(); ++j) dN[j] *= scale, ddN[j] *= 2.0 * scale * scale;
-  }
-  int size() const { return known > 0 ? known : count; }
-  int first, count;
-  double N[nurbs::kMaxDegree + 1], dN[nurbs::kMaxDegree + 1], ddN[nurbs::kMaxDegree + 1];
-};
 
 /// Of a function of a patch: value, first and second derivatives 00, 01, 11.
 struct Scalar {
@@ -46,29 +21,33 @@ struct Sums {
   Scalar height, W;  // of A along delta, and the weights'
 };
 
+// P is the degree of both directions, or 0 where they are known at run time only.
+
 /// The row j of control points, of values V, V_0, V_00 along it.
-template <int known>
-inline void add_row(const DirectionValues<known>& v, int j, double V, double V_0, double V_00, Scalar& sum) {
-  sum.value += v.N[j] * V;
-  sum.along[0] += v.N[j] * V_0;
-  sum.along[1] += v.dN[j] * V;
-  sum.bend[0] += v.N[j] * V_00;
-  sum.bend[1] += v.dN[j] * V_0;
-  sum.bend[2] += v.ddN[j] * V;
+template <int P>
+inline void add_row(const nurbs::DirectionFunctions<P, 2>& v, int j, double V, double V_0, double V_00,
+                    Scalar& sum) {
+  sum.value += v.N[0][j] * V;
+  sum.along[0] += v.N[0][j] * V_0;
+  sum.along[1] += v.N[1][j] * V;
+  sum.bend[0] += v.N[0][j] * V_00;
+  sum.bend[1] += v.N[1][j] * V_0;
+  sum.bend[2] += v.N[2][j] * V;
 }
 
-template <bool rational, int known>
+template <bool rational, int P>
 Sums sums(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const nurbs::NodalVectors& X,
           int first, const Vector3& delta) {
-  const DirectionValues<known> u(space, 0, xi[0]), v(space, 1, xi[1]);
+  const int p = P > 0 ? P : space.degree(0), q = P > 0 ? P : space.degree(1);
+  const nurbs::DirectionFunctions<P, 2> u(space, 0, xi[0]), v(space, 1, xi[1]);
   Sums sums;
-  for (int j = 0; j < v.size(); ++j) {
+  for (int j = 0; j <= q; ++j) {
     const int begin = u.first + space.control_point_count(0) * (v.first + j);
     Vector3 A = Vector3::Zero(), A_0 = Vector3::Zero();
     double h = 0.0, h_0 = 0.0, h_00 = 0.0, W = 0.0, W_0 = 0.0, W_00 = 0.0;
-    for (int i = 0; i < u.size(); ++i) {
-      const double w = rational ? space.weights()[begin + i] : 1.0, N = w * u.N[i], dN = w * u.dN[i],
-                   ddN = w * u.ddN[i];
+    for (int i = 0; i <= p; ++i) {
+      const double w = rational ? space.weights()[begin + i] : 1.0, N = w * u.N[0][i], dN = w * u.N[1][i],
+                   ddN = w * u.N[2][i];
       const auto now = X.col(first + begin + i);
       const double height = delta.dot(now);
       A += N * now;
@@ -78,22 +57,13 @@ Sums sums(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const nur
       h_00 += ddN * height;
       if constexpr (rational) W += N, W_0 += dN, W_00 += ddN;
     }
-    sums.A += v.N[j] * A;
-    sums.along[0] += v.N[j] * A_0;
-    sums.along[1] += v.dN[j] * A;
+    sums.A += v.N[0][j] * A;
+    sums.along[0] += v.N[0][j] * A_0;
+    sums.along[1] += v.N[1][j] * A;
     add_row(v, j, h, h_0, h_00, sums.height);
     if constexpr (rational) add_row(v, j, W, W_0, W_00, sums.W);
   }
   return sums;
-}
-
-template <bool rational>
-Sums sums(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi, const nurbs::NodalVectors& X,
-          int first, const Vector3& delta) {
-  const int p = space.degree(0), q = space.degree(1);
-  if (p == 2 && q == 2) return sums<rational, 3>(space, xi, X, first, delta);
-  if (p == 3 && q == 3) return sums<rational, 4>(space, xi, X, first, delta);
-  return sums<rational, 0>(space, xi, X, first, delta);
 }
 
 // Of S = A/W: S_i = (A_i - W_i S)/W, S_ij = (A_ij - W_ij S - W_i S_j - W_j S_i)/W; of the heights alike.
@@ -115,8 +85,10 @@ void divide_by_weight(Sums& sums) {
 
 FootMotion foot_motion(const nurbs::Space<2>& space, const nurbs::Parameter<2>& xi,
                        const nurbs::NodalVectors& X, int first, const Vector3& delta) {
-  Sums found =
-      space.rational() ? sums<true>(space, xi, X, first, delta) : sums<false>(space, xi, X, first, delta);
+  Sums found = nurbs::with_degree(space.degree(0), space.degree(1), [&](auto P) {
+    return space.rational() ? sums<true, P>(space, xi, X, first, delta)
+                            : sums<false, P>(space, xi, X, first, delta);
+  });
   if (space.rational()) divide_by_weight(found);
   Eigen::Matrix<double, 3, 2> tangents;
   tangents << found.along[0], found.along[1];

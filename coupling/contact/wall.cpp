@@ -40,7 +40,7 @@ void Wall::weld_across(const std::vector<Vector3>& periods) {
   const coupling::ContactSurface& surface = structure_.surface();
   if (surface.faces || surface.faced) return;  // their tracker sees seams itself
   std::vector<Vector3> in_frame;
-  for (const Vector3& period : periods) in_frame.push_back(structure_.frame().rotation.transpose() * period);
+  for (const Vector3& period : periods) in_frame.push_back(structure_.frame().direction_to_body(period));
   constexpr double kTolerance = 1e-9;
   surface_.set_borders(nurbs::find_borders(nurbs::split(surface_, control_points()), kTolerance, in_frame));
   shape_->begin_list(true);  // it depends on the borders
@@ -85,7 +85,7 @@ Vector3 Wall::velocity_of_deforming(const Foot& foot) const {
 }
 
 int Wall::side_of(const Foot& foot, const Vector3& delta) const {
-  return shape_->normal_at(foot).dot(frame_.rotation.transpose() * delta) < 0.0 ? -1 : 1;
+  return shape_->normal_at(foot).dot(to_frame_direction(delta)) < 0.0 ? -1 : 1;
 }
 
 bool Wall::is_inside(const Foot& foot, const Vector3& delta, int side) const {
@@ -98,7 +98,7 @@ Vector3 Wall::leave(Foot& foot, const Vector3& delta, int known_side, double rad
                     const Vector3& v) const {
   constexpr double kRoundOff = 1e-5;  // of the resolution
   constexpr double kOff = 1e-9;       // of the radius
-  const Vector3 normal = frame_.rotation * shape_->normal_at(foot);
+  const Vector3 normal = to_space_direction(shape_->normal_at(foot));
   double side =
       foot.distance < 0.0 ? 0.0 : normal.dot(delta);  // less than 0: it stays on the side that it had
   if (std::abs(side) <= kRoundOff * resolution_) side = 0.0;
@@ -114,7 +114,7 @@ double Wall::effective_radius(const Foot& foot, const Vector3& delta, double rad
   constexpr double kLeast = 0.1;  // of 1/r: in a hollow of nearly the particle's radius Hertz' theory ends
   const nurbs::SurfaceShape shape = shape_->shape_near(foot);
   const double front = foot.distance < 0.0 ? -1.0 : 1.0;
-  const double side = front * (shape.normal.dot(frame_.rotation.transpose() * delta) < 0.0 ? -1.0 : 1.0);
+  const double side = front * (shape.normal.dot(to_frame_direction(delta)) < 0.0 ? -1.0 : 1.0);
   double product = 1.0;
   for (const double curvature : shape.curvature) product *= std::max(1.0 - side * curvature * radius, kLeast);
   return std::max(radius / std::sqrt(product), radius - 0.5 * foot.distance);  // never less than the overlap

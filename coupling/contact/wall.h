@@ -59,18 +59,9 @@ class Wall {
   bool is_turned() const { return is_turned_; }
   bool needs_forces() const { return needs_forces_; }
 
-  // In the order in which feet_kernel.cpp adds up: Eigen's own is another one for a vector's last component.
   Vector3 to_frame(const Vector3& x) const { return to_frame_direction(x - frame_.origin); }
-  Vector3 to_frame_direction(const Vector3& x) const {
-    const Eigen::Matrix3d& R = frame_.rotation;
-    return is_turned_ ? Vector3(x[0] * R.row(0).transpose() + x[1] * R.row(1).transpose() +
-                                x[2] * R.row(2).transpose())
-                      : x;
-  }
-  Vector3 to_space_direction(const Vector3& X) const {
-    const Eigen::Matrix3d& R = frame_.rotation;
-    return is_turned_ ? Vector3(X[0] * R.col(0) + X[1] * R.col(1) + X[2] * R.col(2)) : X;
-  }
+  Vector3 to_frame_direction(const Vector3& x) const { return is_turned_ ? frame_.direction_to_body(x) : x; }
+  Vector3 to_space_direction(const Vector3& X) const { return is_turned_ ? frame_.direction_to_space(X) : X; }
   /// At most, of any of its points [length/time].
   double max_speed() const;
   /// At a foot, which is at `point` in space.

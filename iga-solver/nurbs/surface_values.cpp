@@ -1,34 +1,23 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "nurbs/surface_values.h"
 
+#include "nurbs/direction_functions.h"
+
 namespace nurbs {
 namespace {
 
-// P, Q are the degrees, or 0 where they are known at run time only.
-
-// N_j = sum_k power[k][j] s^k; returns the index of the first.
-template <int P>
-[[gnu::always_inline]] inline int axis_values(const Space<2>& space, int direction, double xi, double* N) {
-  const KnotVector& knots = space.knots(direction);
-  const int p = P > 0 ? P : knots.degree(), e = knots.element_at(xi);
-  const double begin = knots.breaks()[e], end = knots.breaks()[e + 1];
-  const double s = xi <= begin ? -1.0 : xi >= end ? 1.0 : 2.0 * (xi - begin) / (end - begin) - 1.0;
-  const auto& power = space.functions(direction, e).power;
-  for (int j = 0; j <= p; ++j) N[j] = power[p][j];
-  for (int k = p - 1; k >= 0; --k)
-    for (int j = 0; j <= p; ++j) N[j] = N[j] * s + power[k][j];
-  return knots.span_of_element(e) - p;
-}
+// P is the degree of both directions, or 0 where they are known at run time only.
 
 // R_ij = w_ij N_i M_j / W, W the sum of all w_ij N_i M_j.
-template <int P, int Q>
+template <int P>
 void values(const Space<2>& space, const Parameter<2>& xi, SurfaceValues& out) {
-  const int p = P > 0 ? P : space.degree(0), q = Q > 0 ? Q : space.degree(1);
-  double N[kMaxDegree + 1], M[kMaxDegree + 1];
+  const int p = P > 0 ? P : space.degree(0), q = P > 0 ? P : space.degree(1);
+  const DirectionFunctions<P, 0> u(space, 0, xi[0]);
+  const DirectionFunctions<P, 0> v(space, 1, xi[1]);
   out.p = p, out.q = q, out.stride = space.control_point_count(0);
-  out.first = axis_values<P>(space, 0, xi[0], N) + out.stride * axis_values<Q>(space, 1, xi[1], M);
+  out.first = u.first + out.stride * v.first;
   for (int j = 0; j <= q; ++j)
-    for (int i = 0; i <= p; ++i) out.R[i + (p + 1) * j] = N[i] * M[j];
+    for (int i = 0; i <= p; ++i) out.R[i + (p + 1) * j] = u.N[0][i] * v.N[0][j];
   if (!space.rational()) return;
   const double* w = space.weights().data() + out.first;
   double W = 0.0;
@@ -39,9 +28,9 @@ void values(const Space<2>& space, const Parameter<2>& xi, SurfaceValues& out) {
 }
 
 // Control points of one row lie side by side.
-template <int P, int Q>
+template <int P>
 void add(const SurfaceValues& v, const Vector3& F, double* __restrict f) {
-  const int p = P > 0 ? P : v.p, q = Q > 0 ? Q : v.q;
+  const int p = P > 0 ? P : v.p, q = P > 0 ? P : v.q;
   for (int j = 0; j <= q; ++j) {
     double* row = f + 3 * (v.first + v.stride * j);
     for (int i = 0; i <= p; ++i)
@@ -49,9 +38,9 @@ void add(const SurfaceValues& v, const Vector3& F, double* __restrict f) {
   }
 }
 
-template <int P, int Q>
+template <int P>
 Vector3 sum(const SurfaceValues& v, const double* q_A) {
-  const int p = P > 0 ? P : v.p, q = Q > 0 ? Q : v.q;
+  const int p = P > 0 ? P : v.p, q = P > 0 ? P : v.q;
   double total[3] = {0.0, 0.0, 0.0};
   for (int j = 0; j <= q; ++j) {
     const double* row = q_A + 3 * (v.first + v.stride * j);
@@ -64,22 +53,15 @@ Vector3 sum(const SurfaceValues& v, const double* q_A) {
 }  // namespace
 
 void evaluate_values(const Space<2>& space, const Parameter<2>& xi, SurfaceValues& out) {
-  const int p = space.degree(0), q = space.degree(1);
-  if (p == 2 && q == 2) return values<2, 2>(space, xi, out);
-  if (p == 3 && q == 3) return values<3, 3>(space, xi, out);
-  values<0, 0>(space, xi, out);
+  with_degree(space.degree(0), space.degree(1), [&](auto P) { values<P>(space, xi, out); });
 }
 
 Vector3 interpolate(const SurfaceValues& v, const NodalVectors& q) {
-  if (v.p == 2 && v.q == 2) return sum<2, 2>(v, q.data());
-  if (v.p == 3 && v.q == 3) return sum<3, 3>(v, q.data());
-  return sum<0, 0>(v, q.data());
+  return with_degree(v.p, v.q, [&](auto P) { return sum<P>(v, q.data()); });
 }
 
 void distribute(const SurfaceValues& v, const Vector3& F, NodalVectors& f) {
-  if (v.p == 2 && v.q == 2) return add<2, 2>(v, F, f.data());
-  if (v.p == 3 && v.q == 3) return add<3, 3>(v, F, f.data());
-  add<0, 0>(v, F, f.data());
+  with_degree(v.p, v.q, [&](auto P) { add<P>(v, F, f.data()); });
 }
 
 }  // namespace nurbs

@@ -7,17 +7,13 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <exception>
-#include <fstream>
-#include <numeric>
 #include <optional>
-#include <sstream>
 
 #include "balls.h"
-#include "brep/builder.h"
 #include "brep/face_shape.h"
+#include "cad_wall.h"
 #include "coupling/rigid/rigid_surface.h"
 #include "crossings.h"
-#include "geometry_io/step_reader.h"
 #include "occt_judge.h"
 #include "occt_samples.h"
 
@@ -30,20 +26,11 @@ constexpr double kOverlap = 1e-3;   // of the radius
 constexpr double kJump = 1e-6;      // of the force
 constexpr double kClosest = 2e-10;  // of the radius: places between which a jump is one
 
-std::shared_ptr<const brep::Surface> wall_of(const std::string& file) {
-  std::stringstream bytes;
-  bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  const brep::CadModel model = geometry_io::read_step(bytes.str());
-  std::vector<int> all(model.faces.size());
-  std::iota(all.begin(), all.end(), 0);
-  return std::make_shared<brep::Surface>(brep::from_cad(model, all));
-}
-
 class Rolling {
  public:
   explicit Rolling(const std::string& file, bool stacks)
       : stacks_(stacks),
-        wall_(wall_of(file)),
+        wall_(std::make_shared<brep::Surface>(step_parts::wall_of(step_parts::model_of(file)))),
         rigid_(wall_),
         samples_(file),
         judge_(file),

@@ -53,7 +53,7 @@ TEST_P(CadFaces, SquareAboveAnEdgeOfThreeTheLowerPlateAlone) {
   for (const bool turned : {false, true}) {  // the plate begins the wedge, or ends it
     const double second = nurbs::kPi - kBend;
     const Wall wall = plates({0.0, second, 4.5});
-    const Surface surface = given_as(GetParam(), from_triangles(wall.coordinates(), wall.corners()));
+    const Surface surface = given_as(GetParam(), built(wall));
     const double along = turned ? second : 0.0, up = along + (turned ? -0.5 : 0.5) * nurbs::kPi;
     const Vector3 d(kHeight * std::cos(up), kHeight * std::sin(up), 0.5);
     const std::vector<Foot> found = feet(surface, d, 2.0 * kHeight);

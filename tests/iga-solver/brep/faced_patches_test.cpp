@@ -63,7 +63,7 @@ void expect_feet_of_triangles(const Quads& quads, std::mt19937& random) {
     wall.add_quad(q[0], q[1], q[2], q[3]);
     patches.push_back(skewed(q, static_cast<int>(random() % 8), random));
   }
-  const brep::Surface triangles = from_triangles(wall.coordinates(), wall.corners());
+  const brep::Surface triangles = built(wall);
   const auto faced = faced_patches(patches, false, kEdgeAngle);
   ASSERT_TRUE(faced);
   EXPECT_TRUE(faced->charts.empty());

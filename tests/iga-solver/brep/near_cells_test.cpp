@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Given, NearCellsOf,
 TEST(NearCells, HaveTheTrianglesOfTheSearch) {
   const auto waves = [](double x, double y) { return 0.1 * std::sin(7.0 * x) * std::cos(5.0 * y); };
   for (const trials::Wall& wall : {trials::cube(), trials::l_profile(), trials::field(40, waves)}) {
-    const Surface surface = from_triangles(wall.coordinates(), wall.corners());
+    const Surface surface = built(wall);
     const FootSearch search(surface);
     NearCells cells(search, 500);  // forgets them now and then
     std::vector<int> remembered, found;
@@ -87,7 +87,7 @@ TEST(NearCells, HaveTheTrianglesOfTheSearch) {
 // A point or a reach that is no number, or beyond all bounds.
 TEST(NearCells, StandWhatIsNoPoint) {
   const trials::Wall wall = trials::cube();
-  const Surface surface = from_triangles(wall.coordinates(), wall.corners());
+  const Surface surface = built(wall);
   const FootSearch search(surface);
   NearCells cells(search);
   std::vector<int> pieces;

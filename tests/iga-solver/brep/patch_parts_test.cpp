@@ -10,9 +10,9 @@
 #include <random>
 
 #include "brep/faced_patches.h"
-#include "brep/foot_search.h"
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
+#include "roller.h"
 #include "trials.h"
 
 namespace brep {
@@ -205,68 +205,13 @@ TEST(PatchParts, AreOfPatchesThatTurnBySomethingAlone) {
   EXPECT_FALSE(faced_patches({facetted(bent, 1)}, false, 0.001)) << "a cell without an area";
 }
 
-/// Springs of stiffness 1 along every foot's normal, on a straight way.
-class Roller {
- public:
-  Roller(const std::vector<nurbs::Surface>& patches, double radius)
-      : faced_(*faced_patches(patches, false, kEdgeAngle)), search_(faced_.surface), radius_(radius) {}
-
-  struct Way {
-    double slope = 0.0, energy_lost = 0.0;
-    int most = 0, least = 100;
-  };
-  // Greatest change of force per length, and of energy against work.
-  Way along(const Vector3& from, const Vector3& to, int steps) {
-    Way way;
-    const Pressed start = at(from);
-    Pressed last = start;
-    double work = 0.0;
-    for (int k = 1; k <= steps; ++k) {
-      const double s = static_cast<double>(k) / steps;
-      const Pressed now = at((1.0 - s) * from + s * to);
-      way.slope = std::max(way.slope, (now.force - last.force).norm() * steps / (to - from).norm());
-      work += 0.5 * (now.force + last.force).dot(to - from) / steps;
-      way.most = std::max(way.most, now.contacts);
-      way.least = std::min(way.least, now.contacts);
-      last = now;
-    }
-    way.energy_lost = std::abs(last.energy - start.energy + work);
-    return way;
-  }
-
- private:
-  struct Pressed {
-    Vector3 force = Vector3::Zero();
-    double energy = 0.0;
-    int contacts = 0;
-  };
-  Pressed at(const Vector3& d) {
-    near_.clear(), feet_.clear();
-    search_.near(d, radius_, near_);
-    search_.feet(d, radius_, near_.data(), static_cast<int>(near_.size()), feet_);
-    Pressed sum;
-    for (const Foot& foot : feet_) {
-      const double overlap = radius_ - foot.distance;
-      sum.force += overlap / foot.distance * (d - foot.point);
-      sum.energy += 0.5 * overlap * overlap;
-      ++sum.contacts;
-    }
-    return sum;
-  }
-
-  FacedPatches faced_;
-  FootSearch search_;
-  double radius_;
-  std::vector<int> near_;
-  std::vector<Foot> feet_;
-};
-
 // A jump of the force by F in one of `steps` steps of a way L would be a slope of F * steps / L.
 TEST(PatchParts, OverKinksForceIsContinuousAndEnergyKept) {
   constexpr double kRadius = 0.1, kPressed = 0.95 * kRadius;
   for (const double rise : {-0.5, -0.1, 0.1, 0.5}) {
     for (const double side : {1.0, -1.0}) {
-      Roller roller(fading_fold(rise), kRadius);
+      const FacedPatches faced = *faced_patches(fading_fold(rise), false, kEdgeAngle);
+      trials::Roller roller(faced.surface, kRadius);
       const auto way = roller.along({-0.2, 0.3, side * kPressed}, {0.08, 0.5, side * kPressed}, 20000);
       EXPECT_LT(way.slope, 20.0) << rise;
       EXPECT_LT(way.energy_lost, 1e-7) << rise;
@@ -279,7 +224,8 @@ TEST(PatchParts, OverKinksForceIsContinuousAndEnergyKept) {
 TEST(PatchParts, OverAKinkThatChangesItsSignForceIsContinuous) {
   const Net net{3, 2, {{-1, 0, 0.4}, {0, 0, 0}, {1, 0, 0.4}, {-1, 2, -0.4}, {0, 2, 0}, {1, 2, -0.4}}};
   constexpr double kRadius = 0.1;
-  Roller roller({facetted(net)}, kRadius);
+  const FacedPatches faced = *faced_patches({facetted(net)}, false, kEdgeAngle);
+  trials::Roller roller(faced.surface, kRadius);
   for (const double y : {0.2, 0.5, 1.4, 1.7})
     for (const double side : {1.0, -1.0}) {
       const auto way = roller.along({-0.04, y, side * 0.095}, {0.03, y + 0.1, side * 0.095}, 20000);

@@ -21,8 +21,6 @@ using trials::feet;
 using testing::HasSubstr;
 using trials::Wall;
 
-Surface built(const Wall& wall) { return from_triangles(wall.coordinates(), wall.corners()); }
-
 TEST(Sheets, ACubeHasOneOutsideAndSixInside) {
   const Surface cube = built(trials::cube());
   EXPECT_EQ(cube.faces.size(), 6u);

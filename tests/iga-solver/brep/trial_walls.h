@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "nurbs/types.h"
+#include "brep/builder.h"
 
 namespace brep::trials {
 
@@ -26,6 +26,8 @@ struct Wall {
   void add_quad(const Vector3& a, const Vector3& b, const Vector3& c, const Vector3& d);
   void move_points(double by, std::mt19937& random);
 };
+
+inline Surface built(const Wall& wall) { return from_triangles(wall.coordinates(), wall.corners()); }
 
 /// Surface of the cells (numbers of three coordinates) of a grid of unit cubes.
 Wall cells(const std::vector<std::array<int, 3>>& filled);

@@ -48,8 +48,7 @@ TriangleTrial::TriangleTrial(std::mt19937 random, int index, Given given)
     : TriangleTrial(random_wall(random, index % kFamilies), random, given) {}
 
 TriangleTrial::TriangleTrial(const Wall& wall, const std::mt19937& random, Given given)
-    : TriangleTrial(wall, from_triangles(wall.coordinates(), wall.corners()),
-                    given_as(given, from_triangles(wall.coordinates(), wall.corners())), false, random) {}
+    : TriangleTrial(wall, built(wall), given_as(given, built(wall)), false, random) {}
 
 TriangleTrial::TriangleTrial(const Wall& meant, Surface plain, Surface surface, bool rounded,
                              const std::mt19937& random)

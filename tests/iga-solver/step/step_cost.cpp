@@ -11,15 +11,11 @@
 #include <algorithm>
 #include <ctime>
 #include <exception>
-#include <fstream>
-#include <numeric>
 #include <random>
-#include <sstream>
 
-#include "brep/builder.h"
 #include "brep/face_shape.h"
 #include "brep/foot_search.h"
-#include "geometry_io/step_reader.h"
+#include "cad_wall.h"
 #include "occt_judge.h"
 #include "read_plainly.h"
 
@@ -76,14 +72,10 @@ class Cost {
 
  private:
   static brep::Surface wall_of(const std::string& file) {
-    std::stringstream bytes;
-    bytes << std::ifstream(file, std::ios::binary).rdbuf();
-    const brep::CadModel model = geometry_io::read_step(bytes.str());
-    std::vector<int> all(model.faces.size());
-    std::iota(all.begin(), all.end(), 0);
+    const brep::CadModel model = step_parts::model_of(file);
     malloc_trim(0);
     const auto before = mallinfo2().uordblks;
-    brep::Surface wall = brep::from_cad(model, all);
+    brep::Surface wall = step_parts::wall_of(model);
     const brep::FootSearch search(wall);
     fmt::print("{} faces, {} edges: {:.2f} MiB with the search\n", wall.faces.size(), wall.edges.size(),
                static_cast<double>(mallinfo2().uordblks - before) / 1048576.0);

@@ -3,24 +3,19 @@
 // the former settles where they differ.  Exit code 1 if one differs.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
-#include <exception>
-#include <fstream>
 #include <map>
 #include <memory>
-#include <numeric>
 #include <random>
-#include <sstream>
 
 #include "brep/builder.h"
 #include "brep/edge_uses.h"
 #include "brep/face_shape.h"
 #include "brep/foot_search.h"
-#include "geometry_io/step_reader.h"
 #include "occt_judge.h"
 #include "occt_samples.h"
+#include "tried_files.h"
 
 namespace {
 
@@ -31,15 +26,11 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Whose faces have two sides.
 brep::Surface wall_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream bytes;
-  bytes << in.rdbuf();
-  brep::CadModel model = geometry_io::read_step(bytes.str());
+  brep::CadModel model = step_parts::model_of(file);
   for (brep::CadFace& face : model.faces) face.outward = 0;
-  std::vector<int> all(model.faces.size());
-  std::iota(all.begin(), all.end(), 0);
-  return brep::from_cad(model, all);
+  return step_parts::wall_of(model);
 }
 
 struct Judged {
@@ -210,30 +201,16 @@ class Trial {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::string> files;
-  int points = 200;
-  unsigned seed = 1;
+  step_parts::TriedFiles tried("Feet on CAD files against OpenCASCADE's distances", "for each file", 200);
   Judges judges = Judges::extrema;
   const std::map<std::string, Judges> kinds{{"extrema", Judges::extrema}, {"samples", Judges::samples}};
-  CLI::App app("Feet on CAD files against OpenCASCADE's distances");
-  app.add_option("files", files, "STEP or IGES")->required();
-  app.add_option("--points", points, "for each file");
-  app.add_option("--seed", seed, "of the random numbers");
-  app.add_option("--judge", judges,
-                 "extrema: BRepExtrema_DistShapeShape; samples: brute force (occt_samples.h)")
+  tried.app
+      .add_option("--judge", judges,
+                  "extrema: BRepExtrema_DistShapeShape; samples: brute force (occt_samples.h)")
       ->transform(CLI::CheckedTransformer(kinds));
-  CLI11_PARSE(app, argc, argv);
-  int misses = 0;
-  for (const std::string& file : files) {
-    try {
-      fmt::print("{}: ", file);
-      Trial trial(file, seed, judges);
-      trial.run(points);
-      misses += trial.misses();
-    } catch (const std::exception& error) {
-      fmt::print("{}\n", error.what());
-      ++misses;
-    }
-  }
-  return misses == 0 ? 0 : 1;
+  return tried.run(argc, argv, [&](const std::string& file) {
+    Trial trial(file, tried.seed, judges);
+    trial.run(tried.points);
+    return trial.misses();
+  });
 }

@@ -3,36 +3,22 @@
 // it goes they have the same feet as all that are near.  Exit code 1 if not.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <exception>
-#include <fstream>
-#include <numeric>
 #include <random>
-#include <sstream>
 
-#include "brep/builder.h"
 #include "brep/edge_uses.h"
 #include "brep/foot_search.h"
-#include "geometry_io/step_reader.h"
+#include "tried_files.h"
 
 namespace {
 
 using brep::Foot;
 using brep::Vector3;
 
-brep::Surface wall_of(const std::string& file) {
-  std::stringstream bytes;
-  bytes << std::ifstream(file, std::ios::binary).rdbuf();
-  const brep::CadModel model = geometry_io::read_step(bytes.str());
-  std::vector<int> all(model.faces.size());
-  std::iota(all.begin(), all.end(), 0);
-  return brep::from_cad(model, all);
-}
-
 class Trial {
  public:
-  Trial(const std::string& file, unsigned seed) : wall_(wall_of(file)), search_(wall_), random_(seed) {}
+  Trial(const std::string& file, unsigned seed)
+      : wall_(step_parts::wall_of(step_parts::model_of(file))), search_(wall_), random_(seed) {}
 
   /// Beside every edge so many points.
   void run(int points) {
@@ -100,25 +86,11 @@ class Trial {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::string> files;
-  int points = 100;
-  unsigned seed = 1;
-  CLI::App app("Which pieces have feet of a point that moves a little");
-  app.add_option("files", files, "STEP")->required();
-  app.add_option("--points", points, "beside every edge");
-  app.add_option("--seed", seed, "of random points");
-  CLI11_PARSE(app, argc, argv);
-  int wrong = 0;
-  for (const std::string& file : files) {
-    try {
-      fmt::print("{}: ", file);
-      Trial trial(file, seed);
-      trial.run(points);
-      wrong += trial.wrong();
-    } catch (const std::exception& error) {
-      fmt::print("{}\n", error.what());
-      ++wrong;
-    }
-  }
-  return wrong == 0 ? 0 : 1;
+  step_parts::TriedFiles tried("Which pieces have feet of a point that moves a little", "beside every edge",
+                               100);
+  return tried.run(argc, argv, [&](const std::string& file) {
+    Trial trial(file, tried.seed);
+    trial.run(tried.points);
+    return trial.wrong();
+  });
 }

@@ -3,33 +3,22 @@
 // disagree.  Exit code 1 if one of these is against us.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <exception>
-#include <fstream>
 #include <numeric>
 #include <optional>
 #include <random>
-#include <sstream>
 
 #include "brep/builder.h"
 #include "brep/face_shape.h"
 #include "brep/foot_search.h"
-#include "geometry_io/step_reader.h"
 #include "occt_judge.h"
 #include "occt_winding.h"
+#include "tried_files.h"
 
 namespace {
 
 using brep::Vector3;
 using step_parts::Place;
-
-brep::CadModel model_of(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::stringstream bytes;
-  bytes << in.rdbuf();
-  return geometry_io::read_step(bytes.str());
-}
 
 step_parts::Point point_of(const Vector3& p) { return {p[0], p[1], p[2]}; }
 
@@ -49,7 +38,7 @@ brep::Surface wall_of(brep::CadModel model, const std::vector<int>& faces) {
 class Trial {
  public:
   Trial(const std::string& file, unsigned seed)
-      : model_(model_of(file)), judge_(file), winding_(file), random_(seed) {
+      : model_(step_parts::model_of(file)), judge_(file), winding_(file), random_(seed) {
     if (judge_.face_count() != static_cast<int>(model_.faces.size()))
       throw std::runtime_error(
           fmt::format("{} faces, OpenCASCADE has {}", model_.faces.size(), judge_.face_count()));
@@ -158,26 +147,13 @@ void print(const char* what, const Counts& counts) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::string> files;
-  int points = 200;
-  unsigned seed = 1;
-  CLI::App app("What is inside of faces and solids, against OpenCASCADE's classifiers");
-  app.add_option("files", files, "STEP")->required();
-  app.add_option("--points", points, "for each face and each solid");
-  app.add_option("--seed", seed, "of the random numbers");
-  CLI11_PARSE(app, argc, argv);
-  long against = 0;
-  for (const std::string& file : files) {
-    try {
-      fmt::print("{}\n", file);
-      Trial trial(file, seed);
-      const Counts faces = trial.faces(points), solids = trial.solids(points);
-      print("faces", faces), print("solids", solids);
-      against += faces.against + solids.against;
-    } catch (const std::exception& error) {
-      fmt::print("  {}\n", error.what());
-      ++against;
-    }
-  }
-  return against == 0 ? 0 : 1;
+  step_parts::TriedFiles tried("What is inside of faces and solids, against OpenCASCADE's classifiers",
+                               "for each face and each solid", 200);
+  return tried.run(argc, argv, [&](const std::string& file) {
+    fmt::print("\n");
+    Trial trial(file, tried.seed);
+    const Counts faces = trial.faces(tried.points), solids = trial.solids(tried.points);
+    print("faces", faces), print("solids", solids);
+    return faces.against + solids.against;
+  });
 }
