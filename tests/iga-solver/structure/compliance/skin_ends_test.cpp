@@ -108,7 +108,7 @@ TEST(ComplianceAtEnds, InABoreLeavesTheBodyWhatIsItsOwn) {
       const double c = normal_compliance(body, {0.5, y}, bore);
       left.push_back(kPlaneModulus * (mesh_compliance(body, {0.5, y}, is_held, bore) - c));
     }
-    EXPECT_LT(spread(left), 0.07) << testing::PrintToString(left);  // of c, 0.6 with elements of 45 degrees
+    EXPECT_LT(spread(left), 0.07) << testing::PrintToString(left);  // c is 0.5 with elements of 45 degrees
     EXPECT_NEAR(left[1], left[2], 0.015);
   }
 }
