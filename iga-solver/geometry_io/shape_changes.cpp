@@ -46,13 +46,13 @@ void expect_room(const YamlMap& map, const std::string& key, const Patch<Dim>& p
 
 template <int Dim>
 void divide_elements(const YamlMap& map, Patch<Dim>& patch) {
-  const std::vector<int> parts = per_direction(map, "divide", Dim, kMaxElements);
+  const std::vector<int> parts = per_direction(map, "divide", Dim, shape_limits().elements);
   std::vector<int> elements;
   for (int d = 0; d < Dim; ++d) {
     const double count = static_cast<double>(patch.space.knots(d).element_count()) * parts[d];
-    if (count > kMaxElements)
+    if (count > shape_limits().elements)
       map.fail("divide", fmt::format("divide: {:.0f} elements in direction {}, expected at most {}", count,
-                                     d + 1, kMaxElements));
+                                     d + 1, shape_limits().elements));
     elements.push_back(static_cast<int>(count));
   }
   expect_room(map, "divide", patch, elements);

@@ -8,6 +8,11 @@
 
 namespace geometry_io {
 
+ShapeLimits& shape_limits() {
+  static ShapeLimits limits;
+  return limits;
+}
+
 void expect_size(const YamlMap& map, const std::string& key, const std::vector<int>& elements,
                  const std::vector<int>& degrees) {
   const std::string prefix = key == "elements" ? "" : key + ": ";
@@ -17,10 +22,10 @@ void expect_size(const YamlMap& map, const std::string& key, const std::vector<i
     nurbs::expect_memory(sizeof(nurbs::Vector3) * count, fmt::format("elements [{}]: {:.3g} control points",
                                                                      fmt::join(elements, ", "), count));
   });
-  if (count > kMaxControlPoints)
+  if (count > shape_limits().control_points)
     map.fail(key,
              prefix + fmt::format("elements are {}, about {:.3g} control points, expected at most {:.0f}",
-                                  fmt::join(elements, " x "), count, kMaxControlPoints));
+                                  fmt::join(elements, " x "), count, shape_limits().control_points));
 }
 
 void expect_count(const YamlMap& map, const std::string& key, size_t given, size_t expected) {

@@ -11,14 +11,13 @@
 
 namespace geometry_io {
 
-// Elements of one direction, control points of a patch.
-#ifdef FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION  // a fuzzer asks for every size: the same checks, sooner
-constexpr int kMaxElements = 300;
-constexpr double kMaxControlPoints = 1e4;
-#else
-constexpr int kMaxElements = 1000000;
-constexpr double kMaxControlPoints = std::numeric_limits<int>::max();
-#endif
+struct ShapeLimits {
+  int elements = 1000000;                                   ///< of one direction
+  double control_points = std::numeric_limits<int>::max();  ///< of a patch
+};
+/// Those that readers hold files to.  A fuzzer asks for every size and sets smaller ones: the same checks,
+/// sooner.
+ShapeLimits& shape_limits();
 
 /// Runs `build`; what it finds wrong with its arguments is an error of the file at `key`.
 template <class Build>

@@ -52,7 +52,7 @@ std::vector<KnotVector> read_mesh(const YamlMap& map, int dim) {
   if (map.has("elements") == map.has("breaks"))
     map.fail("elements", "'elements' and 'breaks' are both given or both missing, expected one of them");
   if (map.has("elements")) {
-    const std::vector<int> elements = map.integers("elements", 1, kMaxElements);
+    const std::vector<int> elements = map.integers("elements", 1, shape_limits().elements);
     expect_count(map, "elements", elements.size(), dim);
     expect_size(map, mesh_key(map), elements, degrees);
     for (int d = 0; d < dim; ++d) knots.push_back(KnotVector::uniform(degrees[d], elements[d]));
@@ -77,7 +77,7 @@ Shape read_box(const YamlMap& map) {
 // `thickness` of a strip: a number, or [from, to] of a ramp.
 Strip read_strip(const YamlMap& map) {
   map.allow_only({"length", "thickness", "elements"});
-  Strip strip{map.number("length", positive()), {}, map.integer("elements", 1, kMaxElements)};
+  Strip strip{map.number("length", positive()), {}, map.integer("elements", 1, shape_limits().elements)};
   if (map.is_list("thickness")) {
     const std::vector<double> ends = map.numbers("thickness");
     expect_count(map, "thickness", ends.size(), 2);
@@ -89,7 +89,8 @@ Strip read_strip(const YamlMap& map) {
 }
 
 Shape read_rolled_plate(const YamlMap& map) {
-  const std::vector<int> degrees = read_degrees(map, 3), elements = map.integers("elements", 1, kMaxElements);
+  const std::vector<int> degrees = read_degrees(map, 3),
+                         elements = map.integers("elements", 1, shape_limits().elements);
   expect_count(map, "elements", elements.size(), 2);
   std::vector<Strip> strips;
   std::vector<int> sizes{0, elements[0], elements[1]};
@@ -129,7 +130,7 @@ struct RoundMesh {
 };
 
 RoundMesh read_round_mesh(const YamlMap& map, int dim) {
-  RoundMesh mesh{map.integers("elements", 1, kMaxElements), std::vector<int>(dim, 2)};
+  RoundMesh mesh{map.integers("elements", 1, shape_limits().elements), std::vector<int>(dim, 2)};
   expect_count(map, "elements", mesh.elements.size(), dim);
   if (map.has("degree")) mesh.degrees = read_degrees(map, dim);
   // the arcs of a whole turn add a control point per joint and degree
