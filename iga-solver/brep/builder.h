@@ -11,17 +11,18 @@ namespace brep {
 
 /// What the builder did with triangles that cannot stay as they are.
 struct BuildReport {
-  int collapsed = 0;   ///< left out: two of their points are one, or nothing but thin triangles is around
-  int thin = 0;        ///< height below 1e-6 of the size: part of the plane beyond their longest side
-  int duplicates = 0;  ///< left out: another one has the same points
+  int collapsed = 0;    ///< left out: two of their points are one, or nothing but thin triangles is around
+  int thin = 0;         ///< height below 1e-6 of the size: part of the plane beyond their longest side
+  int duplicates = 0;   ///< left out: another one has the same points
+  int t_junctions = 0;  ///< corners on sides of other triangles, to within 1e-6 of the size: joined to them
   int worst_triangle = -1;    ///< of the least height
   double least_height = 0.0;  ///< its height [length]
 };
 
 /// `points` (3 x n) are merged already: triangles (three numbers of points each) that share an edge share its
-/// points.  Neighbours that lie in one plane to 1e-6 of the size become one plane face; wedges within
-/// edge_angle [rad] of pi are smooth.  Either orientation of triangles will do.  Throws std::invalid_argument
-/// if a number is not finite or there is no such point, or if no triangle is left.
+/// points, or have corners on it.  Neighbours that lie in one plane to 1e-6 of the size become one plane
+/// face; wedges within edge_angle [rad] of pi are smooth.  Either orientation of triangles will do.  Throws
+/// std::invalid_argument if a number is not finite or there is no such point, or if no triangle is left.
 Surface from_triangles(const NodalVectors& points, const std::vector<int>& triangles,
                        double edge_angle = 0.02, BuildReport* report = nullptr);
 

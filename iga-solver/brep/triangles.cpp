@@ -11,6 +11,7 @@
 #include "brep/builder.h"
 #include "brep/side_matching.h"
 #include "brep/sides.h"
+#include "brep/t_junctions.h"
 
 namespace brep {
 namespace {
@@ -24,6 +25,7 @@ class FromTriangles {
     check(triangles);
     take(triangles);
     matched_ = match(points.cols(), corner_);
+    join_at_t_junctions();
     measure();
     cut_into_planes();
   }
@@ -72,6 +74,18 @@ class FromTriangles {
       number_.push_back(static_cast<int>(k / 3));
     }
     report_.duplicates = leave_out_duplicates(points_.cols(), corner_, number_);
+  }
+
+  void join_at_t_junctions() {
+    const CutTriangles cut = cut_at_t_junctions(points_, corner_, matched_, kSameplane * size_);
+    report_.t_junctions = cut.junctions;
+    if (cut.junctions == 0) return;
+    std::vector<int> number;
+    number.reserve(cut.number.size());
+    for (const int t : cut.number) number.push_back(number_[t]);
+    corner_ = cut.corners;
+    number_ = number;
+    matched_ = match(points_.cols(), corner_);
   }
 
   Vector3 at(int triangle, int i) const { return points_.col(corner_[triangle][i % 3]); }

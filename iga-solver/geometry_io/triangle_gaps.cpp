@@ -1,39 +1,63 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
 #include <numeric>
-#include <tuple>
 
+#include "brep/side_matching.h"
+#include "brep/sides.h"
+#include "brep/t_junctions.h"
 #include "geometry_io/triangle_mesh.h"
 
 namespace geometry_io {
 namespace {
 
-struct HalfEdge {
-  int low, high;  // points
+struct FreeEdge {
+  int from, to;  // points
   int triangle;
 };
 
-bool same_edge(const HalfEdge& a, const HalfEdge& b) { return a.low == b.low && a.high == b.high; }
+// Triangles that are cut at T-junctions, as those of a wall are.
+class JoinedTriangles {
+ public:
+  explicit JoinedTriangles(const TriangleMesh& mesh)
+      : points_(mesh.points),
+        thin_(kSamePoint * (points_.rowwise().maxCoeff() - points_.rowwise().minCoeff()).norm()) {
+    for (int t = 0; t < mesh.count(); ++t)
+      cut_.corners.push_back({mesh.triangles[3 * t], mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]});
+    matched_ = brep::match(points_.cols(), cut_.corners);
+    cut_ = brep::cut_at_t_junctions(points_, cut_.corners, matched_, thin_);
+    if (cut_.junctions > 0) matched_ = brep::match(points_.cols(), cut_.corners);
+  }
 
-// Those that one triangle has, ordered by their points.
-std::vector<HalfEdge> free_edges(const TriangleMesh& mesh) {
-  std::vector<HalfEdge> all;
-  all.reserve(mesh.triangles.size());
-  for (int t = 0; t < mesh.count(); ++t)
-    for (int k = 0; k < 3; ++k) {
-      const auto [low, high] = std::minmax(mesh.triangles[3 * t + k], mesh.triangles[3 * t + (k + 1) % 3]);
-      all.push_back({low, high, t});
+  std::vector<FreeEdge> free_edges() const {
+    std::vector<FreeEdge> found;
+    for (std::size_t e = 0; e + 1 < matched_.first.size(); ++e) {
+      if (matched_.first[e + 1] - matched_.first[e] != 1) continue;
+      const int side = matched_.sides[matched_.first[e]], t = brep::piece_of_side(side);
+      if (!is_nothing(t)) found.push_back({corner(t, side % 4), corner(t, side % 4 + 1), cut_.number[t]});
     }
-  std::sort(all.begin(), all.end(), [](const HalfEdge& a, const HalfEdge& b) {
-    return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
-  });
-  std::vector<HalfEdge> free;
-  for (std::size_t e = 0; e < all.size(); ++e)
-    if (!(e > 0 && same_edge(all[e], all[e - 1])) && !(e + 1 < all.size() && same_edge(all[e], all[e + 1])))
-      free.push_back(all[e]);
-  return free;
-}
+    return found;
+  }
+
+ private:
+  int corner(int t, int i) const { return cut_.corners[t][i % 3]; }
+  nurbs::Vector3 way(int t, int i) const { return points_.col(corner(t, i + 1)) - points_.col(corner(t, i)); }
+
+  // A triangle without width is part of the one beyond its longest side, and nothing without it.
+  bool is_nothing(int t) const {
+    double length[3];
+    for (int i = 0; i < 3; ++i) length[i] = way(t, i).norm();
+    const auto longest = static_cast<int>(std::max_element(length, length + 3) - length);
+    return way(t, 0).cross(way(t, 1)).norm() < thin_ * length[longest] &&
+           matched_.mate[brep::side_number(t, longest)] < 0;
+  }
+
+  const nurbs::NodalVectors& points_;
+  double thin_;  // [length]
+  brep::CutTriangles cut_;
+  brep::MatchedSides matched_;
+};
 
 // The point that stands for all that hang together with this one.
 int root_of(std::vector<int>& parent, int point) {
@@ -44,15 +68,15 @@ int root_of(std::vector<int>& parent, int point) {
 }  // namespace
 
 std::vector<Gap> gaps_of(const TriangleMesh& mesh) {
-  const std::vector<HalfEdge> free = free_edges(mesh);
+  const std::vector<FreeEdge> free = JoinedTriangles(mesh).free_edges();
   std::vector<int> parent(mesh.points.cols());
   std::iota(parent.begin(), parent.end(), 0);
-  for (const HalfEdge& edge : free) parent[root_of(parent, edge.high)] = root_of(parent, edge.low);
+  for (const FreeEdge& edge : free) parent[root_of(parent, edge.to)] = root_of(parent, edge.from);
   std::map<int, Gap> by_root;
-  for (const HalfEdge& edge : free) {
-    Gap& gap = by_root[root_of(parent, edge.low)];
-    if (gap.edges++ == 0) gap.triangle = edge.triangle;
-    gap.length += (mesh.points.col(edge.low) - mesh.points.col(edge.high)).norm();
+  for (const FreeEdge& edge : free) {
+    Gap& gap = by_root[root_of(parent, edge.from)];
+    if (gap.edges++ == 0 || edge.triangle < gap.triangle) gap.triangle = edge.triangle;
+    gap.length += (mesh.points.col(edge.from) - mesh.points.col(edge.to)).norm();
   }
   std::vector<Gap> gaps;
   for (const auto& entry : by_root) gaps.push_back(entry.second);

@@ -51,11 +51,12 @@ struct JoinedMesh {
 };
 JoinedMesh joined(const std::vector<const TriangleMesh*>& meshes);
 
-/// Edges that one triangle alone has and that hang together: the rim of a hole, or of a sheet.
+/// Edges that one triangle alone has and that hang together: the rim of a hole, or of a sheet.  Where corners
+/// lie on sides of other triangles, within kSamePoint of the size, there is none.
 struct Gap {
   int edges = 0;
   double length = 0.0;  ///< of all of them [length]
-  int triangle = 0;     ///< one that has such an edge
+  int triangle = 0;     ///< the first that has such an edge
 };
 /// The longest first.
 std::vector<Gap> gaps_of(const TriangleMesh& mesh);

@@ -45,7 +45,11 @@ std::string wall_text(const GeometryFile& geometry, const JoinedMesh& all) {
                         wall.volume < 0.0 ? ", normals inwards" : "");
   text += fmt::format("  worst triangle: {}, height {:.3g}", place_text(geometry, all, report.worst_triangle),
                       report.least_height);
-  return text + fmt::format("; {} are thinner than 1e-6 of the whole\n", report.thin + report.collapsed);
+  text += fmt::format("; {} are thinner than 1e-6 of the whole\n", report.thin + report.collapsed);
+  if (report.t_junctions > 0)
+    text += fmt::format("  T-junctions: {} corners on sides of other triangles, which are joined there\n",
+                        report.t_junctions);
+  return text;
 }
 
 std::string gaps_text(const GeometryFile& geometry, const JoinedMesh& all) {

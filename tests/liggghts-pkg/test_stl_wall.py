@@ -29,9 +29,10 @@ def quads(x):
         yield ((*p, 0), (*q, 0), (*q, h), (*p, h))
 
 
-def tray(x=1.0) -> str:
+def stl(solids) -> str:
+    """Of solids of quads, by name."""
     lines = []
-    for name, faces in (("floor", list(quads(x))[:4]), ("rim", list(quads(x))[4:])):
+    for name, faces in solids.items():
         lines.append(f"solid {name}")
         for a, b, c, d in faces:
             for corners in ((a, b, c), (a, c, d)):
@@ -40,6 +41,10 @@ def tray(x=1.0) -> str:
                 lines += ["endloop", "endfacet"]
         lines.append(f"endsolid {name}")
     return "\n".join(lines) + "\n"
+
+
+def tray(x=1.0) -> str:
+    return stl({"floor": list(quads(x))[:4], "rim": list(quads(x))[4:]})
 
 
 FILES = {"tray.stl": tray(), **mw.FILES}
@@ -108,6 +113,29 @@ class BesideStock(unittest.TestCase):
         self.assertAlmostEqual(stock["push"][-1], 0.02, delta=1e-3)
         for column in ("push", "z", "vz"):
             self.assertLessEqual(decks.largest_difference(ours[column], stock[column]), 1e-9, column)
+
+
+class TJunctions(unittest.TestCase):
+    """Corners on the sides of other triangles, as files of parts that were meshed apart have them."""
+
+    def test_a_floor_in_two_meshes_is_a_plane(self):
+        left = [((-0.02, -0.02, 0), (0, -0.02, 0), (0, 0.02, 0), (-0.02, 0.02, 0))]
+        rows = np.linspace(-0.02, 0.02, 4).tolist()
+        right = [((0, p, 0), (0.02, p, 0), (0.02, q, 0), (0, q, 0)) for p, q in zip(rows, rows[1:])]
+        files = {"floor.stl": stl({"left": left, "right": right})}
+        places = [(x, y) for x in (-2e-5, 0.0, 1e-5, 4e-5, 1e-3) for y in (-0.01, rows[1], 0.0, rows[2] + 1e-5, 0.015)]
+        deck = begin() + "".join(f"create_atoms 1 single {x!r} {y!r} 0.000998 units box\n" for x, y in places)
+        deck += "set group all diameter 0.002 density 2500\n" + INTEGRATION
+        deck += "".join(f"variable f{k} equal fz[{k}]\n" for k in range(1, len(places) + 1))
+        end = f"thermo_style custom step {' '.join(f'v_f{k}' for k in range(1, len(places) + 1))}\n"
+        end += "thermo_modify format float %.17g\nneigh_modify exclude group all all\nrun 0\n"
+        wall = f"fix wall all wall/nurbs {MODELS} type 1 geometry floor.stl surface all\n"
+        plane = f"fix wall all wall/gran {MODELS} primitive type 1 zplane 0.\n"
+        ours = decks.good(deck + wall + end, files=files).table
+        stock = decks.good(deck + plane + end, program=decks.STOCK).table
+        for k, place in enumerate(places, 1):
+            self.assertGreater(stock[f"f{k}"][0], 0.0)
+            self.assertAlmostEqual(ours[f"f{k}"][0] / stock[f"f{k}"][0], 1.0, delta=1e-9, msg=str(place))
 
 
 class OnRanks(unittest.TestCase):

@@ -185,6 +185,23 @@ TEST(Stl, GapsAreFound) {
   EXPECT_DOUBLE_EQ(two[1].length, 4.0);
 }
 
+TEST(Stl, CornersOnSidesAndNeedlesAreNoGaps) {
+  std::vector<Facet> facets = cube_facets();
+  const Facet first = facets[0];
+  Corner middle;
+  for (int i = 0; i < 3; ++i) middle[i] = 0.5 * (first[0][i] + first[1][i]);
+  std::vector<Facet> needle = facets;
+  needle.push_back({first[0], middle, first[1]});
+  EXPECT_TRUE(gaps_of(mesh(parsed_stl(ascii_stl(needle)))).empty());
+  facets[0] = {first[0], middle, first[2]};
+  facets.push_back({middle, first[1], first[2]});
+  EXPECT_TRUE(gaps_of(mesh(parsed_stl(ascii_stl(facets)))).empty());
+  facets.pop_back();
+  const std::vector<Gap> gaps = gaps_of(mesh(parsed_stl(ascii_stl(facets))));
+  ASSERT_EQ(gaps.size(), 1u);
+  EXPECT_EQ(gaps[0].edges, 3);
+}
+
 TEST(Stl, IsScaledTurnedAndMovedInYaml) {
   const auto read = [](const std::string& yaml) {
     return read_geometry("wall.yaml", [&](const std::string& path) {

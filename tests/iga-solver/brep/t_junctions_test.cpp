@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Walls of triangles with corners on the sides of others have the feet of those without.
+#include "brep/t_junctions.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "brep/foot_search.h"
+#include "brep/summary.h"
+#include "trials.h"
+
+namespace brep {
+namespace {
+
+using trials::Wall;
+
+// Divides a side of a triangle, of it alone, at random places.
+void divide_a_side(Wall& wall, std::mt19937& random) {
+  const int t = trials::whole(random, 0, static_cast<int>(wall.triangles.size()) - 1);
+  const int side = trials::whole(random, 0, 2), parts = trials::whole(random, 2, 4);
+  const std::array<int, 3> triangle = wall.triangles[t];
+  const int a = triangle[side], b = triangle[(side + 1) % 3], c = triangle[(side + 2) % 3];
+  const Vector3 from = wall.points[a], way = wall.points[b] - from;
+  wall.triangles.erase(wall.triangles.begin() + t);
+  int last = a;
+  for (int k = 1; k <= parts; ++k) {
+    int next = b;
+    if (k < parts) {
+      next = static_cast<int>(wall.points.size());
+      wall.points.push_back(from + (k - trials::uniform(random, 0.2, 0.8)) / parts * way);
+    }
+    wall.triangles.push_back({last, next, c});
+    last = next;
+  }
+}
+
+std::vector<Vector3> sorted_feet(const Surface& surface, const Vector3& d, double reach) {
+  std::vector<Foot> feet = trials::feet(surface, d, reach);
+  std::vector<Vector3> points;
+  points.reserve(feet.size());
+  for (const Foot& foot : feet) points.push_back(foot.point);
+  std::sort(points.begin(), points.end(), [&](const Vector3& a, const Vector3& b) {
+    return std::make_pair((a - d).norm(), a[0]) < std::make_pair((b - d).norm(), b[0]);
+  });
+  return points;
+}
+
+TEST(TJunctions, HaveTheFeetOfTheWallWithoutThem) {
+  std::mt19937 random(11);
+  int feet = 0, junctions = 0;
+  for (int family = 0; family < trials::kFamilies; ++family)
+    for (int k = 0; k < 8; ++k) {
+      const Wall whole = trials::random_wall(random, family);
+      Wall divided = whole;
+      for (int n = trials::whole(random, 1, 12); n > 0; --n) divide_a_side(divided, random);
+      BuildReport report;
+      const Surface expected = built(whole),
+                    found = from_triangles(divided.coordinates(), divided.corners(), 0.02, &report);
+      junctions += report.t_junctions;
+      EXPECT_EQ(report.thin + report.collapsed, 0);
+      EXPECT_EQ(summary_of(found).closed, summary_of(expected).closed);
+      for (int n = 0; n < 100; ++n) {
+        const Vector3 d = trials::random_point(random, whole, n % trials::kPlaces) +
+                          1e-3 * expected.size * trials::random_direction(random);
+        const std::vector<Vector3> a = sorted_feet(expected, d, 0.3 * expected.size),
+                                   b = sorted_feet(found, d, 0.3 * expected.size);
+        ASSERT_EQ(a.size(), b.size()) << "family " << family << ", wall " << k << ", point " << n;
+        for (size_t i = 0; i < a.size(); ++i)
+          ASSERT_LT((a[i] - b[i]).norm(), 1e-9 * expected.size) << "family " << family << ", point " << n;
+        feet += static_cast<int>(a.size());
+      }
+    }
+  EXPECT_GT(feet, 5000);
+  EXPECT_GT(junctions, 200);
+}
+
+// Two floors whose corners lie on each other's borders.
+TEST(TJunctions, JoinRowsThatOverlapOnALine) {
+  Wall wall;
+  for (int i = 0; i < 3; ++i)
+    wall.add_quad({-1.0, i + 0.0, 0}, {0, i + 0.0, 0}, {0, i + 1.0, 0}, {-1.0, i + 1.0, 0});
+  for (int i = 0; i < 2; ++i)
+    wall.add_quad({0, 1.5 * i, 0}, {1, 1.5 * i, 0}, {1, 1.5 * i + 1.5, 0}, {0, 1.5 * i + 1.5, 0});
+  BuildReport report;
+  const Surface floor = from_triangles(wall.coordinates(), wall.corners(), 0.02, &report);
+  EXPECT_EQ(report.t_junctions, 3);
+  EXPECT_EQ(floor.faces.size(), 1u);
+  EXPECT_NEAR(summary_of(floor).area, 6.0, 1e-14);
+  for (const double y : {0.3, 0.99, 1.0, 1.25, 1.5, 2.0, 2.7})
+    for (const double x : {-1e-3, 0.0, 1e-9}) EXPECT_EQ(trials::feet(floor, {x, y, 0.1}, 0.2).size(), 1u);
+}
+
+// A side that is joined over a part of it alone is free elsewhere.
+TEST(TJunctions, LeaveFreeWhatNothingLiesBeside) {
+  Wall wall;
+  wall.add_quad({-1, 0, 0}, {0, 0, 0}, {0, 3, 0}, {-1, 3, 0});
+  wall.add_quad({0, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0});
+  const Surface floor = built(wall);
+  EXPECT_EQ(floor.faces.size(), 1u);
+  EXPECT_EQ(summary_of(floor).free, 8);
+  const auto feet = trials::feet(floor, {0.1, 0.5, 0.05}, 0.2);
+  ASSERT_EQ(feet.size(), 1u);
+  EXPECT_LT((feet[0].point - Vector3(0, 0.5, 0)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace brep
