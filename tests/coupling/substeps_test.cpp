@@ -10,6 +10,7 @@
 
 #include "coupling/force_distribution.h"
 #include "nurbs/primitives.h"
+#include "options_of_substeps.h"
 #include "structure/conditions/loads.h"
 #include "structure/material/laws.h"
 #include "structure/material/saint_venant_kirchhoff.h"
@@ -22,15 +23,12 @@ using coupling::NodalVectors;
 using coupling::SubstepOptions;
 using coupling::Substeps;
 using coupling::Vector3;
+using test::options;
 using Fast = SubstepOptions::Fast;
 
-SubstepOptions options(Fast fast, std::optional<int> count, double heaviest = 0.0) {
-  return {fast, count, [=] { return heaviest; }};
-}
-
 /// A block of 3 x 3 x 2 elements, free or on a fixed ground.
-std::unique_ptr<coupling::IgaStructure> block(bool fixed = false,
-                                              std::shared_ptr<const structure::Material> material = {}) {
+std::unique_ptr<coupling::IgaStructure> small_block(
+    bool fixed = false, std::shared_ptr<const structure::Material> material = {}) {
   const auto knots = [](int n) { return nurbs::KnotVector::uniform(2, n); };
   nurbs::Volume patch = nurbs::box({0, 0, -2}, {3, 3, 2}, {knots(3), knots(3), knots(2)});
   structure::Supports supports;
@@ -92,14 +90,14 @@ INSTANTIATE_TEST_SUITE_P(Substeps, BothWays,
                                          Way{Fast::structure, 1.8, 0.3}));
 
 TEST_P(BothWays, AreWhatTheyAreSaidToBe) {
-  Substeps body(block(true), how(5));
+  Substeps body(small_block(true), how(5));
   body.set_time_step(step());
   EXPECT_EQ(body.describe_step().find("spread") != std::string::npos, GetParam().heaviest > 0.0);
 }
 
 TEST_P(BothWays, ASingleStepIsThePlainOne) {
-  Substeps body(block(true), how(1));
-  const std::unique_ptr<coupling::IgaStructure> plain = block(true);
+  Substeps body(small_block(true), how(1));
+  const std::unique_ptr<coupling::IgaStructure> plain = small_block(true);
   const double dt = 0.02;
   body.set_time_step(dt), plain->set_time_step(dt);
   body.initialise_forces(forces_on(body)), plain->initialise_forces(forces_on(*plain));
@@ -114,7 +112,7 @@ TEST_P(BothWays, ASingleStepIsThePlainOne) {
 }
 
 TEST_P(BothWays, KeepMomentumToRoundOff) {
-  Substeps body(block(), how(5));
+  Substeps body(small_block(), how(5));
   body.set_time_step(step());
   NodalForces forces = forces_on(body);
   body.initialise_forces(forces);
@@ -133,7 +131,7 @@ TEST_P(BothWays, KeepMomentumToRoundOff) {
 
 // Work of contacts by the rule of the step: the mean velocity of each half kick.
 TEST_P(BothWays, TheirLedgerIsClosedAndKnowsTheWorkOfContacts) {
-  std::unique_ptr<coupling::IgaStructure> solid = block(true);
+  std::unique_ptr<coupling::IgaStructure> solid = small_block(true);
   const NodalVectors inverse_mass = solid->solver().inverse_mass();
   Substeps body(std::move(solid), how(5));
   body.set_time_step(step());
@@ -166,7 +164,7 @@ TEST_P(BothWays, TheirLedgerIsClosedAndKnowsTheWorkOfContacts) {
 
 TEST_P(BothWays, ContinueFromASavedStateToTheLastBit) {
   for (const int before : {10, 13}) {  // at the end of an outer step, and within one
-    Substeps first(block(true), how(5)), second(block(true), how(5));
+    Substeps first(small_block(true), how(5)), second(small_block(true), how(5));
     first.set_time_step(step()), second.set_time_step(step());
     first.initialise_forces(forces_on(first));
     run(first, before);
@@ -184,7 +182,8 @@ TEST_P(BothWays, ContinueFromASavedStateToTheLastBit) {
 }
 
 TEST(Substeps, ARunThatIsSplitWithinAnOuterStepGoesOnAsTheWholeDoes) {
-  Substeps whole(block(true), options(Fast::particles, 5)), split(block(true), options(Fast::particles, 5));
+  Substeps whole(small_block(true), options(Fast::particles, 5)),
+      split(small_block(true), options(Fast::particles, 5));
   for (Substeps* body : {&whole, &split}) {
     body->set_time_step(0.02);
     body->initialise_forces(forces_on(*body));
@@ -200,7 +199,7 @@ TEST(Substeps, ARunThatIsSplitWithinAnOuterStepGoesOnAsTheWholeDoes) {
 }
 
 TEST(Substeps, WithinAnOuterStepTheBodysNumbersAreThoseOfItsBeginning) {
-  Substeps body(block(true), options(Fast::particles, 5));
+  Substeps body(small_block(true), options(Fast::particles, 5));
   body.set_time_step(0.02);
   body.initialise_forces(forces_on(body));
   run(body, 5);
@@ -215,7 +214,7 @@ TEST(Substeps, WithinAnOuterStepTheBodysNumbersAreThoseOfItsBeginning) {
 
 /// A block whose lower face stays while the rest flies off, of a law that stiffens.
 std::unique_ptr<coupling::IgaStructure> stretched_block(double speed) {
-  auto body = block(true, std::make_shared<structure::SaintVenantKirchhoff>(1.0, 0.3, 1.0));
+  auto body = small_block(true, std::make_shared<structure::SaintVenantKirchhoff>(1.0, 0.3, 1.0));
   NodalVectors v = NodalVectors::Zero(3, body->positions().cols());
   v.row(2).setConstant(speed);
   body->solver().set_velocities(v);

@@ -36,7 +36,7 @@ struct Ranks {
 
 /// Contact of particle `tag`: forces of very different size, so that the order of summation shows in the last
 /// bits.
-ContactForce contact(long tag, int branch = 0) {
+ContactForce force_at_foot(long tag, int branch = 0) {
   const double t = static_cast<double>(tag) + 0.3 * branch;
   return {tag,
           branch,
@@ -56,7 +56,7 @@ TEST(SurfaceExchange, ForcesAreBitwiseTheSameOnAnyNumberOfRanks) {
   Vector3 total = Vector3::Zero();
   for (long tag = 1; tag <= particles; ++tag)
     for (int branch = 0; branch < branches; ++branch) {
-      const ContactForce c = contact(tag, branch);
+      const ContactForce c = force_at_foot(tag, branch);
       coupling::FootBasis(rigid.surface().topology, {branch % 2, {c.xi[0], c.xi[1]}})
           .distribute(Vector3::Map(c.F), expected);
       total += Vector3::Map(c.F);
@@ -65,7 +65,7 @@ TEST(SurfaceExchange, ForcesAreBitwiseTheSameOnAnyNumberOfRanks) {
   std::vector<ContactForce> mine;
   for (long tag = particles; tag >= 1; --tag)  // against the order, dealt to the ranks in turn
     for (int branch = branches - 1; branch >= 0; --branch)
-      if (tag % ranks.count == ranks.me) mine.push_back(contact(tag, branch));
+      if (tag % ranks.count == ranks.me) mine.push_back(force_at_foot(tag, branch));
   const coupling::NodalForces& on_nodes = exchange.export_add(mine);
   const NodalVectors& forces = on_nodes.values;
   EXPECT_EQ(on_nodes.touched, coupling::NodalForces(forces).touched);
@@ -79,7 +79,7 @@ TEST(SurfaceExchange, ACoupleIsItsMomentAndNoForce) {
   const Ranks ranks;
   coupling::RigidSurface rigid({test::wavy_surface(), test::wavy_surface()});
   coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
-  ContactForce one = contact(4, 1);
+  ContactForce one = force_at_foot(4, 1);
   std::vector<ContactForce> mine;
   const auto nodal_forces = [&] { return NodalVectors(exchange.export_add(mine).values); };
   if (ranks.me == 0) mine = {one};
@@ -107,8 +107,9 @@ TEST(SurfaceExchange, RanksWithoutContactsTakePart) {
   coupling::RigidSurface rigid({test::wavy_surface()});
   coupling::SurfaceExchange exchange(MPI_COMM_WORLD, rigid);
   std::vector<ContactForce> mine;
-  if (ranks.me == ranks.count - 1) mine.push_back(contact(3));
-  EXPECT_NEAR(exchange.export_add(mine).values.row(2).sum(), contact(3).F[2], 1e-13 * contact(3).F[2]);
+  if (ranks.me == ranks.count - 1) mine.push_back(force_at_foot(3));
+  EXPECT_NEAR(exchange.export_add(mine).values.row(2).sum(), force_at_foot(3).F[2],
+              1e-13 * force_at_foot(3).F[2]);
   EXPECT_EQ(exchange.export_add({}).values.cwiseAbs().maxCoeff(), 0.0)
       << "forces of an earlier step must not stay";
 }
@@ -174,7 +175,7 @@ TEST(SurfaceExchange, KnowsNodesByTheirIds) {
 
   std::vector<ContactForce> mine;
   for (long tag = 1; tag <= 40; ++tag)
-    if (tag % ranks.count == ranks.me) mine.push_back(contact(tag));
+    if (tag % ranks.count == ranks.me) mine.push_back(force_at_foot(tag));
   const NodalVectors expected = by_column.export_add(mine).values, forces = by_id.export_add(mine).values;
   ASSERT_EQ(forces.cols(), expected.cols() + 3);
   EXPECT_EQ(forces.middleCols(2, expected.cols()), expected);

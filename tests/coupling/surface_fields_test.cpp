@@ -50,7 +50,7 @@ SurfaceFields start(const nurbs::PatchedSurface& s) {
   return SurfaceFields(MPI_COMM_WORLD, s.topology, s.control_points);
 }
 
-SurfaceContact contact(int tag) {
+SurfaceContact contact_of(int tag) {
   const double t = tag;
   Vector3 normal(std::sin(t), std::cos(2 * t), 1.5);
   normal.normalize();
@@ -63,7 +63,7 @@ SurfaceContact contact(int tag) {
 void add_all(SurfaceFields& fields, int particles) {
   fields.begin_sample();
   for (int tag = 1; tag <= particles; ++tag)
-    if (rank_of(tag) == my_rank()) fields.add(contact(tag));
+    if (rank_of(tag) == my_rank()) fields.add(contact_of(tag));
 }
 
 const Eigen::MatrixXd& field(const vtk::PatchFields<2>& patch, const std::string& name) {
@@ -91,7 +91,7 @@ TEST(SurfaceFields, IntegrateToTheTotals) {
   double normal = 0.0, worn = 0.0;
   Vector3 shear = Vector3::Zero();
   for (int tag = 1; tag <= particles; ++tag) {
-    const SurfaceContact c = contact(tag);
+    const SurfaceContact c = contact_of(tag);
     normal -= c.force.dot(c.normal);
     shear += c.force - c.force.dot(c.normal) * c.normal;
     worn += c.worn_volume;
@@ -115,7 +115,7 @@ TEST(SurfaceFields, CountTheContactsOfEachElement) {
     };
     Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(1, space.element_count());
     for (int tag = 1; tag <= particles; ++tag) {
-      const nurbs::SurfacePoint at = contact(tag).foot;
+      const nurbs::SurfacePoint at = contact_of(tag).foot;
       if (at.patch == patch)
         expected(space.element_index({element_along(0, at.xi[0]), element_along(1, at.xi[1])})) += 1.0;
     }

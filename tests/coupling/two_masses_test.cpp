@@ -13,6 +13,7 @@
 
 #include "coupling/substeps.h"
 #include "one_mode.h"
+#include "options_of_substeps.h"
 
 namespace {
 
@@ -21,13 +22,9 @@ using coupling::NodalVectors;
 using coupling::SubstepOptions;
 using coupling::Substeps;
 using coupling::TwoMasses;
+using nurbs::kPi;
+using test::options;
 using Fast = SubstepOptions::Fast;
-
-constexpr double kPi = 3.14159265358979323846;
-
-SubstepOptions options(Fast fast, std::optional<int> count, double heaviest = 0.0) {
-  return {fast, count, [=] { return heaviest; }};
-}
 
 Substeps one_mode(double omega, SubstepOptions options) {
   return Substeps(std::make_unique<coupling::IgaStructure>(

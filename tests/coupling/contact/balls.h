@@ -14,6 +14,8 @@ namespace test {
 
 using nurbs::Vector3;
 
+constexpr double kRadius = 0.5;  ///< of balls where nothing asks for another
+
 /// Balls of mass 1 with `slots` contacts each, of which the model keeps `history_count` values.
 class Balls {
  public:

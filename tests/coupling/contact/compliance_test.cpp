@@ -17,11 +17,12 @@ namespace {
 
 using contact::corrected_overlap;
 using nurbs::Vector3;
+using test::kRadius;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr double kRadius = 0.5, kConstant = 1e4, kSide = 8.0;
+constexpr double kConstant = 1e4, kSide = 8.0;
 const double kK = kConstant * std::sqrt(kRadius);
 constexpr double kLargest = contact::ComplianceCorrection::kLargest;
 

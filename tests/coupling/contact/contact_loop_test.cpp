@@ -26,10 +26,9 @@ using coupling::RigidSurface;
 using nurbs::Vector3;
 using test::Balls;
 using test::BallsOnWall;
+using test::kRadius;
 using test::RisingSheet;
 using testing::HasSubstr;
-
-constexpr double kRadius = 0.5;
 
 nurbs::Surface plate(const Vector3& origin, const Vector3& u, const Vector3& v) {
   return nurbs::plane(origin, u, v, {nurbs::KnotVector::uniform(2, 8), nurbs::KnotVector::uniform(2, 8)});

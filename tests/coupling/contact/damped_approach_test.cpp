@@ -14,14 +14,15 @@ namespace {
 
 using contact::DampedApproach;
 using contact::DampedLaw;
+using nurbs::kPi;
 
-constexpr double kK = 1.0, kMass = 1.0, kSpeed = 0.9;  // the ball goes in by about 1 where nothing is damped
-constexpr double kPi = 3.14159265358979323846;
+constexpr double kHertz = 1.0, kMass = 1.0;
+constexpr double kSpeed = 0.9;  // the ball goes in by about 1 where nothing is damped
 
 /// Of a coefficient of restitution.
 double damping_of(double e) {
   const double zeta = -std::log(e) / std::hypot(std::log(e), kPi);
-  return 2.0 * zeta * std::sqrt(5.0 / 6.0 * 1.5 * kK * kMass);
+  return 2.0 * zeta * std::sqrt(5.0 / 6.0 * 1.5 * kHertz * kMass);
 }
 
 struct Answer {
@@ -37,7 +38,7 @@ Answer rigid(double e, double dt, double mass = kStands) {
   do {
     v -= 0.5 * dt * F / both;
     x += dt * v;
-    F = x > 0.0 ? kK * x * std::sqrt(x) + damping_of(e) * std::sqrt(std::sqrt(x)) * v : 0.0;
+    F = x > 0.0 ? kHertz * x * std::sqrt(x) + damping_of(e) * std::sqrt(std::sqrt(x)) * v : 0.0;
     v -= 0.5 * dt * F / both;
     peak = std::max(peak, F);
   } while (x > 0.0);
@@ -47,7 +48,7 @@ Answer rigid(double e, double dt, double mass = kStands) {
 /// What contact does in a step (compliance.cpp).
 class Contact {
  public:
-  Contact(double e, double c, double delay) : law_{kK, damping_of(e), kMass, c, delay} {}
+  Contact(double e, double c, double delay) : law_{kHertz, damping_of(e), kMass, c, delay} {}
   double step(double overlap, double of_particle, double of_surface, double dt) {
     const double gap = DampedApproach::held_gap(memory_);
     if (overlap <= -gap) {
@@ -59,8 +60,8 @@ class Contact {
     double F = 0.0;
     if (kept.is_on()) {
       const double damping = kept.damping(law_), left = overlap + law_.give * damping;
-      const double x = left > 0.0 ? contact::corrected_overlap(left, law_.give, kK, 0.99).x : 0.0;
-      F = kK * x * std::sqrt(x) + damping;
+      const double x = left > 0.0 ? contact::corrected_overlap(left, law_.give, kHertz, 0.99).x : 0.0;
+      F = kHertz * x * std::sqrt(x) + damping;
       kept.observe(law_, overlap + law_.give * F, dt);
     }
     kept.keep(memory_);
@@ -74,9 +75,9 @@ class Contact {
 };
 
 /// Ball and mesh; all speeds are towards the body, which itself comes at `body`.
-struct Scene {
-  Scene(double e, double s, double body, double dt, double mass = kStands, double spring_mass = 3e-4)
-      : c(s / 1.5 / kK),
+struct BallAndMesh {
+  BallAndMesh(double e, double s, double body, double dt, double mass = kStands, double spring_mass = 3e-4)
+      : c(s / 1.5 / kHertz),
         spring_mass(spring_mass),
         contact(e, c, std::sqrt(spring_mass * c)),
         body(body),
@@ -99,12 +100,12 @@ struct Scene {
   double body, dt, mass, mobility = 0.0, ball = 0.0, x = 0.0, dent = 0.0, dent_speed = 0.0, F = 0.0;
 };
 
-constexpr double kStep = 4e-4;
+constexpr double kFineStep = 4e-4;
 
 TEST(DampedApproach, ABallLeavesAsFastAsARigidWall) {
   for (const double e : {0.1, 0.3, 0.5, 0.7, 0.95})
     for (const double s : {0.1, 0.3, 0.5}) {
-      Scene scene(e, s, 0.0, kStep);
+      BallAndMesh scene(e, s, 0.0, kFineStep);
       scene.ball = kSpeed;
       double peak = 0.0;
       while (scene.x > -0.3) {
@@ -112,7 +113,7 @@ TEST(DampedApproach, ABallLeavesAsFastAsARigidWall) {
         peak = std::max(peak, scene.F);
         ASSERT_LT(peak, 2.0) << e << " " << s << " x " << scene.x;
       }
-      const Answer expected = rigid(e, kStep);
+      const Answer expected = rigid(e, kFineStep);
       EXPECT_NEAR(-scene.ball / kSpeed / expected.restitution, 1.0, 0.01) << e << ' ' << s;
       EXPECT_NEAR(peak / expected.peak, 1.0, 0.01) << e << ' ' << s;
     }
@@ -122,23 +123,23 @@ TEST(DampedApproach, ABallLeavesAsFastAsARigidWall) {
 TEST(DampedApproach, AMeshThatTakesItsTimeIsWaitedFor) {
   for (const double e : {0.3, 0.5, 0.8}) {
     constexpr double kSpringMass = 0.04;
-    Scene scene(e, 0.3, 0.0, kStep, kStands, kSpringMass);
+    BallAndMesh scene(e, 0.3, 0.0, kFineStep, kStands, kSpringMass);
     scene.ball = kSpeed;
     double peak = 0.0;
     while (scene.x > -0.3 && scene.ball > -kSpeed) {
       scene.step();
       peak = std::max(peak, scene.F);
     }
-    const Answer expected = rigid(e, kStep);
+    const Answer expected = rigid(e, kFineStep);
     EXPECT_NEAR(-scene.ball / kSpeed / expected.restitution, 1.0, 0.03) << e;
     EXPECT_NEAR(peak / expected.peak, 1.0, 0.03) << e;
   }
 }
 
 TEST(DampedApproach, ItIsTheSameIfTheBodyComesToTheBall) {
-  Scene scene(0.5, 0.3, kSpeed, kStep);
+  BallAndMesh scene(0.5, 0.3, kSpeed, kFineStep);
   while (scene.x > -0.3) scene.step();
-  EXPECT_NEAR(-(scene.ball + kSpeed) / kSpeed, rigid(0.5, kStep).restitution, 0.005);
+  EXPECT_NEAR(-(scene.ball + kSpeed) / kSpeed, rigid(0.5, kFineStep).restitution, 0.005);
 }
 
 /// Of a thin plate, which moves as fast as `mobility` times the force on it (C. Zener, Phys. Rev. 59, 1941).
@@ -148,7 +149,7 @@ Answer on_plate(double e, double mobility, double dt) {
     v -= 0.5 * dt * F / kMass;
     x += dt * (v - mobility * F);
     const double gamma = damping_of(e) * std::sqrt(std::sqrt(std::max(x, 0.0)));
-    F = x > 0.0 ? (kK * x * std::sqrt(x) + gamma * v) / (1.0 + gamma * mobility) : 0.0;
+    F = x > 0.0 ? (kHertz * x * std::sqrt(x) + gamma * v) / (1.0 + gamma * mobility) : 0.0;
     v -= 0.5 * dt * F / kMass;
     peak = std::max(peak, F);
   } while (x > 0.0);
@@ -159,7 +160,7 @@ TEST(DampedApproach, AThinPlateTakesMuchOfTheSpeed) {
   for (const double mobility : {0.1, 0.2})
     for (const double e : {0.5, 0.8})
       for (const double s : {0.05, 0.2}) {
-        Scene scene(e, s, 0.0, kStep);
+        BallAndMesh scene(e, s, 0.0, kFineStep);
         scene.ball = kSpeed;
         scene.mobility = mobility;
         double peak = 0.0;
@@ -167,8 +168,8 @@ TEST(DampedApproach, AThinPlateTakesMuchOfTheSpeed) {
           scene.step();
           peak = std::max(peak, scene.F);
         }
-        const Answer expected = on_plate(e, mobility, kStep);
-        EXPECT_LT(expected.restitution, 0.9 * rigid(e, kStep).restitution);
+        const Answer expected = on_plate(e, mobility, kFineStep);
+        EXPECT_LT(expected.restitution, 0.9 * rigid(e, kFineStep).restitution);
         EXPECT_NEAR(-scene.ball / kSpeed / expected.restitution, 1.0, 0.01) << e << ' ' << s;
         EXPECT_NEAR(peak / expected.peak, 1.0, 0.025) << e << ' ' << s;
       }
@@ -178,19 +179,19 @@ TEST(DampedApproach, AThinPlateTakesMuchOfTheSpeed) {
 TEST(DampedApproach, ABodyIsPushedAway) {
   for (const double e : {0.5, 0.9}) {
     constexpr double kBody = 4.0;
-    Scene scene(e, 0.2, 0.0, kStep, kBody);
+    BallAndMesh scene(e, 0.2, 0.0, kFineStep, kBody);
     scene.ball = kSpeed;
     while (scene.x > -0.3) scene.step();
-    EXPECT_NEAR(-(scene.ball + scene.body) / kSpeed / rigid(e, kStep, kBody).restitution, 1.0, 0.03) << e;
+    EXPECT_NEAR(-(scene.ball + scene.body) / kSpeed / rigid(e, kFineStep, kBody).restitution, 1.0, 0.03) << e;
   }
 }
 
 TEST(DampedApproach, UnderAWeightItComesToTheLawsOwnOverlap) {
   constexpr double kWeight = 0.4;
   for (const double e : {0.3, 0.7}) {
-    Scene scene(e, 0.4, 0.0, kStep);
+    BallAndMesh scene(e, 0.4, 0.0, kFineStep);
     for (int k = 0; k < 400000; ++k) scene.step(kWeight);
-    const double x = std::pow(kWeight / kK, 2.0 / 3.0);
+    const double x = std::pow(kWeight / kHertz, 2.0 / 3.0);
     EXPECT_NEAR(scene.F, kWeight, 1e-6 * kWeight);
     EXPECT_NEAR(scene.contact.x(), x, 1e-6);
     EXPECT_NEAR(scene.x, x, 1e-6);
@@ -199,7 +200,7 @@ TEST(DampedApproach, UnderAWeightItComesToTheLawsOwnOverlap) {
 
 // The dent of the beginning is deeper than the bodies have come together.
 TEST(DampedApproach, ItGoesOnWhereSurfacesLoseTouch) {
-  Scene scene(0.3, 0.3, 0.0, kStep);
+  BallAndMesh scene(0.3, 0.3, 0.0, kFineStep);
   scene.ball = kSpeed;
   double deepest_gap = 0.0, least = 1.0;
   while (scene.x < 0.2) {

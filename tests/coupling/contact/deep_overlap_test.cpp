@@ -17,8 +17,9 @@ using coupling::RigidSurface;
 using nurbs::Vector3;
 using test::Balls;
 using test::BallsOnWall;
+using test::kRadius;
 
-constexpr double kRadius = 0.5, kThickness = 0.1;
+constexpr double kThickness = 0.1;
 
 RigidSurface body_of(const brep::Surface& skin, bool as_patches, int outward) {
   brep::CadModel model = brep::trials::cad_of(skin, as_patches);

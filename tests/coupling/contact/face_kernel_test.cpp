@@ -19,8 +19,7 @@ using brep::Kind;
 using contact::FaceBlock;
 using contact::FaceNumbers;
 using Eigen::Vector3d;
-
-constexpr double kPi = 3.14159265358979323846;
+using nurbs::kPi;
 
 struct Numbers {
   std::mt19937 engine{11};

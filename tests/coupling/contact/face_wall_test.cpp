@@ -18,8 +18,7 @@ using coupling::RigidSurface;
 using nurbs::Vector3;
 using test::Balls;
 using test::BallsOnWall;
-
-constexpr double kRadius = 0.5;
+using test::kRadius;
 
 /// Of triangles between these points.
 RigidSurface wall_of(const nurbs::NodalVectors& points, const std::vector<int>& triangles) {

@@ -19,8 +19,7 @@ using nurbs::KnotVector;
 using nurbs::Vector3;
 using test::Balls;
 using test::BallsOnWall;
-
-constexpr double kRadius = 0.5;
+using test::kRadius;
 
 RigidSurface faced(const std::vector<nurbs::Surface>& patches) {
   auto faces = brep::faced_patches(patches, false, brep::kEdgeAngle);
@@ -74,7 +73,7 @@ void expect_same_as_on_triangles(bool in_closed_form) {
   RigidSurface patch = faced(one_patch(in_closed_form)), mesh = triangles();
   for (const double side : {1.0, -1.0}) {
     Balls balls(3, 1);
-    balls.add({}, kRadius);
+    balls.add(Vector3::Zero(), kRadius);
     BallsOnWall on_patch(patch, balls, 1.0, 1.0), on_mesh(mesh, balls, 1.0, 1.0);
     constexpr int kSteps = 8000;
     long with_two = 0;

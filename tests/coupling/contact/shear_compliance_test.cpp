@@ -15,7 +15,7 @@ using contact::SurfaceDirections;
 using coupling::LocalCompliance;
 using nurbs::Vector3;
 
-constexpr double kStiffness = 50.0, kStep = 1e-3;
+constexpr double kShearStiffness = 50.0, kStep = 1e-3;
 const SurfaceDirections kDirections = {Eigen::Matrix<double, 3, 2>{{2, 0}, {0, 4}, {0, 0}},
                                        Eigen::Matrix2d{{0.25, 0}, {0, 0.0625}}};
 const Vector3 kNormal = {0, 0, 1};
@@ -40,7 +40,7 @@ TEST(ShearCompliance, SpringsAreStretchedByTheMotionBeyondTheDent) {
   double memory[ShearCompliance::kMemory] = {};
   Eigen::Vector2d stretch(0, 0), path(0, 0), dent(0, 0), dent_before(0, 0);
   for (int k = 0; k < 3000; ++k) {
-    const double t = k * kStep, stiffness = kStiffness * (0.2 + 0.2 * t),
+    const double t = k * kStep, stiffness = kShearStiffness * (0.2 + 0.2 * t),
                  scale = 1.0 + 0.1 * std::sin(3.0 * t);
     const Eigen::Vector2d own(std::cos(2.0 * t), 0.3 - t);
     const Eigen::Vector2d of_foot = (dent - dent_before) / kStep;
@@ -66,7 +66,7 @@ TEST(ShearCompliance, DampersDoNotSeeWhatTheFootDoesAtOnce) {
   for (int k = 0; k < 4000; ++k) {
     const double shake = k == 0 ? 0.0 : k % 2 == 0 ? 3.0 : -3.0;
     const Eigen::Vector2d slip = own - (k < 20 ? Eigen::Vector2d(0, 0) : body) - Eigen::Vector2d(shake, 0);
-    ShearCompliance shear(give(1e-6), kDirections, kNormal, kStiffness);
+    ShearCompliance shear(give(1e-6), kDirections, kNormal, kShearStiffness);
     const ShearCompliance::Step step =
         shear.begin({in_space(slip), in_space(own), stretch, 2.0, 1.0, kStep}, memory);
     if (k < 20) {
@@ -80,8 +80,8 @@ TEST(ShearCompliance, DampersDoNotSeeWhatTheFootDoesAtOnce) {
 }
 
 TEST(ShearCompliance, TheForceAlongIsThatOfThePotential) {
-  const ShearCompliance shear(give(), kDirections, kNormal, kStiffness);
-  const Eigen::Vector2d stretch(0.03, -0.02), F = kStiffness * stretch;
+  const ShearCompliance shear(give(), kDirections, kNormal, kShearStiffness);
+  const Eigen::Vector2d stretch(0.03, -0.02), F = kShearStiffness * stretch;
   const double by_xi = 0.5 * F.dot(matrix(1e-3, 3e-3, -4e-4) * F),
                by_eta = 0.5 * F.dot(matrix(-2e-3, 5e-4, 7e-4) * F);
   const Vector3 expected(-0.5 * by_xi, -0.25 * by_eta, 0.0);
@@ -89,10 +89,10 @@ TEST(ShearCompliance, TheForceAlongIsThatOfThePotential) {
 }
 
 TEST(ShearCompliance, KnowsItsLargestShare) {
-  const ShearCompliance shear(give(), kDirections, kNormal, kStiffness);
-  const double share = kStiffness * (5e-3 + std::sqrt(2.0) * 1e-3);
+  const ShearCompliance shear(give(), kDirections, kNormal, kShearStiffness);
+  const double share = kShearStiffness * (5e-3 + std::sqrt(2.0) * 1e-3);
   EXPECT_NEAR(shear.largest_share(), share, 1e-12);
-  EXPECT_NEAR(shear.stiffness(), kStiffness / (1.0 - share), 1e-9);
+  EXPECT_NEAR(shear.stiffness(), kShearStiffness / (1.0 - share), 1e-9);
 }
 
 }  // namespace

@@ -18,10 +18,11 @@ using nurbs::GuardedColumns;
 using nurbs::Vector3;
 using test::Balls;
 using test::BallsOnWall;
+using test::kRadius;
 
 constexpr int kElements = 128, kRows = 64;  // of size 1; the balls stay within few rows
 constexpr Eigen::Index kFirst = kRows * (kElements + 2);
-constexpr double kStiffness = 50.0, kRadius = 0.5, kOverlap = 0.1;
+constexpr double kStiffness = 50.0, kOverlap = 0.1;
 
 nurbs::Surface plane() {
   const auto knots = nurbs::KnotVector::uniform(2, kElements);

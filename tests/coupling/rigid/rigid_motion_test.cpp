@@ -16,8 +16,9 @@ using coupling::MovingFrame;
 using coupling::RigidFrame;
 using coupling::RigidMotion;
 using coupling::Vector3;
+using nurbs::kPi;
 
-constexpr double kPi = EIGEN_PI, kDt = 1e-3;
+constexpr double kDt = 1e-3;
 const Vector3 kCentre(0.3, -0.2, 0.5), kAxis(1.0, 2.0, -2.0), kPoint(0.7, 0.1, -0.4);
 
 /// The body frame after so many steps.

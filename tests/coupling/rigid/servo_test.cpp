@@ -20,7 +20,7 @@ using coupling::SlidingSurface;
 using coupling::Value;
 using coupling::Vector3;
 
-constexpr double kDt = 1e-3, kStiffness = 2000.0, kTarget = -10.0;
+constexpr double kServoStep = 1e-3, kStiffness = 2000.0, kTarget = -10.0;
 const Vector3 kCom(0.1, 0.2, 0.3);
 
 /// Presses down along z with 10 N.
@@ -40,7 +40,7 @@ RigidSurface surface_with(ServoSettings settings) {
   drive.servo = std::move(settings);
   RigidSurface surface({test::wavy_surface()});
   surface.drive(std::move(drive));
-  surface.set_time_step(kDt);
+  surface.set_time_step(kServoStep);
   surface.begin_run();
   return surface;
 }
@@ -80,7 +80,7 @@ double pressed_spring(RigidSurface& surface, int steps) {
 // each step.
 TEST(Servo, ProportionalControlDecaysGeometrically) {
   RigidSurface surface = surface_with(press());
-  const double factor = 1.0 - 0.1 * 0.5 * kStiffness * kDt / 10.0;
+  const double factor = 1.0 - 0.1 * 0.5 * kStiffness * kServoStep / 10.0;
   for (int n = 0; n < 300; n += 50) {
     const double push = pressed_spring(surface, 50);
     // the first step moves nothing: no force has been seen yet
@@ -123,7 +123,7 @@ TEST(Servo, NeverFasterThanVelMax) {
   surface.end_step(force_at(surface, 0, Vector3::Zero()));
   surface.begin_step();
   EXPECT_EQ(surface.frame().velocity, Vector3(0, 0, -0.1));
-  EXPECT_EQ(surface.frame().origin, Vector3(0, 0, -0.1 * kDt));
+  EXPECT_EQ(surface.frame().origin, Vector3(0, 0, -0.1 * kServoStep));
 }
 
 // A wall that waits a second for its particles must not push for another second once it has its force.
@@ -158,7 +158,7 @@ TEST(Servo, TheDerivativeIsThatOfTheForce) {
     surface.end_step(force_at(surface, 3, {0, 0, force}));
     return surface.frame().velocity.z();
   };
-  EXPECT_NEAR(velocity_after(4.0), 0.1 * 2e-5 * 4.0 / kDt / 10.0, 1e-15);
+  EXPECT_NEAR(velocity_after(4.0), 0.1 * 2e-5 * 4.0 / kServoStep / 10.0, 1e-15);
   target = -100.0;
   EXPECT_EQ(velocity_after(4.0), 0.0) << "a jump of the target alone moves nothing";
 }
@@ -186,14 +186,14 @@ TEST(Servo, TorqueIsThatAboutTheCom) {
   const Vector3 x = surface.frame().to_space(surface.positions().col(7));
   EXPECT_NEAR(std::atan2(x.y() - kCom.y(), x.x() - kCom.x()) -
                   std::atan2(surface.positions()(1, 7) - kCom.y(), surface.positions()(0, 7) - kCom.x()),
-              omega * kDt, 1e-14);
+              omega * kServoStep, 1e-14);
 
   // forces are given in the body frame, in which this one has the same torque wherever the wall has turned
   for (int n = 0; n < 1000; ++n) {
     surface.end_step(force_at(surface, 7, F));
     surface.begin_step();
   }
-  ASSERT_GT(std::abs(omega) * 1000 * kDt, 0.01);
+  ASSERT_GT(std::abs(omega) * 1000 * kServoStep, 0.01);
   EXPECT_NEAR(surface.frame().angular_velocity.z(), omega, 1e-14);
 }
 
@@ -232,7 +232,7 @@ TEST(Servo, AutomaticModeIsFastAloneAndSlowNearParticles) {
   ServoSettings settings = press();
   settings.automatic = {0.01, [] { return 2e-3; }, [&near] { return near; }};
   RigidSurface surface = surface_with(settings);
-  const double slow = 0.01 * 2e-3 / kDt;
+  const double slow = 0.01 * 2e-3 / kServoStep;
   const auto velocity_after = [&](long particles, double force) {
     near = particles;
     surface.begin_step();
