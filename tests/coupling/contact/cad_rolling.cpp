@@ -4,9 +4,7 @@
 // force (occt_samples.h).  Exit code 1 if something is wrong.
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
-#include <exception>
 #include <optional>
 
 #include "balls.h"
@@ -16,6 +14,7 @@
 #include "crossings.h"
 #include "occt_judge.h"
 #include "occt_samples.h"
+#include "tried_files.h"
 
 namespace {
 
@@ -322,26 +321,16 @@ class Rolling {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::vector<std::string> files;
-  CLI::App app("A ball rolled over every edge of CAD parts");
-  app.add_option("files", files, "STEP or IGES")->required();
+  step_parts::TriedFiles tried("A ball rolled over every edge of CAD parts");
   bool no_stacks = false;
-  app.add_flag("--no-stacks", no_stacks,
-               "nowhere does one wall lie on another: what comes from one direction is one contact");
-  CLI11_PARSE(app, argc, argv);
+  tried.add_flag("--no-stacks", no_stacks,
+                 "nowhere does one wall lie on another: what comes from one direction is one contact");
   MPI_Init(nullptr, nullptr);
-  int wrong = 0;
-  for (const std::string& file : files) {
-    try {
-      fmt::print("{}: ", file);
-      Rolling rolling(file, !no_stacks);
-      rolling.run();
-      wrong += rolling.wrong();
-    } catch (const std::exception& error) {
-      fmt::print("{}\n", error.what());
-      ++wrong;
-    }
-  }
+  const int code = tried.run(argc, argv, [&](const std::string& file) {
+    Rolling rolling(file, !no_stacks);
+    rolling.run();
+    return rolling.wrong();
+  });
   MPI_Finalize();
-  return wrong == 0 ? 0 : 1;
+  return code;
 }

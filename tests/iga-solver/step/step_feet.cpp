@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <memory>
 #include <random>
 
@@ -13,6 +12,7 @@
 #include "brep/edge_uses.h"
 #include "brep/face_shape.h"
 #include "brep/foot_search.h"
+#include "cad_wall.h"
 #include "occt_judge.h"
 #include "occt_samples.h"
 #include "tried_files.h"
@@ -202,14 +202,11 @@ class Trial {
 
 int main(int argc, char** argv) {
   step_parts::TriedFiles tried("Feet on CAD files against OpenCASCADE's distances", "for each file", 200);
-  Judges judges = Judges::extrema;
-  const std::map<std::string, Judges> kinds{{"extrema", Judges::extrema}, {"samples", Judges::samples}};
-  tried.app
-      .add_option("--judge", judges,
-                  "extrema: BRepExtrema_DistShapeShape; samples: brute force (occt_samples.h)")
-      ->transform(CLI::CheckedTransformer(kinds));
+  std::string judges = "extrema";
+  tried.add_choice("--judge", judges, {"extrema", "samples"},
+                   "extrema: BRepExtrema_DistShapeShape; samples: brute force (occt_samples.h)");
   return tried.run(argc, argv, [&](const std::string& file) {
-    Trial trial(file, tried.seed, judges);
+    Trial trial(file, tried.seed, judges == "samples" ? Judges::samples : Judges::extrema);
     trial.run(tried.points);
     return trial.misses();
   });

@@ -8,6 +8,7 @@
 
 #include "brep/edge_uses.h"
 #include "brep/foot_search.h"
+#include "cad_wall.h"
 #include "tried_files.h"
 
 namespace {

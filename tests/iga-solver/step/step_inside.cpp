@@ -11,6 +11,7 @@
 #include "brep/builder.h"
 #include "brep/face_shape.h"
 #include "brep/foot_search.h"
+#include "cad_wall.h"
 #include "occt_judge.h"
 #include "occt_winding.h"
 #include "tried_files.h"
