@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Runs a whole study as a user does and checks what it left, by this file's own numbers.
+"""Runs a study as a user does, whole or some cases of it, and checks what it left, by this file's own numbers.
 
-usage: check_study.py DECK inputs/run DIR
+usage: check_study.py DECK inputs/run DIR [CASE...]
 """
 
 import csv
@@ -118,6 +118,8 @@ WITH_REFERENCE = {
     "drum": 3 + 2 + 2 * 2 + 2 * 2,
     "trb": 5 * 7 + 1 + 14 + 2 + 2,
 }
+# Cases that tests ask for: rows with a reference that others have.
+LEFT_OUT = {("settle", "nurbs", "ranks_*", "alone_*"): 3}  # triangles
 
 
 def check(condition: bool, complaint: str) -> None:
@@ -198,9 +200,11 @@ def check_smooth_wall(rows: dict, out: Path) -> None:
 def check_drum(rows: dict, out: Path) -> None:
     """The drum by its weight, and by torque times angular velocity, which is another column than the power."""
     for key, (expected, tolerance) in DRUM.items():
+        if key not in rows:  # of a case that was not asked for
+            continue
         value = rows[key]["value"]
         check(abs(value - expected) <= tolerance, f"{key}: {value}, expected {expected} +- {tolerance}")
-    for case in ("nurbs", "triangles"):
+    for case in {case for case, quantity in rows if quantity == "power" and "/" not in case}:
         with open(out / f"contact_force_{case}.csv", newline="", encoding="utf-8") as file:
             torque = [float(row["torque"]) for row in csv.DictReader(file) if float(row["t"]) > STEADY]
         power = OMEGA * sum(torque) / len(torque)
@@ -232,9 +236,9 @@ def check_trb(rows: dict, out: Path) -> None:
     check(0.5 < large / linear < 0.999, f"St. Venant-Kirchhoff / linear deflection {large / linear}, expected stiffer")
 
 
-def main(deck: str, run: str, out: Path) -> None:
+def main(deck: str, run: str, out: Path, cases: list[str]) -> None:
     shutil.rmtree(out, ignore_errors=True)
-    done = subprocess.run([run, deck, "--out", out], check=False)
+    done = subprocess.run([run, deck, "--out", out, *(f"--case={case}" for case in cases)], check=False)
     check(done.returncode == 0, f"inputs/run {deck} ended with code {done.returncode}")
     summary = json.loads((out / "summary.json").read_text(encoding="utf-8"))
     check(summary["deck"] == deck, f"deck is {summary['deck']}")
@@ -243,7 +247,8 @@ def main(deck: str, run: str, out: Path) -> None:
     for row in summary["rows"]:
         check_rule(row)
     compared = sum(row["reference"] is not None for row in summary["rows"])
-    check(compared == WITH_REFERENCE[deck], f"{compared} rows have a reference")
+    left_out = LEFT_OUT[tuple(cases)] if cases else 0
+    check(compared == WITH_REFERENCE[deck] - left_out, f"{compared} rows have a reference")
     if deck == "smooth_wall":
         check_smooth_wall(rows, out)
     elif deck == "drum":
@@ -258,9 +263,9 @@ def main(deck: str, run: str, out: Path) -> None:
                 check_force_history(history, Z2_DURATION / int(step[1]), int(step[1]))
             else:
                 check_force_history(history, dt=1e-8)
-    for name in FIGURES[deck]:
+    for name in [] if cases else FIGURES[deck]:
         check((out / name).stat().st_size > 20000, f"{name} is empty")
 
 
 if __name__ == "__main__":
-    main(sys.argv[1], sys.argv[2], Path(sys.argv[3]))
+    main(sys.argv[1], sys.argv[2], Path(sys.argv[3]), sys.argv[4:])
