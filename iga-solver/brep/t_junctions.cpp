@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "brep/sides.h"
+#include "nurbs/point_grid.h"
 
 namespace brep {
 namespace {
@@ -14,17 +15,15 @@ namespace {
 using Triangle = std::array<int, 3>;
 using OnSides = std::array<std::vector<int>, 3>;  // points on each side of a triangle, in its direction
 
-// Points in the cells of a grid, about one in each cell that a surface goes through.
-class PointGrid {
+// The corners that are looked for, in a grid with some in each cell that a surface goes through.
+class FreeCorners {
  public:
-  PointGrid(const NodalVectors& points, const std::vector<int>& numbers, double tolerance)
-      : points_(points), tolerance_(tolerance), low_(points.rowwise().minCoeff()) {
-    const double size = (points.rowwise().maxCoeff() - low_).norm();
-    cell_ = std::max(size / std::sqrt(static_cast<double>(numbers.size())), 4.0 * tolerance);
-    sorted_.reserve(numbers.size());
-    for (const int p : numbers) sorted_.emplace_back(cell_of(points.col(p)), p);
-    std::sort(sorted_.begin(), sorted_.end());
-    sorted_.erase(std::unique(sorted_.begin(), sorted_.end()), sorted_.end());
+  FreeCorners(const NodalVectors& points, const std::vector<int>& numbers, double tolerance)
+      : points_(points),
+        tolerance_(tolerance),
+        reach_(reach_of(points, numbers.size(), tolerance)),
+        grid_(reach_, numbers.size(), points.rowwise().minCoeff()) {
+    for (const int p : numbers) grid_.add(p, points.col(p));
   }
 
   /// Those within the tolerance of the line from a to b, and by more than that between these, in this order.
@@ -32,45 +31,29 @@ class PointGrid {
     found.clear();
     const Vector3 from = points_.col(a), way = points_.col(b) - from;
     const double length = way.norm();
-    const auto parts = static_cast<int>(std::ceil(length / cell_));
-    for (int part = 0; part < parts; ++part) {
-      const double begin = part * length / parts, end = (part + 1) * length / parts;
-      add(from, way / length, std::max(begin, std::nextafter(tolerance_, length)),
-          part + 1 < parts ? end : length - tolerance_, found);
-    }
+    const Vector3 along = way / length;
+    const auto parts = static_cast<int>(std::ceil(length / reach_));  // each in reach of its middle
+    for (int part = 0; part < parts; ++part)
+      grid_.for_each_near(from + (part + 0.5) / parts * way, [&](int p) {
+        const Vector3 to = points_.col(p) - from;
+        const double t = along.dot(to);
+        if (t > tolerance_ && t < length - tolerance_ && (to - t * along).norm() <= tolerance_)
+          found.emplace_back(t, p);
+      });
     std::sort(found.begin(), found.end());
+    found.erase(std::unique(found.begin(), found.end()), found.end());  // in reach of two
   }
 
  private:
-  using Cell = std::array<int, 3>;
-  Cell cell_of(const Vector3& x) const {
-    Cell cell;
-    for (int i = 0; i < 3; ++i) cell[i] = static_cast<int>(std::floor((x[i] - low_[i]) / cell_));
-    return cell;
-  }
-
-  // Of the part of a line from `begin` to before `end`.
-  void add(const Vector3& from, const Vector3& along, double begin, double end,
-           std::vector<std::pair<double, int>>& found) const {
-    const Vector3 p = from + begin * along, q = from + end * along;
-    const Cell low = cell_of(p.cwiseMin(q).array() - tolerance_),
-               high = cell_of(p.cwiseMax(q).array() + tolerance_);
-    for (int i = low[0]; i <= high[0]; ++i)
-      for (int j = low[1]; j <= high[1]; ++j) {
-        auto at = std::lower_bound(sorted_.begin(), sorted_.end(), std::make_pair(Cell{i, j, low[2]}, -1));
-        for (; at != sorted_.end() && at->first <= Cell{i, j, high[2]}; ++at) {
-          const Vector3 to = points_.col(at->second) - from;
-          const double t = along.dot(to);
-          if (t >= begin && t < end && (to - t * along).norm() <= tolerance_)
-            found.emplace_back(t, at->second);
-        }
-      }
+  static double reach_of(const NodalVectors& points, size_t count, double tolerance) {
+    constexpr double kReach = 0.25;
+    const double size = (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
+    return std::max(kReach * size / std::sqrt(static_cast<double>(count)), 4.0 * tolerance);
   }
 
   const NodalVectors& points_;
-  double tolerance_, cell_;
-  Vector3 low_;
-  std::vector<std::pair<Cell, int>> sorted_;
+  double tolerance_, reach_;  // [length]
+  nurbs::PointGrid grid_;
 };
 
 // A fan from the corner opposite to a side over the points on it; then the other sides, of its ends.
@@ -102,6 +85,8 @@ std::vector<int> ends_of_free_sides(const std::vector<Triangle>& triangles, cons
     const int side = matched.sides[matched.first[e]];
     for (const int i : {0, 1}) ends.push_back(triangles[piece_of_side(side)][(side % 4 + i) % 3]);
   }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   return ends;
 }
 
@@ -117,14 +102,14 @@ CutTriangles cut_at_t_junctions(const NodalVectors& points, const std::vector<Tr
     std::iota(result.number.begin(), result.number.end(), 0);
     return result;
   }
-  const PointGrid ends(points, free_ends, tolerance);
+  const FreeCorners corners(points, free_ends, tolerance);
   std::vector<OnSides> on(triangles.size());
   std::vector<std::pair<double, int>> found;
   for (size_t e = 0; e + 1 < matched.first.size(); ++e) {
     const int first = matched.sides[matched.first[e]];
     const int a = triangles[piece_of_side(first)][first % 4],
               b = triangles[piece_of_side(first)][(first % 4 + 1) % 3];
-    ends.between(a, b, found);
+    corners.between(a, b, found);
     for (int k = matched.first[e]; k < matched.first[e + 1] && !found.empty(); ++k) {
       const int t = piece_of_side(matched.sides[k]), i = matched.sides[k] % 4;
       std::vector<int>& on_side = on[t][i];
