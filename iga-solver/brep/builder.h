@@ -14,7 +14,7 @@ struct BuildReport {
   int collapsed = 0;    ///< left out: two of their points are one, or nothing but thin triangles is around
   int thin = 0;         ///< height below 1e-6 of the size: part of the plane beyond their longest side
   int duplicates = 0;   ///< left out: another one has the same points
-  int t_junctions = 0;  ///< corners on sides of other triangles, to within 1e-6 of the size: joined to them
+  int t_junctions = 0;  ///< corners on sides of other triangles (kOnSide in t_junctions.h): joined to them
   int worst_triangle = -1;    ///< of the least height
   double least_height = 0.0;  ///< its height [length]
 };

@@ -10,6 +10,10 @@
 
 namespace brep {
 
+/// Of the size of all triangles: how far a corner may be off a side that it lies on.  In files of six digits
+/// corners and sides are rounded each for itself.
+constexpr double kOnSide = 1e-5;
+
 struct CutTriangles {
   std::vector<std::array<int, 3>> corners;
   std::vector<int> number;  ///< of each: the triangle that it is part of

@@ -77,7 +77,7 @@ class FromTriangles {
   }
 
   void join_at_t_junctions() {
-    const CutTriangles cut = cut_at_t_junctions(points_, corner_, matched_, kSameplane * size_);
+    const CutTriangles cut = cut_at_t_junctions(points_, corner_, matched_, kOnSide * size_);
     report_.t_junctions = cut.junctions;
     if (cut.junctions == 0) return;
     std::vector<int> number;

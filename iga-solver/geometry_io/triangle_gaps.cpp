@@ -21,12 +21,11 @@ struct FreeEdge {
 class JoinedTriangles {
  public:
   explicit JoinedTriangles(const TriangleMesh& mesh)
-      : points_(mesh.points),
-        thin_(kSamePoint * (points_.rowwise().maxCoeff() - points_.rowwise().minCoeff()).norm()) {
+      : points_(mesh.points), size_((points_.rowwise().maxCoeff() - points_.rowwise().minCoeff()).norm()) {
     for (int t = 0; t < mesh.count(); ++t)
       cut_.corners.push_back({mesh.triangles[3 * t], mesh.triangles[3 * t + 1], mesh.triangles[3 * t + 2]});
     matched_ = brep::match(points_.cols(), cut_.corners);
-    cut_ = brep::cut_at_t_junctions(points_, cut_.corners, matched_, thin_);
+    cut_ = brep::cut_at_t_junctions(points_, cut_.corners, matched_, brep::kOnSide * size_);
     if (cut_.junctions > 0) matched_ = brep::match(points_.cols(), cut_.corners);
   }
 
@@ -49,12 +48,12 @@ class JoinedTriangles {
     double length[3];
     for (int i = 0; i < 3; ++i) length[i] = way(t, i).norm();
     const auto longest = static_cast<int>(std::max_element(length, length + 3) - length);
-    return way(t, 0).cross(way(t, 1)).norm() < thin_ * length[longest] &&
+    return way(t, 0).cross(way(t, 1)).norm() < kSamePoint * size_ * length[longest] &&
            matched_.mate[brep::side_number(t, longest)] < 0;
   }
 
   const nurbs::NodalVectors& points_;
-  double thin_;  // [length]
+  double size_;  // [length]
   brep::CutTriangles cut_;
   brep::MatchedSides matched_;
 };

@@ -52,7 +52,7 @@ struct JoinedMesh {
 JoinedMesh joined(const std::vector<const TriangleMesh*>& meshes);
 
 /// Edges that one triangle alone has and that hang together: the rim of a hole, or of a sheet.  Where corners
-/// lie on sides of other triangles, within kSamePoint of the size, there is none.
+/// lie on sides of other triangles there is none.
 struct Gap {
   int edges = 0;
   double length = 0.0;  ///< of all of them [length]

@@ -93,6 +93,22 @@ TEST(TJunctions, JoinRowsThatOverlapOnALine) {
     for (const double x : {-1e-3, 0.0, 1e-9}) EXPECT_EQ(trials::feet(floor, {x, y, 0.1}, 0.2).size(), 1u);
 }
 
+// As a file of six digits has them.
+TEST(TJunctions, JoinWhatIsRounded) {
+  for (const double off : {-4e-6, 4e-6, 4e-5}) {
+    Wall wall;
+    wall.add_quad({-1, 0, 0}, {0, 0, 0}, {0, 3, 0}, {-1, 3, 0});
+    wall.add_quad({0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, off});
+    wall.add_quad({0, 1, off}, {1, 1, 0}, {1, 3, 0}, {0, 3, 0});
+    BuildReport report;
+    const Surface floor = from_triangles(wall.coordinates(), wall.corners(), 0.02, &report);
+    const bool near = off < 1e-5 * floor.size;
+    EXPECT_EQ(report.t_junctions, near ? 1 : 0);
+    EXPECT_EQ(summary_of(floor).free, near ? 7 : 10);
+    EXPECT_EQ(trials::feet(floor, {1e-3, 1.2, 0.1}, 0.2).size(), near ? 1u : 2u);
+  }
+}
+
 // A side that is joined over a part of it alone is free elsewhere.
 TEST(TJunctions, LeaveFreeWhatNothingLiesBeside) {
   Wall wall;
