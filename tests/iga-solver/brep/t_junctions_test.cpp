@@ -17,6 +17,19 @@ namespace {
 
 using trials::Wall;
 
+// Whether a point would be taken to be on a side that it only lies near.
+bool nearly_on_a_side(const Wall& wall, const Vector3& x) {
+  constexpr double kOn = 1e-12, kNear = 1e-4;  // [length]
+  for (const std::array<int, 3>& t : wall.triangles)
+    for (int i = 0; i < 3; ++i) {
+      const Vector3 from = wall.points[t[i]], way = wall.points[t[(i + 1) % 3]] - from;
+      const double place = std::clamp((x - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
+      const double distance = (x - from - place * way).norm();
+      if (distance > kOn && distance < kNear) return true;
+    }
+  return false;
+}
+
 // Divides a side of a triangle, of it alone, at random places.
 void divide_a_side(Wall& wall, std::mt19937& random) {
   const int t = trials::whole(random, 0, static_cast<int>(wall.triangles.size()) - 1);
@@ -29,8 +42,10 @@ void divide_a_side(Wall& wall, std::mt19937& random) {
   for (int k = 1; k <= parts; ++k) {
     int next = b;
     if (k < parts) {
+      const Vector3 place = from + (k - trials::uniform(random, 0.2, 0.8)) / parts * way;
+      if (nearly_on_a_side(wall, place)) continue;
       next = static_cast<int>(wall.points.size());
-      wall.points.push_back(from + (k - trials::uniform(random, 0.2, 0.8)) / parts * way);
+      wall.points.push_back(place);
     }
     wall.triangles.push_back({last, next, c});
     last = next;
@@ -63,8 +78,8 @@ TEST(TJunctions, HaveTheFeetOfTheWallWithoutThem) {
       EXPECT_EQ(report.thin + report.collapsed, 0);
       EXPECT_EQ(summary_of(found).closed, summary_of(expected).closed);
       for (int n = 0; n < 100; ++n) {
-        const Vector3 d = trials::random_point(random, whole, n % trials::kPlaces) +
-                          1e-3 * expected.size * trials::random_direction(random);
+        Vector3 d = trials::random_point(random, whole, n % trials::kPlaces);
+        d += 1e-3 * expected.size * trials::random_direction(random);
         const std::vector<Vector3> a = sorted_feet(expected, d, 0.3 * expected.size),
                                    b = sorted_feet(found, d, 0.3 * expected.size);
         ASSERT_EQ(a.size(), b.size()) << "family " << family << ", wall " << k << ", point " << n;
