@@ -17,16 +17,38 @@ namespace {
 
 using trials::Wall;
 
-// Whether a point would be taken to be on a side that it only lies near.
-bool nearly_on_a_side(const Wall& wall, const Vector3& x) {
-  constexpr double kOn = 1e-12, kNear = 1e-4;  // [length]
+constexpr double kExact = 1e-12, kNear = 1e-4;  // [length]
+
+// Whether a corner would be taken to be on a side that it only lies near.
+bool has_corners_nearly_on_sides(const Wall& wall) {
   for (const std::array<int, 3>& t : wall.triangles)
     for (int i = 0; i < 3; ++i) {
       const Vector3 from = wall.points[t[i]], way = wall.points[t[(i + 1) % 3]] - from;
-      const double place = std::clamp((x - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
-      const double distance = (x - from - place * way).norm();
-      if (distance > kOn && distance < kNear) return true;
+      for (const Vector3& x : wall.points) {
+        const double place = std::clamp((x - from).dot(way) / way.squaredNorm(), 0.0, 1.0);
+        const double distance = (x - from - place * way).norm();
+        if (distance > kExact && distance < kNear) return true;
+      }
     }
+  return false;
+}
+
+// Whether two triangles that bend a little could be taken for one plane: the larger one's, and which is
+// larger depends on where they are divided.
+bool has_sides_that_nearly_lie_in_a_plane(const Wall& wall) {
+  const auto joined = [](const std::array<int, 3>& a, int point) {
+    return std::find(a.begin(), a.end(), point) != a.end();
+  };
+  for (const std::array<int, 3>& a : wall.triangles) {
+    const Vector3 o = wall.points[a[0]],
+                  n = (wall.points[a[1]] - o).cross(wall.points[a[2]] - o).normalized();
+    for (const std::array<int, 3>& b : wall.triangles)
+      for (int i = 0; i < 3; ++i) {
+        const double height = std::abs(n.dot(wall.points[b[i]] - o));
+        if (joined(a, b[(i + 1) % 3]) && joined(a, b[(i + 2) % 3]) && height > kExact && height < kNear)
+          return true;
+      }
+  }
   return false;
 }
 
@@ -42,10 +64,8 @@ void divide_a_side(Wall& wall, std::mt19937& random) {
   for (int k = 1; k <= parts; ++k) {
     int next = b;
     if (k < parts) {
-      const Vector3 place = from + (k - trials::uniform(random, 0.2, 0.8)) / parts * way;
-      if (nearly_on_a_side(wall, place)) continue;
       next = static_cast<int>(wall.points.size());
-      wall.points.push_back(place);
+      wall.points.push_back(from + (k - trials::uniform(random, 0.2, 0.8)) / parts * way);
     }
     wall.triangles.push_back({last, next, c});
     last = next;
@@ -68,9 +88,15 @@ TEST(TJunctions, HaveTheFeetOfTheWallWithoutThem) {
   int feet = 0, junctions = 0;
   for (int family = 0; family < trials::kFamilies; ++family)
     for (int k = 0; k < 8; ++k) {
-      const Wall whole = trials::random_wall(random, family);
+      Wall whole = trials::random_wall(random, family);
+      while (has_sides_that_nearly_lie_in_a_plane(whole)) whole = trials::random_wall(random, family);
       Wall divided = whole;
-      for (int n = trials::whole(random, 1, 12); n > 0; --n) divide_a_side(divided, random);
+      for (int n = trials::whole(random, 1, 12); n > 0; --n) {
+        const Wall before = divided;
+        divide_a_side(divided, random);
+        if (has_corners_nearly_on_sides(divided) || has_sides_that_nearly_lie_in_a_plane(divided))
+          divided = before;
+      }
       BuildReport report;
       const Surface expected = built(whole),
                     found = from_triangles(divided.coordinates(), divided.corners(), 0.02, &report);
