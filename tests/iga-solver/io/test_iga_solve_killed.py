@@ -11,7 +11,7 @@ import h5py
 import numpy
 from test_iga_solve import PROGRAM, IgaSolve, changed
 
-STEPS = 8
+STEPS = 4
 MODEL = changed(("every: 1e-3", "every: 1e-4"), ("time: {end: 0.1}", f"time: {{end: {STEPS}e-4, step: 1e-4}}"))
 
 
