@@ -36,8 +36,8 @@ bool has_corners_nearly_on_sides(const Wall& wall) {
 // Whether two triangles that bend a little could be taken for one plane: the larger one's, and which is
 // larger depends on where they are divided.
 bool has_sides_that_nearly_lie_in_a_plane(const Wall& wall) {
-  const auto joined = [](const std::array<int, 3>& a, int point) {
-    return std::find(a.begin(), a.end(), point) != a.end();
+  const auto has = [](const std::array<int, 3>& triangle, int point) {
+    return std::find(triangle.begin(), triangle.end(), point) != triangle.end();
   };
   for (const std::array<int, 3>& a : wall.triangles) {
     const Vector3 o = wall.points[a[0]],
@@ -45,7 +45,7 @@ bool has_sides_that_nearly_lie_in_a_plane(const Wall& wall) {
     for (const std::array<int, 3>& b : wall.triangles)
       for (int i = 0; i < 3; ++i) {
         const double height = std::abs(n.dot(wall.points[b[i]] - o));
-        if (joined(a, b[(i + 1) % 3]) && joined(a, b[(i + 2) % 3]) && height > kExact && height < kNear)
+        if (height > kExact && height < kNear && has(a, b[(i + 1) % 3]) && has(a, b[(i + 2) % 3]))
           return true;
       }
   }
