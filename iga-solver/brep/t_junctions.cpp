@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "brep/t_junctions.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -15,11 +17,28 @@ namespace {
 using Triangle = std::array<int, 3>;
 using OnSides = std::array<std::vector<int>, 3>;  // points on each side of a triangle, in its direction
 
+// Of each point: the least height of the triangles there [length].  A needle has none of its own: it may be
+// what rounding left of three points on a line.
+std::vector<double> least_heights(const NodalVectors& points, const std::vector<Triangle>& triangles) {
+  constexpr double kNeedle = 0.01;  // height to length
+  std::vector<double> least(points.cols(), std::numeric_limits<double>::infinity());
+  for (const Triangle& t : triangles) {
+    const Vector3 a = points.col(t[1]) - points.col(t[0]), b = points.col(t[2]) - points.col(t[0]);
+    const double longest = std::sqrt(std::max({a.squaredNorm(), b.squaredNorm(), (b - a).squaredNorm()}));
+    const double height = a.cross(b).norm() / longest;
+    if (height < kNeedle * longest) continue;
+    for (const int p : t) least[p] = std::min(least[p], height);
+  }
+  return least;
+}
+
 // The corners that are looked for, in a grid with some in each cell that a surface goes through.
 class FreeCorners {
  public:
-  FreeCorners(const NodalVectors& points, const std::vector<int>& numbers, double tolerance)
+  FreeCorners(const NodalVectors& points, const std::vector<Triangle>& triangles,
+              const std::vector<int>& numbers, double tolerance)
       : points_(points),
+        least_heights_(least_heights(points, triangles)),
         tolerance_(tolerance),
         reach_(reach_of(points, numbers.size(), tolerance)),
         grid_(reach_, numbers.size(), points.rowwise().minCoeff()) {
@@ -27,18 +46,20 @@ class FreeCorners {
   }
 
   /// Those within the tolerance of the line from a to b, and by more than that between these, in this order.
+  /// Where triangles are as small as the tolerance, it is a part of their height: they are no rounding.
   void between(int a, int b, std::vector<std::pair<double, int>>& found) const {
     found.clear();
     const Vector3 from = points_.col(a), way = points_.col(b) - from;
     const double length = way.norm();
     const Vector3 along = way / length;
+    const double beside = std::min(least_heights_[a], least_heights_[b]);
     const auto parts = static_cast<int>(std::ceil(length / reach_));  // each in reach of its middle
     for (int part = 0; part < parts; ++part)
       grid_.for_each_near(from + (part + 0.5) / parts * way, [&](int p) {
         const Vector3 to = points_.col(p) - from;
         const double t = along.dot(to);
-        if (t > tolerance_ && t < length - tolerance_ && (to - t * along).norm() <= tolerance_)
-          found.emplace_back(t, p);
+        const double near = std::min(tolerance_, kOfHeight * std::min(beside, least_heights_[p]));
+        if (t > near && t < length - near && (to - t * along).norm() <= near) found.emplace_back(t, p);
       });
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());  // in reach of two
@@ -51,7 +72,10 @@ class FreeCorners {
     return std::max(kReach * size / std::sqrt(static_cast<double>(count)), 4.0 * tolerance);
   }
 
+  static constexpr double kOfHeight = 0.1;
+
   const NodalVectors& points_;
+  std::vector<double> least_heights_;
   double tolerance_, reach_;  // [length]
   nurbs::PointGrid grid_;
 };
@@ -102,7 +126,7 @@ CutTriangles cut_at_t_junctions(const NodalVectors& points, const std::vector<Tr
     std::iota(result.number.begin(), result.number.end(), 0);
     return result;
   }
-  const FreeCorners corners(points, free_ends, tolerance);
+  const FreeCorners corners(points, triangles, free_ends, tolerance);
   std::vector<OnSides> on(triangles.size());
   std::vector<std::pair<double, int>> found;
   for (size_t e = 0; e + 1 < matched.first.size(); ++e) {

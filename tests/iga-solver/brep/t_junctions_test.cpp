@@ -150,6 +150,34 @@ TEST(TJunctions, JoinWhatIsRounded) {
   }
 }
 
+// An open cap beside a floor so large that all of the cap is within the tolerance of its own sides.
+TEST(TJunctions, LeaveSmallDetailsOfLargeFilesAlone) {
+  for (const double width : {3e-3, 8e-4}) {
+    Wall wall;
+    wall.add_quad({-50, -0.5, 0}, {50, -0.5, 0}, {50, 0.5, 0}, {-50, 0.5, 0});
+    const double height = width / 4;
+    const Vector3 at(1, 0.25, 0), up(0, 0, height);
+    const Vector3 rim[] = {at, at + Vector3(width, 0, 0), at + Vector3(width, width, 0),
+                           at + Vector3(0, width, 0)};
+    wall.add_quad(rim[0] + up, rim[1] + up, rim[2] + up, rim[3] + up);
+    for (int i = 0; i < 4; ++i) {
+      const Vector3 a = rim[i], b = rim[(i + 1) % 4], middle = 0.5 * (a + b);
+      wall.add_triangle(a, middle, a + up);
+      wall.add_triangle(middle, b, b + up);
+      wall.add_triangle(middle, b + up, a + up);
+    }
+    BuildReport report;
+    const Surface part = from_triangles(wall.coordinates(), wall.corners(), 0.02, &report);
+    EXPECT_EQ(report.t_junctions, 0);
+    EXPECT_EQ(part.faces.size(), 6u);
+    EXPECT_NEAR(summary_of(part).area, 100.0 + width * (width + 4.0 * height), 1e-12);
+    const Vector3 side = at + Vector3(0.4 * width, width + height / 4, height / 2);
+    const auto feet = trials::feet(part, side, height / 3);
+    ASSERT_EQ(feet.size(), 1u);
+    EXPECT_LT((feet[0].point - side + Vector3(0, height / 4, 0)).norm(), 1e-12);
+  }
+}
+
 // A side that is joined over a part of it alone is free elsewhere.
 TEST(TJunctions, LeaveFreeWhatNothingLiesBeside) {
   Wall wall;
