@@ -15,9 +15,10 @@ FaceSurface::FaceSurface(const ReferenceBody& body, const SkinPiece& piece)
       patch_(piece.patch),
       face_(nurbs::boundary_surface(body.patches[piece.patch].space, piece.face)),
       X_(body.patches[piece.patch].control_points(Eigen::all, face_.volume_control_point)),
-      rule_(nurbs::gauss_legendre(std::max(space().degree(0), space().degree(1)) + 2, 0.0, 1.0)),
-      along_{std::vector<nurbs::BasisFunctions>(rule_.points.size()),
-             std::vector<nurbs::BasisFunctions>(rule_.points.size())},
+      near_rule_(nurbs::gauss_legendre(std::max(space().degree(0), space().degree(1)) + 2, 0.0, 1.0)),
+      far_rule_(nurbs::gauss_legendre(std::max(space().degree(0), space().degree(1)) + 1, 0.0, 1.0)),
+      along_{std::vector<nurbs::BasisFunctions>(near_rule_.points.size()),
+             std::vector<nurbs::BasisFunctions>(near_rule_.points.size())},
       net_(4, space().functions_per_element()),
       R_(space().functions_per_element()) {}
 
@@ -109,42 +110,46 @@ double FaceSurface::size_of(int element, const Cell& cell) const {
 }
 
 // A traction falls as the square of the distance: a cell is cut in four for feet that are nearer than its
-// size, down to where more would change c by a millionth.
+// size, and far ones have fewer points, both so that more would change c by a millionth.
 void FaceSurface::integrate(int element, const Cell& cell, int depth, const std::vector<int>& feet_here,
                             const std::vector<SkinPoint>& feet,
                             const std::vector<HalfSpace>& half_spaces) const {
   constexpr int kDeepest = 4;
+  constexpr double kFar = 2.0;  // sizes
   if (feet_here.empty()) return;
   const nurbs::Parameter<2> middle = {0.5 * (cell.low[0] + cell.high[0]), 0.5 * (cell.low[1] + cell.high[1])};
   const Vector3 centre = place(element, middle);
   const double size = size_of(element, cell);
-  std::vector<int> near, far;
-  for (const int f : feet_here)
-    (depth < kDeepest && (feet[f].point - centre).norm() < size ? near : far).push_back(f);
+  std::vector<int> inside, near, far;
+  for (const int f : feet_here) {
+    const double distance = (feet[f].point - centre).norm();
+    (depth < kDeepest && distance < size ? inside : distance < kFar * size ? near : far).push_back(f);
+  }
   for (int quarter = 0; quarter < 4; ++quarter) {
     Cell part = cell;
     for (int d = 0; d < 2; ++d) ((quarter >> d & 1) != 0 ? part.low : part.high)[d] = middle[d];
-    integrate(element, part, depth + 1, near, feet, half_spaces);
+    integrate(element, part, depth + 1, inside, feet, half_spaces);
   }
-  add_cell(element, cell, far, feet, half_spaces);
+  add_cell(element, cell, near_rule_, near, feet, half_spaces);
+  add_cell(element, cell, far_rule_, far, feet, half_spaces);
 }
 
-void FaceSurface::add_cell(int element, const Cell& cell, const std::vector<int>& feet_here,
-                           const std::vector<SkinPoint>& feet,
+void FaceSurface::add_cell(int element, const Cell& cell, const nurbs::QuadratureRule& rule,
+                           const std::vector<int>& feet_here, const std::vector<SkinPoint>& feet,
                            const std::vector<HalfSpace>& half_spaces) const {
   if (feet_here.empty()) return;
   const double length[2] = {cell.high[0] - cell.low[0], cell.high[1] - cell.low[1]};
-  const auto points = static_cast<int>(rule_.points.size());
+  const auto points = static_cast<int>(rule.points.size());
   const nurbs::Indices<2> span = space().element_indices(element);
   for (int d = 0; d < 2; ++d)
     for (int i = 0; i < points; ++i)
       nurbs::evaluate_basis(space().knots(d), space().knots(d).span_of_element(span[d]),
-                            cell.low[d] + length[d] * rule_.points[i], 1, along_[d][i]);
+                            cell.low[d] + length[d] * rule.points[i], 1, along_[d][i]);
   for (int j = 0; j < points; ++j)
     for (int i = 0; i < points; ++i) {
       const Vector3 point = evaluate(along_[0][i], along_[1][j]);
       const double size = area_.norm();
-      const double weight = length[0] * rule_.weights[i] * length[1] * rule_.weights[j] * size;
+      const double weight = length[0] * rule.weights[i] * length[1] * rule.weights[j] * size;
       if (!(weight > 0.0)) continue;
       const Vector3 outward_normal = area_ / size;
       for (const int f : feet_here) {

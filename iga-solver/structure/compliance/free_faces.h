@@ -66,14 +66,15 @@ class FaceSurface {
   void integrate(int element, const Cell& cell, int depth, const std::vector<int>& feet_here,
                  const std::vector<SkinPoint>& feet, const std::vector<HalfSpace>& half_spaces) const;
   Vector3 evaluate(const nurbs::BasisFunctions& x, const nurbs::BasisFunctions& y) const;
-  void add_cell(int element, const Cell& cell, const std::vector<int>& feet_here,
-                const std::vector<SkinPoint>& feet, const std::vector<HalfSpace>& half_spaces) const;
+  void add_cell(int element, const Cell& cell, const nurbs::QuadratureRule& rule,
+                const std::vector<int>& feet_here, const std::vector<SkinPoint>& feet,
+                const std::vector<HalfSpace>& half_spaces) const;
 
   const ReferenceBody& body_;
   int patch_;
   nurbs::BoundarySurface face_;
   nurbs::NodalVectors X_;       // of the face's control points
-  nurbs::QuadratureRule rule_;  // on [0, 1], of both directions
+  nurbs::QuadratureRule near_rule_, far_rule_;  // on [0, 1], of both directions
   // Of the element that is integrated over, so that nothing is allocated point by point: functions along both
   // directions of a cell, points times weights and weights of the control points; functions and area vector.
   mutable std::array<std::vector<nurbs::BasisFunctions>, 2> along_;
