@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Two contacts near each other: what a mesh gives way at one foot under a force at another is taken as the
-// body's own, and nothing is taken off.  What is wrong then is at most a fifth of what is taken off for the
-// force itself if feet are one element apart, and a seventh from 5/4 of an element on.
+// body's own, and nothing is taken off.  What is wrong then is, of what is taken off for the force itself, at
+// most 9 % if feet are one element apart along the mesh, a fifth if across it, as its elements are longer
+// there, and a seventh from 5/4 of an element on.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -38,17 +39,22 @@ TEST(TwoForces, FeelEachOtherThroughTheMeshAsThroughTheBody) {
   structure::ComplianceTables tables(body, point_force::kTop);
   for (const Parameter<2>& foot : {Parameter<2>{7, 7}, {7.5, 7.5}, {7.2, 7.35}}) {
     std::vector<Parameter<2>> others;
-    std::vector<double> distances;
+    std::vector<double> distances, angles;
     for (const double s : {1.0, 1.25, 1.5, 2.0, 3.0, 4.0})
       for (const double angle : {0.0, 0.4, 0.785}) {
         others.push_back({foot[0] + s * std::cos(angle), foot[1] + s * std::sin(angle)});
         distances.push_back(s);
+        angles.push_back(angle);
       }
     const auto mesh = beside(1, foot, others), fine = beside(3, foot, others);
     const int element = static_cast<int>(foot[0]) + 14 * static_cast<int>(foot[1]);
     const double c = tables.direct(0, element, {foot[0] / kWide, foot[1] / kWide})(2, 2);
     for (std::size_t k = 0; k < others.size(); ++k) {
-      const double s = distances[k], most = s < 1.25 ? 0.21 : s < 2.0 ? 0.14 : s < 3.0 ? 0.065 : 0.02;
+      const double s = distances[k], beside = angles[k] == 0.0 ? 0.09 : 0.21,
+                   most = s < 1.25  ? beside
+                          : s < 2.0 ? 0.14
+                          : s < 3.0 ? 0.065
+                                    : 0.02;
       EXPECT_LT(std::abs(mesh[k] - fine[k]), most * c)
           << foot[0] << ' ' << foot[1] << ", " << others[k][0] << ' ' << others[k][1];
     }
