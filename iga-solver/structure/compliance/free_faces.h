@@ -73,7 +73,7 @@ class FaceSurface {
   const ReferenceBody& body_;
   int patch_;
   nurbs::BoundarySurface face_;
-  nurbs::NodalVectors X_;       // of the face's control points
+  nurbs::NodalVectors X_;                       // of the face's control points
   nurbs::QuadratureRule near_rule_, far_rule_;  // on [0, 1], of both directions
   // Of the element that is integrated over, so that nothing is allocated point by point: functions along both
   // directions of a cell, points times weights and weights of the control points; functions and area vector.
