@@ -149,11 +149,11 @@ void print(const char* what, const Counts& counts) {
 
 int main(int argc, char** argv) {
   step_parts::TriedFiles tried("What is inside of faces and solids, against OpenCASCADE's classifiers",
-                               "for each face and each solid", 200);
+                               "for each face, and three times as many for each solid", 200);
   return tried.run(argc, argv, [&](const std::string& file) {
     fmt::print("\n");
     Trial trial(file, tried.seed);
-    const Counts faces = trial.faces(tried.points), solids = trial.solids(tried.points);
+    const Counts faces = trial.faces(tried.points), solids = trial.solids(3 * tried.points);
     print("faces", faces), print("solids", solids);
     return faces.against + solids.against;
   });
