@@ -110,7 +110,7 @@ double FaceSurface::size_of(int element, const Cell& cell) const {
 }
 
 // A traction falls as the square of the distance: a cell is cut in four for feet that are nearer than its
-// size, and far ones have fewer points, both so that more would change c by a millionth.
+// size, and far ones have fewer points, both so that more would change c by some millionths.
 void FaceSurface::integrate(int element, const Cell& cell, int depth, const std::vector<int>& feet_here,
                             const std::vector<SkinPoint>& feet,
                             const std::vector<HalfSpace>& half_spaces) const {
