@@ -8,8 +8,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "coupling/contact/foot_motion.h"
-
 namespace contact {
 
 // With c > 0 the left side is concave and Newton's steps come up from below; with c < 0 it is convex, and
@@ -112,18 +110,6 @@ bool ComplianceCorrection::damped(const ParticleView& particles, const Time& now
   return kept.is_on();
 }
 
-// As the wall now is.
-SurfaceDirections ComplianceCorrection::directions_at(const Contact& contact) const {
-  const nurbs::MultiPatch& surface = wall_.surface();
-  const int patch = contact.foot.patch;
-  const FootMotion motion =
-      foot_motion(surface.patch(patch), contact.foot.xi, wall_.control_points(),
-                  surface.first_control_point(patch), wall_.to_frame_direction(contact.delta));
-  SurfaceDirections directions{{}, motion.rates};
-  for (int j = 0; j < 2; ++j) directions.tangents.col(j) = wall_.to_space_direction(motion.tangents.col(j));
-  return directions;
-}
-
 void ComplianceCorrection::correct(const ParticleView& particles, const Time& now, const ContactModel& model,
                                    Contact& contact, Before& before) {
   const int i = contact.particle;
@@ -146,7 +132,7 @@ void ComplianceCorrection::correct(const ParticleView& particles, const Time& no
     seen = elastic(approach, K, c.normal.c, contact);
   }
   if (seen.s >= kLargest) fail_as_too_fine(particles, now.step, contact, seen.s);
-  const SurfaceDirections directions = directions_at(contact);
+  const SurfaceDirections directions = SurfaceDirections::at(wall_, contact.foot, contact.delta);
   before.has_tangents = true;
   before.tangents = directions.tangents;
   before.along = -0.5 * seen.force * seen.force * directions.gradient(c.normal.change);

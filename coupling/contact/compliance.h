@@ -94,7 +94,6 @@ class ComplianceCorrection {
   void correct_shear(const ParticleView& particles, const Time& now, const ContactModel::Shear& shear,
                      const Spring& spring, const coupling::LocalCompliance::Value& c,
                      const SurfaceDirections& directions, Contact& contact, Before& before);
-  SurfaceDirections directions_at(const Contact& contact) const;
 
   coupling::LocalCompliance& compliance_;
   const Wall& wall_;

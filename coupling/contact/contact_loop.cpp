@@ -54,6 +54,7 @@ void ContactLoop::build_list(const ParticleView& particles, const ListReach& rea
   tracker_->list_is_new();
   tracker_->go_on({particles.tag, particles.x, list_reach_.data()});
   surface_motion_ = 0.0;
+  list_is_new_ = true;
   forget_lost_contacts(particles);
 }
 
@@ -111,6 +112,7 @@ void ContactLoop::step(const ParticleView& particles, const StepInfo& step, Cont
     for (int k = 0; k < count; ++k) find_contacts(particles, step, queries[k]);
     answer(particles, step, model, observer, first);
   }
+  list_is_new_ = false;
 }
 
 // The next candidates that may touch, from number `candidate` on: those that may be steady, and `count`
@@ -189,7 +191,7 @@ namespace {
 constexpr double kDeep = 0.5;  // of the radius
 
 // The side changes where the branch goes on to another patch or, of one that is cut, to another part, and
-// where the centre passes the surface.
+// where the centre passes the surface; and somebody may have put the particle elsewhere before a new list.
 bool keeps_side(const ContactSlot& slot, const TrackedFoot& tracked, double radius) {
   return slot.is_beside(tracked.foot.patch) && (tracked.side == 0 || tracked.side == slot.side()) &&
          tracked.foot.distance >= kDeep * radius;
@@ -260,11 +262,11 @@ inline void ContactLoop::find_contacts(const ParticleView& particles, const Step
     if (touches) {
       const int slot = tracked.slot = take_slot(particles, step, i, tracked, slots, delta);
       Contact& contact = add_contact(particles, i, foot.at(), slot, foot.distance, delta, v_wall);
-      contact.inside =
-          foot.distance < 0.0 || (wall_.has_inside(foot.patch) && wall_.is_inside(foot, delta, tracked.side));
+      ContactSlot own = slots.slot(slot);
+      contact.inside = foot.distance < 0.0 || wall_.is_inside(foot, own.side());
       contact.effective_radius =
           options_.curvature_radius ? wall_.effective_radius(foot, delta, radius) : radius;
-      contact.history = slots.slot(slot).history();
+      contact.history = own.history();
     } else if (tracked.slot >= 0) {
       slots.slot(tracked.slot).clear();
       tracked.slot = -1;
@@ -300,7 +302,7 @@ inline int ContactLoop::take_slot(const ParticleView& particles, const StepInfo&
     throw TooManyContacts(fmt::format("particle {} touches the wall in more than {} places at step {}",
                                       particles.tag[i], slots.slot_count(), step.number));
   ContactSlot slot = slots.slot(place);
-  if (keeps_side(slot, tracked, particles.radius[i]))
+  if (!list_is_new_ && keeps_side(slot, tracked, particles.radius[i]))
     slot.set_parameters(tracked.foot.at());
   else
     slot.set_foot(tracked.foot.at(), tracked.side != 0 ? tracked.side : wall_.side_of(tracked.foot, delta));

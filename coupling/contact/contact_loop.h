@@ -157,6 +157,7 @@ class ContactLoop {
   std::unique_ptr<ComplianceCorrection> correction_;  // null: none asked for
   std::unique_ptr<MeshEstimate> mesh_;                // null: no solid whose mesh is known
   FeetKernel kernel_;
+  bool list_is_new_ = true;           // no step since it was built
   double surface_motion_ = 0.0;       // of a deforming wall since the list was built
   double wall_travel_ = 0.0;          // in a step, when the list was built [length]
   std::vector<double> list_reach_;    // per particle, when the list was built

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Directions along a wall of patches as it now is: what changes along the surface is worked out with.
+// Directions along a wall of patches as it now is, and how a foot moves along them with the centre above it:
+// what changes along the surface is worked out with.  From (centre - S) . S_i = 0:
+//   (S_i . S_j - delta . S_ij) d(xi_j) = S_i . d(centre) - sum over A of (R_A S_i - R_A,i delta) . d(X_A),
+// so over a hill the foot is slower than the centre, and in a hollow faster; and what moves it by turning
+// the surface below the centre, the last term, is a couple for a force that depends on the foot.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/LU>
 #include <array>
 
 #include "coupling/contact/wall.h"
@@ -11,7 +15,15 @@ namespace contact {
 
 struct SurfaceDirections {
   Eigen::Matrix<double, 3, 2> tangents;  ///< S_j of the patch, in space [length]
-  Eigen::Matrix2d rates;                 ///< foot_motion.h [1/length^2]
+  Eigen::Matrix2d rates;                 ///< of the foot's parameters by S_i . d(centre) [1/length^2]
+
+  /// At a foot of a wall that deforms; `delta`: from there to the centre, in space [length].
+  static SurfaceDirections at(const Wall& wall, const nurbs::SurfacePoint& foot, const Vector3& delta) {
+    const auto [S_i, hessian] = wall.slopes(foot, wall.to_frame_direction(delta));
+    SurfaceDirections directions{{}, hessian.inverse()};
+    for (int j = 0; j < 2; ++j) directions.tangents.col(j) = wall.to_space_direction(S_i.col(j));
+    return directions;
+  }
 
   /// Of what changes with the parameters like this, the gradient with the centre's place along S_j.
   Eigen::Vector2d gradient(const std::array<double, 2>& change) const {

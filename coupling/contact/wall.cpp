@@ -32,7 +32,8 @@ Wall::Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange
       exchange_(exchange),
       is_closed_(any_inside(structure.surface())),
       surface_(structure.surface().topology),
-      shape_(shape_of(structure.surface(), surface_, exchange.positions(), edge_angle)) {
+      shape_(shape_of(structure.surface(), surface_, exchange.positions(), edge_angle)),
+      patches_(dynamic_cast<const PatchShape*>(shape_.get())) {
   if (inverse_masses().cols() > 0) largest_inverse_mass_ = inverse_masses().maxCoeff();
 }
 
@@ -86,12 +87,6 @@ Vector3 Wall::velocity_of_deforming(const Foot& foot) const {
 
 int Wall::side_of(const Foot& foot, const Vector3& delta) const {
   return shape_->normal_at(foot).dot(to_frame_direction(delta)) < 0.0 ? -1 : 1;
-}
-
-bool Wall::is_inside(const Foot& foot, const Vector3& delta, int side) const {
-  const int sign = shape_->outward_sign(foot.patch);
-  if (sign == 0 || foot.status != search::FootStatus::interior) return false;
-  return sign * (side != 0 ? side : side_of(foot, delta)) < 0;
 }
 
 Vector3 Wall::leave(Foot& foot, const Vector3& delta, int known_side, double radius, const Vector3& x,

@@ -6,6 +6,7 @@
 
 #include "coupling/contact/wall_shape.h"
 #include "coupling/surface_exchange.h"
+#include "nurbs/assert.h"
 #include "nurbs/multi_patch.h"
 
 namespace contact {
@@ -81,13 +82,19 @@ class Wall {
     return v;
   }
 
+  /// Of a wall that deforms, at a foot; all in its frame.
+  search::SurfaceProjector::Slopes slopes(const nurbs::SurfacePoint& foot, const Vector3& delta) const {
+    NURBS_ASSERT(patches_, foot.patch);
+    return patches_->patch(foot.patch).slopes(foot.xi, delta);
+  }
   /// +1 where dS/dxi x dS/deta points, -1 on the other side.
   int side_of(const Foot& foot, const Vector3& delta) const;
-  bool has_inside(int patch) const { return is_closed_ && shape_->outward_sign(patch) != 0; }
   /// Whether a centre on this side of a patch, above a foot inside it, is inside the body.
   bool is_inside(int patch, int side) const { return is_closed_ && shape_->outward_sign(patch) * side < 0; }
-  /// Whether a centre is inside the body; `side`: as side_of() has it, 0: nobody has looked.
-  bool is_inside(const Foot& foot, const Vector3& delta, int side) const;
+  /// The same above any foot; outside an edge's or a corner's neither side of the patch is the inside.
+  bool is_inside(const Foot& foot, int side) const {
+    return foot.status == search::FootStatus::interior && is_inside(foot.patch, side);
+  }
   /// A centre nearer than this is on the surface [length].
   double resolution() const { return resolution_; }
   /// A centre on the surface has no direction of its own: takes it off along the normal, by so little that
@@ -110,6 +117,7 @@ class Wall {
   bool is_closed_;             // some patch has an inside
   nurbs::MultiPatch surface_;  // of the structure; welded across periodic faces, too
   std::unique_ptr<WallShape> shape_;
+  const PatchShape* patches_;  // the same; null: of faces, which do not deform
   search::Box bounds_;
   coupling::RigidFrame frame_;
   double resolution_ = 0.0, largest_inverse_mass_ = 0.0;

@@ -66,6 +66,7 @@ class PatchShape final : public WallShape {
   nurbs::Vector3 normal_at(const search::Foot& foot) const override;
   nurbs::SurfaceShape shape_near(const search::Foot& foot) const override;
   int outward_sign(int patch) const override { return outward_sign_[patch]; }
+  const search::SurfaceProjector& patch(int p) const { return projector_.patch(p); }
 
  private:
   const nurbs::MultiPatch& surface_;

@@ -212,6 +212,7 @@ void evaluate(int p, int q, const double* element, const double (&s)[2], const d
   for (int i = 0; i < 3; ++i) {
     out.metric[i] = metric[i], out.hessian[i] = metric[i] + bend[i];
     out.r[i] = r[i], out.S_i[0][i] = S.f_0[i], out.S_i[1][i] = S.f_1[i];
+    out.S_ij[0][i] = S.f_00[i], out.S_ij[1][i] = S.f_01[i], out.S_ij[2][i] = S.f_11[i];
   }
 }
 

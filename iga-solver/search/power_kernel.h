@@ -23,7 +23,7 @@ struct DistanceJet {
   double gradient[2];  ///< r.S_i with r = S - d
   double metric[3];    ///< S_i.S_j
   double hessian[3];   ///< S_i.S_j + r.S_ij
-  double r[3], S_i[2][3];
+  double r[3], S_i[2][3], S_ij[3][3];
 };
 
 /// The control points of one element.

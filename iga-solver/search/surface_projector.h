@@ -94,18 +94,33 @@ class SurfaceProjector {
   void all_minima_on(const Vector3& d, double reach, const int* elements, int count,
                      std::vector<Foot>& out) const;
 
+  /// Derivatives of S at xi, and of |S - d|^2 / 2 where d = S + delta (`delta`: normal to the surface, if xi
+  /// is d's foot).
+  struct Slopes {
+    Eigen::Matrix<double, 3, 2> S_i;  ///< [length]
+    Eigen::Matrix2d hessian;          ///< S_i . S_j - delta . S_ij [length^2]
+  };
+  Slopes slopes(const Parameter<2>& xi, const Vector3& delta) const {
+    const Start at = start(xi);
+    const DistanceJet jet = this->jet(at, Vector3::Zero());
+    Eigen::Vector2d scale;  // from the derivatives by local coordinates
+    for (int i = 0; i < 2; ++i) scale[i] = elements_.axis(i, at.at.e[i]).per_half_width;
+    Slopes slopes;
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j)
+        slopes.hessian(i, j) =
+            scale[i] * scale[j] * (jet.metric[i + j] - delta.dot(Vector3::Map(jet.S_ij[i + j])));
+    for (int i = 0; i < 2; ++i) slopes.S_i.col(i) = scale[i] * Vector3::Map(jet.S_i[i]);
+    return slopes;
+  }
   /// A point of the surface with its derivatives by local coordinates of its element, which are the
   /// parameters' but for a factor each [length].
   struct Tangents {
     Vector3 point, along[2];
   };
   Tangents tangents(const Parameter<2>& xi) const {
-    const Start at = start(xi);
-    const ElementKernel& kernel = elements_.kernel();
-    constexpr double kOrigin[3] = {0.0, 0.0, 0.0};
-    DistanceJet jet;
-    kernel.evaluate(kernel.p, kernel.q, at.element.row, at.at.s, kOrigin, jet);
-    return {Vector3::Map(jet.r), {Vector3::Map(jet.S_i[0]), Vector3::Map(jet.S_i[1])}};
+    const DistanceJet at = jet(start(xi), Vector3::Zero());
+    return {Vector3::Map(at.r), {Vector3::Map(at.S_i[0]), Vector3::Map(at.S_i[1])}};
   }
 
   const Space<2>& space() const { return space_; }
@@ -118,6 +133,13 @@ class SurfaceProjector {
   LocalPoint local(const Parameter<2>& xi) const {
     const ElementAxis::Place u = elements_.axis(0).locate(xi[0]), v = elements_.axis(1).locate(xi[1]);
     return {{u.e, v.e}, {u.s, v.s}};
+  }
+  DistanceJet jet(const Start& at, const Vector3& d) const {
+    const ElementKernel& kernel = elements_.kernel();
+    const double point[3] = {d[0], d[1], d[2]};
+    DistanceJet jet;
+    kernel.evaluate(kernel.p, kernel.q, at.element.row, at.at.s, point, jet);
+    return jet;
   }
   // Newton's method alone.
   NewtonEnd newton(const Vector3& d, const Start& start) const {

@@ -86,13 +86,25 @@ struct Polynomials {
   using Values = Eigen::Array<double, count, 1>;
 
   Polynomials(const double* first, const std::array<int, 2>& counts, double s, double t) {
+    if (counts[0] == 5 && counts[1] == 5)  // of degree 2
+      add<5>(first, counts, s, t);
+    else
+      add<0>(first, counts, s, t);
+  }
+  Values c = Values::Zero(), by_s = c, by_t = c;
+
+ private:
+  /// `known`: counts in both directions, or 0 where they are known at run time only.
+  template <int known>
+  void add(const double* first, const std::array<int, 2>& counts, double s, double t) {
     constexpr int kLine = 64 / sizeof(double);
-    const double* next = first + static_cast<std::ptrdiff_t>(count) * counts[0] * counts[1];
+    const int in_s = known > 0 ? known : counts[0], in_t = known > 0 ? known : counts[1];
+    const double* next = first + static_cast<std::ptrdiff_t>(count) * in_s * in_t;
     for (const double* line = first; line < next; line += kLine) __builtin_prefetch(line);
-    c = by_s = by_t = Values::Zero();
-    for (int j = counts[1]; j > 0; --j) {
-      Values value = Values::Zero(), change = value;
-      for (int i = counts[0]; i > 0; --i) {
+    for (int j = in_t; j > 0; --j) {
+      next -= count;
+      Values value = Values::Map(next), change = Values::Zero();
+      for (int i = in_s - 1; i > 0; --i) {
         next -= count;
         change = change * s + value;
         value = value * s + Values::Map(next);
@@ -102,7 +114,6 @@ struct Polynomials {
       by_s = by_s * t + change;
     }
   }
-  Values c, by_s, by_t;
 };
 
 /// An element's own parameter, from -1 to 1, and its change with that of the patch.
