@@ -330,6 +330,23 @@ TEST(ContactLoop, RaisesAlarms) {
   EXPECT_EQ(scene.loop.inside().count, 0);
 }
 
+// Its contact goes on, and keeps its slot: on a curved patch, whose feet are followed.
+TEST(ContactLoop, ABallThatIsPutElsewhereHasAnotherSide) {
+  nurbs::Surface hill = floor();
+  hill.control_points(2, hill.control_points.cols() / 2) += 0.1;
+  RigidSurface wall({hill}, {1});
+  Balls balls(1);
+  balls.add({0.3, 0.2, 0.4}, kRadius);
+  BallsOnWall scene(wall, balls, 1.0, 1.0);
+  ASSERT_EQ(scene.loop.contacts().size(), 1u);
+  EXPECT_EQ(scene.loop.inside().count, 0);
+  scene.balls.centre(0)[2] = -0.4;
+  scene.build_list();
+  scene.evaluate();
+  ASSERT_EQ(scene.loop.contacts().size(), 1u);
+  EXPECT_EQ(scene.loop.inside().count, 1);
+}
+
 TEST(ContactLoop, SaysWhatIsTooManyOrNotFinite) {
   RigidSurface wall(corner());
   Balls balls(1);

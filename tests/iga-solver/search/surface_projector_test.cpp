@@ -69,6 +69,31 @@ TEST(SurfaceProjector, PowerFormIsTheSurface) {
   }
 }
 
+// Derivatives by the patch's parameters, of a distance that any foot could have.
+TEST(SurfaceProjector, SlopesAreThoseOfTheBasis) {
+  shapes::Random random(22);
+  for (int k = 0; k < 40; ++k) {
+    const Surface surface = shapes::random_patch<2>(random, 5, 3, k % 2 == 1);
+    const SurfaceProjector projector(surface.space, surface.control_points);
+    const Parameter<2> xi = shapes::random_parameter(random, surface.space);
+    const Vector3 delta = shapes::point_near_square(random);
+    RationalBasis<2> basis;
+    evaluate(surface.space, xi, 2, basis);
+    Eigen::Matrix<double, 3, 2> S_i = Eigen::Matrix<double, 3, 2>::Zero();
+    Eigen::Matrix2d bend = Eigen::Matrix2d::Zero();
+    for (int a = 0; a < basis.count; ++a) {
+      const Vector3 P = surface.control_points.col(basis.control_point[a]);
+      for (int i = 0; i < 2; ++i) {
+        S_i.col(i) += basis.dR[i][a] * P;
+        for (int j = 0; j < 2; ++j) bend(i, j) += basis.d2R[i + j][a] * delta.dot(P);
+      }
+    }
+    const SurfaceProjector::Slopes slopes = projector.slopes(xi, delta);
+    EXPECT_LT((slopes.S_i - S_i).norm(), 1e-12 * (1.0 + S_i.norm())) << k;
+    EXPECT_LT((slopes.hessian - (S_i.transpose() * S_i - bend)).norm(), 1e-10 * (1.0 + bend.norm())) << k;
+  }
+}
+
 // Nothing the judge finds, and nothing on a dense grid, is nearer than a cold result.
 TEST(SurfaceProjector, ColdIsTheNearest) {
   shapes::Random random(22);
