@@ -37,6 +37,17 @@ CorrectedOverlap corrected_overlap(double overlap, double c, double K, double li
   return at;
 }
 
+// x - c (K x^(3/2) + stiffness x) = overlap + c force
+DampedOverlap damped_overlap(double overlap, const DampedLaw& law, const DampedApproach::Damper& damper,
+                             double limit) {
+  const double share = 1.0 - law.give * damper.stiffness, left = (overlap + law.give * damper.force) / share;
+  DampedOverlap at{left, 1.0 - share, damper.force + damper.stiffness * left};
+  if (!(left > 0.0)) return at;
+  const CorrectedOverlap own = corrected_overlap(left, law.give / share, law.K, limit);
+  return {own.x, 1.0 - share * (1.0 - own.s),
+          law.K * own.x * own.root + damper.force + damper.stiffness * own.x};
+}
+
 namespace {
 
 [[noreturn]] void fail_as_too_fine(const ParticleView& particles, long step, const Contact& contact,
@@ -87,7 +98,7 @@ double ComplianceCorrection::held_gap(const ParticleSlots& slots, int history_co
 ComplianceCorrection::Seen ComplianceCorrection::elastic(double approach, double K, double c,
                                                          const Contact& contact) const {
   const auto [x, s, root] = corrected_overlap(contact.overlap, c, K, kLargest);
-  return {x, root, approach / (1.0 - s), s, K * x * root, 0.0};
+  return {x, root, approach / (1.0 - s), s, K * x * root, 0.0, 0.0};
 }
 
 // The law is called with the x that is kept, and with a rate by which its force is that of both.
@@ -99,10 +110,8 @@ bool ComplianceCorrection::damped(const ParticleView& particles, const Time& now
   DampedApproach kept(memory);
   kept.advance(contact.overlap, approach - of_surface, of_surface, dt);
   if (kept.is_on()) {
-    const double damping = kept.damping(law), left = contact.overlap + law.give * damping;
-    const CorrectedOverlap own =
-        left > 0.0 ? corrected_overlap(left, law.give, law.K, kLargest) : CorrectedOverlap{0.0, 0.0, 0.0};
-    seen = {kept.x(), kept.root(), 0.0, own.s, law.K * own.x * own.root + damping, kept.dashpot(law)};
+    const DampedOverlap own = damped_overlap(contact.overlap, law, kept.damper(law, dt), kLargest);
+    seen = {kept.x(), kept.root(), 0.0, own.s, own.force, kept.dashpot(law), kept.damper(law, dt).stiffness};
     seen.rate = (seen.force - law.K * seen.x * seen.root) / seen.dashpot;
     if (!now.is_setup) kept.observe(law, contact.overlap + law.give * seen.force, dt);
   }
@@ -139,7 +148,8 @@ void ComplianceCorrection::correct(const ParticleView& particles, const Time& no
   const double way = now.dt * std::abs(seen.rate);
   before.dashpot = seen.dashpot;
   before.stiffness = 1.5 * K * seen.root;
-  before.tangent = (way > seen.x ? 1.5 * K * std::sqrt(way) : before.stiffness) / (1.0 - seen.s);
+  before.tangent =
+      ((way > seen.x ? 1.5 * K * std::sqrt(way) : before.stiffness) + seen.damper) / (1.0 - seen.s);
   contact.wall_velocity += (seen.rate - approach) * n;
   const double distance = contact.distance + contact.overlap - seen.x;
   contact.delta *= distance * of_distance;

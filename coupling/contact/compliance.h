@@ -32,6 +32,14 @@ struct CorrectedOverlap {
 /// it is left there, and at the solution it is no smaller.
 CorrectedOverlap corrected_overlap(double overlap, double c, double K, double limit);
 
+/// The same with a damper beside the law whose force is that of DampedApproach::Damper; `s` is what both give
+/// way, c (dF/dx), and `x` less than 0 where the damper alone pulls.
+struct DampedOverlap {
+  double x, s, force;  // [force]
+};
+DampedOverlap damped_overlap(double overlap, const DampedLaw& law, const DampedApproach::Damper& damper,
+                             double limit);
+
 class ComplianceCorrection {
  public:
   /// Up to this s a point force will do, as the mesh cannot tell it from the contact's disc (theory.md); near
@@ -81,6 +89,7 @@ class ComplianceCorrection {
     double s;        // where the elastic force is
     double force;    // [force]
     double dashpot;  // [force time/length]
+    double damper;   // how stiff it is at once [force/length]
   };
   Seen elastic(double approach, double K, double c, const Contact& contact) const;
   bool damped(const ParticleView& particles, const Time& now, const DampedLaw& law, const Vector3& n,

@@ -12,11 +12,16 @@
 // 1964) with a triple pole:
 //
 //   dx/dt = v + u + 3 omega e,   du/dt = w + 3 omega^2 e,   dw/dt = omega^3 e,   e = overlap + c F - x,
-//   1/omega = c gamma/(1 - s) + h/c_s + kSlow (m/S)^(1/2),   S = dF/dx,  s = c S.
+//   1/omega = 2 c gamma/(1 - s) + h/c_s + kSlow (m/S)^(1/2),   S = dF/dx,  s = c S.
 //
-// Faster than the first term it would answer its own force before the dent does, which takes the second; the
-// third is a fraction of how long contacts last.  A body that stands beyond the dent, or is pushed away
+// Faster than half the first term it would answer its own force before the dent does, which takes the second;
+// the third is a fraction of how long contacts last.  A body that stands beyond the dent, or is pushed away
 // evenly, is known exactly, whatever the dent does.
+//
+// The damper's rate is v + u + omega e.  Where the body vibrates with the frequency f it then has
+//   (omega^3 - omega f^2 + 3 i omega^2 f) / (omega + i f)^3
+// of the body's speed, whose real part is never negative: whatever the frequency, the damper takes energy.
+// Without omega e it would feed all that is faster than 1.6 omega, as long as the contact lasts.
 #pragma once
 
 namespace contact {
@@ -44,9 +49,12 @@ class DampedApproach {
   double x() const { return x_; }
   double root() const { return root_ * root_; }  ///< x^(1/2), where it is on
   double rate() const { return rate_; }
-  /// gamma [force time/length] and the force of it.
-  double dashpot(const DampedLaw& law) const { return law.D * root_; }
-  double damping(const DampedLaw& law) const { return dashpot(law) * rate_; }
+  double dashpot(const DampedLaw& law) const { return law.D * root_; }  ///< gamma [force time/length]
+  /// The damper's force, which depends on what its force leaves of the overlap: force + stiffness x.
+  struct Damper {
+    double force, stiffness;  ///< [force], [force/length]
+  };
+  Damper damper(const DampedLaw& law, double dt) const;
   /// With the overlap that its force F leaves, x = overlap + c F.
   void observe(const DampedLaw& law, double x, double dt);
   void keep(double* memory) const { memory[0] = x_, memory[1] = u_, memory[2] = w_; }
@@ -55,8 +63,10 @@ class DampedApproach {
   static double held_gap(const double* memory) { return memory[0] > 0.0 ? kDent * memory[0] : 0.0; }
 
  private:
+  double turn(const DampedLaw& law, double dt) const;
+
   static constexpr double kOver = -1.0, kDent = 10.0, kSlow = 0.15;
-  double x_, u_, w_;  // x = 0: new; kOver
+  double x_, u_, w_;  // x = 0: new; kOver: w is the least overlap since
   double rate_ = 0.0;
   double root_ = 0.0;  // x^(1/4) as it presses
 };

@@ -17,8 +17,9 @@ struct PeriodicBox {
 /// One box length along each periodic direction [length].
 std::vector<nurbs::Vector3> periods(const PeriodicBox& box);
 
-/// By how much the wall must be moved so that it comes within `reach` of the box: 0 first, then sums of at
-/// most one period per direction [length].  Bounds of the wall in its frame.
+/// By how much the wall must be moved so that it comes within `reach` of the box [length]: 0 first, then
+/// those that are at most one period per direction from where it is nearest to the middle of the box.  Bounds
+/// of the wall in its frame.
 std::vector<nurbs::Vector3> wall_images(const PeriodicBox& box, const search::Box& wall,
                                         const coupling::RigidFrame& frame, double reach);
 

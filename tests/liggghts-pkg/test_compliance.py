@@ -213,6 +213,39 @@ class Damping(unittest.TestCase):
             self.assertLess(abs(self.restitution(law) / law - 1.0), 0.01, law)
 
 
+class Rest(unittest.TestCase):
+    """A ball comes to rest on a strip that nothing damps: what the contact takes from it, or gives to it, is all there is."""
+
+    STRIP = """units: si
+geometry: {box: {origin: [-0.01, -0.002, -0.0007], size: [0.02, 0.004, 0.0007], elements: [12, 2, 1], degree: [2, 2, 3]}}
+material: {law: linear_elastic, youngs_modulus: 2e9, poissons_ratio: 0.35, density: 1200}
+boundary: [{fix: [x, y, z], faces: [xi-, xi+]}]
+surfaces: {top: zeta+}
+"""
+
+    def energies(self, restitution):
+        """Of ball and strip in steps without contact, over that of the beginning."""
+        speed, gravity = 0.1, 30.0
+        mass = 4.0 / 3.0 * np.pi * bob.RADIUS**3 * bob.DENSITY
+        deck = bob.prelude(
+            ball=(70e9, 0.22), wall=(2e9, 0.35), restitution=restitution, friction=0.3, models=MODELS, timestep=1.3e-7,
+            balls=((0.3e-3, 0.1e-3, bob.RADIUS),), velocity=(0.0, 0.0, -speed),
+        )  # fmt: skip
+        deck += f"fix gravity all gravity {gravity} vector 0 0 -1\n" + bob.wall(MODELS, CORRECTED) + bob.output((3, 15, 16), every=100)
+        table = decks.good(deck + "run 100000\n", files={"block.yaml": self.STRIP}).table
+        total = 0.5 * mass * sum(table[f"v{d}"] ** 2 for d in "xyz") + mass * gravity * (table["z"] - bob.RADIUS)
+        total += table["plate15"] + table["plate16"]
+        return total[table["plate3"] == 0.0] / (0.5 * mass * speed**2)
+
+    def test_a_damped_contact_never_gives_energy(self):
+        for restitution in (0.3, 0.5, 0.9):
+            energies = self.energies(restitution)
+            with self.subTest(restitution):
+                self.assertGreater(len(energies), 300)
+                self.assertLess((energies - np.minimum.accumulate(energies)).max(), 1e-3)
+                self.assertLess(energies[-1], restitution)
+
+
 def missing(overlap, size):
     """0.8 (E*/E') a/h of a ball and a block of the same glass: E* = E'/2."""
     return 0.8 * 0.5 * np.sqrt(bob.RADIUS * overlap) / size

@@ -303,6 +303,19 @@ TEST(ContactLoop, MeetsTheImagesOfTheWall) {
   EXPECT_LT((scene.balls.force(2) - Vector3(0.2, 0, 0.05)).norm(), 1e-14);
 }
 
+// As a belt that moves on and on does.
+TEST(ContactLoop, MeetsAWallThatIsPeriodsAway) {
+  const contact::PeriodicBox box{{-4, -9, -9}, {4, 9, 9}, {true, false, false}};
+  for (const double periods : {-3.0, -1.5, 2.0, 2.4, 1000.0}) {
+    RigidSurface wall({plate({-4 + 8 * periods, -4, 0}, {8, 0, 0}, {0, 8, 0})});
+    Balls balls;
+    for (const double x : {-3.5, -0.5, 1.3, 3.8}) balls.add({x, 0.3, 0.4}, kRadius);
+    BallsOnWall scene(wall, balls, 1.0, 1.0, box);
+    EXPECT_EQ(scene.spring.seen.size(), 4u) << periods;
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(scene.balls.force(k)[2], 0.1, 1e-12) << periods << ' ' << k;
+  }
+}
+
 TEST(ContactLoop, LeavesOtherGroupsAlone) {
   RigidSurface wall({floor()});
   Balls balls;

@@ -59,9 +59,7 @@ class Contact {
     kept.advance(overlap, of_particle, of_surface, dt);
     double F = 0.0;
     if (kept.is_on()) {
-      const double damping = kept.damping(law_), left = overlap + law_.give * damping;
-      const double x = left > 0.0 ? contact::corrected_overlap(left, law_.give, kHertz, 0.99).x : 0.0;
-      F = kHertz * x * std::sqrt(x) + damping;
+      F = contact::damped_overlap(overlap, law_, kept.damper(law_, dt), 0.99).force;
       kept.observe(law_, overlap + law_.give * F, dt);
     }
     kept.keep(memory_);
@@ -196,6 +194,43 @@ TEST(DampedApproach, UnderAWeightItComesToTheLawsOwnOverlap) {
     EXPECT_NEAR(scene.contact.x(), x, 1e-6);
     EXPECT_NEAR(scene.x, x, 1e-6);
   }
+}
+
+// A ball that lies on a body which vibrates must take energy from it, at any frequency: here the body is
+// moved, a little and not so little faster than the ball's own vibration on its contact, and what the contact
+// has done to it in many periods is counted.
+TEST(DampedApproach, AVibratingBodyLosesEnergyAtAnyFrequency) {
+  constexpr double kWeight = 0.4, kAmplitude = 1e-4, kGive = 0.05;
+  const double x = std::pow(kWeight / kHertz, 2.0 / 3.0),
+               own = std::sqrt(1.5 * std::sqrt(x) * kHertz / kMass);
+  for (const double e : {0.3, 0.5, 0.7, 0.9})
+    for (const double ratio : {2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
+      Contact contact(e, kGive, 0.01);
+      const double frequency = ratio * own, dt = std::min(kFineStep, 0.02 / frequency);
+      const int steps = static_cast<int>(40.0 * 2.0 * kPi / own / dt);
+      double ball = 0.0, place = x, F = kWeight, taken = 0.0;
+      for (int k = 0; k < steps; ++k) {
+        const double phase = frequency * k * dt, speed = kAmplitude * frequency * std::cos(phase);
+        ball += 0.5 * dt * (kWeight - F) / kMass;
+        place += dt * ball;
+        F = contact.step(place + kAmplitude * std::sin(phase) - kGive * F, ball, speed, dt);
+        ball += 0.5 * dt * (kWeight - F) / kMass;
+        if (2 * k > steps) taken += dt * (F - kWeight) * speed;  // the beginning is another matter
+      }
+      EXPECT_GT(taken, 0.0) << e << ' ' << ratio;
+    }
+}
+
+// The skin that a ball comes to may vibrate, and be gone as they touch.  It comes back.
+TEST(DampedApproach, AContactThatIsOverBeginsAnewWhereTheOverlapGrows) {
+  Contact contact(0.3, 0.05, 0.01);
+  constexpr double kSlow = 0.02, kAway = -0.5;
+  EXPECT_GT(contact.step(1e-6, kSlow, kAway, kFineStep), -1.0);
+  EXPECT_EQ(contact.step(0.5e-6, kSlow, kAway, kFineStep), 0.0);
+  EXPECT_EQ(contact.step(0.4e-6, kSlow, kAway, kFineStep), 0.0);
+  double overlap = 0.4e-6, F = 0.0;
+  for (int k = 0; k < 100; ++k) F = contact.step(overlap += kFineStep * kSlow, kSlow, 0.0, kFineStep);
+  EXPECT_GT(F, kHertz * overlap * std::sqrt(overlap));
 }
 
 // The dent of the beginning is deeper than the bodies have come together.
