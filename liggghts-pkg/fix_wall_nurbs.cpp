@@ -114,7 +114,7 @@ void FixWallNurbs::describe() {
     for (nurbs::Surface& patch : nurbs::split(loop_.wall().surface(), exchange_.positions()))
       surface.patches.emplace_back(std::move(patch));
   messages_.print(fmt::format("surface '{}' of '{}'\n{}", options_.surface, options_.file,
-                              geometry_io::summary(surface)));
+                              geometry_io::summary(surface, options_.edge_angle)));
 }
 
 void FixWallNurbs::open_files() {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 
+#include "brep/surface.h"
 #include "geometry_io/cad_summary.h"
 #include "geometry_io/triangle_summary.h"
 #include "nurbs/borders.h"
@@ -158,7 +159,9 @@ std::string borders_text(const std::vector<Surface>& patches, const std::vector<
 
 }  // namespace
 
-std::string summary(const GeometryFile& geometry) {
+std::string summary(const GeometryFile& geometry) { return summary(geometry, brep::kEdgeAngle); }
+
+std::string summary(const GeometryFile& geometry, double edge_angle) {
   if (geometry.cad) return cad_text(*geometry.cad);
   std::string text;
   std::vector<Surface> surfaces;
@@ -173,7 +176,7 @@ std::string summary(const GeometryFile& geometry) {
     }
   }
   if (!surfaces.empty()) text += "borders\n" + borders_text(surfaces, names);
-  text += triangles_text(geometry);
+  text += triangles_text(geometry, edge_angle);
   for (const auto& [name, pieces] : geometry.surfaces) {
     text += fmt::format("surface '{}': {}\n", name, fmt::join(surface_words(pieces, geometry.patches), ", "));
     if (!std::any_of(pieces.begin(), pieces.end(), [](const auto& piece) { return piece.face.has_value(); }))

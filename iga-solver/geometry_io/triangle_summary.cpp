@@ -24,11 +24,11 @@ std::string place_text(const GeometryFile& geometry, const JoinedMesh& all, int 
 }
 
 // Faces, edges, area and volume, as a wall has them.
-std::string wall_text(const GeometryFile& geometry, const JoinedMesh& all) {
+std::string wall_text(const GeometryFile& geometry, const JoinedMesh& all, double edge_angle) {
   brep::BuildReport report;
   brep::Summary wall;
   try {
-    wall = summary_of(brep::from_triangles(all.mesh.points, all.mesh.triangles, brep::kEdgeAngle, &report));
+    wall = summary_of(brep::from_triangles(all.mesh.points, all.mesh.triangles, edge_angle, &report));
   } catch (const std::invalid_argument& error) {
     return fmt::format("  no wall: {}\n", error.what());
   }
@@ -81,7 +81,7 @@ std::string overlaps_text(const GeometryFile& geometry, const JoinedMesh& all) {
 
 }  // namespace
 
-std::string triangles_text(const GeometryFile& geometry) {
+std::string triangles_text(const GeometryFile& geometry, double edge_angle) {
   std::vector<geometry_io::SurfacePiece> pieces;
   for (int p = 0; p < static_cast<int>(geometry.patches.size()); ++p)
     if (is_triangles(geometry.patches[p])) pieces.push_back({p, std::nullopt});
@@ -90,7 +90,7 @@ std::string triangles_text(const GeometryFile& geometry) {
   return fmt::format(
              "triangles of all patches: {}, {} points; left out: {} without an area, {} that lie twice\n",
              all.mesh.count(), all.mesh.points.cols(), all.mesh.degenerate, all.mesh.repeated) +
-         wall_text(geometry, all) + gaps_text(geometry, all) + overlaps_text(geometry, all);
+         wall_text(geometry, all, edge_angle) + gaps_text(geometry, all) + overlaps_text(geometry, all);
 }
 
 }  // namespace geometry_io

@@ -8,7 +8,8 @@
 
 namespace geometry_io {
 
-/// All of them as one wall, lines that end with a newline; empty if there are none.
-std::string triangles_text(const GeometryFile& geometry);
+/// All of them as one wall, whose edges that turn by less than `edge_angle` [rad] are smooth: lines that end
+/// with a newline; empty if there are none.
+std::string triangles_text(const GeometryFile& geometry, double edge_angle);
 
 }  // namespace geometry_io

@@ -4,6 +4,8 @@ on fix mesh/surface."""
 
 import unittest
 
+import numpy as np
+
 import decks
 from prelude import INTEGRATION
 from test_wall_output import FLOOR, MODELS, START, STL
@@ -66,6 +68,20 @@ class Placement(unittest.TestCase):
         for line in ("surface 'floor' of 'floor.yaml'", extents, "area 0.000256", "eta+: free"):
             self.assertIn(line, told)
             self.assertNotIn(line, silent)
+
+    def test_verbose_counts_smooth_edges_by_the_angle_of_the_deck(self):
+        """The sides of a prism turn by 0.39 rad."""
+        corners = [(f"{np.cos(a):.9f}", f"{np.sin(a):.9f}") for a in np.linspace(0, 2 * np.pi, 17)]
+        facets = ""
+        for (x, y), (X, Y) in zip(corners, corners[1:]):
+            for triangle in (f"{x} {y} 0 {X} {Y} 0 {X} {Y} 1", f"{x} {y} 0 {X} {Y} 1 {x} {y} 1"):
+                v = triangle.split()
+                loop = "".join(f"vertex {' '.join(v[k : k + 3])}\n" for k in (0, 3, 6))
+                facets += f"facet normal 0 0 0\nouter loop\n{loop}endloop\nendfacet\n"
+        files = {"tube.stl": f"solid tube\n{facets}endsolid tube\n"}
+        for words, edges in (("", "16 convex, 0 concave, 0 smooth"), ("edge_angle 0.5", "0 convex, 0 concave, 16 smooth")):
+            wall = floor(f"scale 0.008 verbose yes {words}").replace("floor.yaml surface floor", "tube.stl surface all")
+            self.assertIn(edges, decks.good(wall, files=files).text)
 
 
 if __name__ == "__main__":
