@@ -116,7 +116,7 @@ constexpr Keyword<void(const Reading&)> kWallKeywords[] = {
     {"surface", "surface NAME",
      [](const Reading& in) { in.options.surface = in.words.value("the name of a surface in the file"); }},
     {"edge_angle", "edge_angle A",
-     [](const Reading& in) { in.options.edge_angle = in.words.number_at_least_zero(in.keyword); }},
+     [](const Reading& in) { in.options.edge_angle = in.words.angle(in.keyword); }},
     {"scale", "scale S", read_placement_of_wall},
     {"move", "move X Y Z", read_placement_of_wall},
     {"rotate", "rotate axis X Y Z angle A", read_placement_of_wall},

@@ -10,6 +10,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "nurbs/types.h"
 #include "nurbs/usable_number.h"
 
 namespace liggghts_pkg {
@@ -71,6 +72,13 @@ double WordReader::number(const std::string& keyword) {
 double WordReader::number_at_least_zero(const std::string& keyword) {
   const double given = number(keyword);
   if (given < 0.0) fail(fmt::format("{} is '{}', expected a number, 0 or more", keyword, words_[next_ - 1]));
+  return given;
+}
+
+double WordReader::angle(const std::string& keyword) {
+  const double given = number(keyword);
+  if (given < 0.0 || given > nurbs::kPi)
+    fail(fmt::format("{} is '{}', expected 0 to pi (3.14159), in rad", keyword, words_[next_ - 1]));
   return given;
 }
 

@@ -35,6 +35,7 @@ class WordReader {
   int count(const std::string& keyword, const std::string& expected, std::optional<int> most = {});
   double number(const std::string& keyword);  ///< finite, of at most nurbs::kLargestNumber in size
   double number_at_least_zero(const std::string& keyword);
+  double angle(const std::string& keyword);  ///< 0 to pi [rad]
   double number_above_zero(const std::string& keyword);
   nurbs::Vector3 vector(const std::string& keyword);
   std::vector<double> numbers(const std::string& keyword, int count);

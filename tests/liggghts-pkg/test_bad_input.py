@@ -220,6 +220,8 @@ DECK_WORDS = {
         for cohesion in COHESIONS
     },
     "compliance of modes": (GOOD.replace("block.yaml", "block.yaml body modal 4") + CORRECTED, ["given 'body modal'"]),
+    "edge_angle beyond pi": (RIGID + " edge_angle 3.2", ["id plate", "edge_angle is '3.2'", "expected 0 to pi", "rad"]),
+    "edge_angle in degrees": (GOOD + " edge_angle 30", ["id plate", "edge_angle is '30'", "expected 0 to pi", "rad"]),
     "compliance with sub-steps": (GOOD + " substeps auto" + CORRECTED, ["not for 'substeps'"]),
     "contact area without heat": (RIGID + " contact_area projection", ["'contact_area'", "'temperature T'"]),
     "chord beyond all sense": (PIPE + " stl pipe every 5 chord 1e-12", ["chord 1e-12 takes about", "at most 1000"]),
