@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cstring>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "atom.h"
 #include "deck_variable.h"
 #include "error.h"
+#include "geometry_io/geometry_io.h"
 #include "lammps.h"
 #include "motion_words.h"
 #include "update.h"
@@ -54,17 +56,32 @@ void check_type(int type, int types) {
         fmt::format("type is {}, expected 1 to {}, the number of types in create_box", type, types));
 }
 
+// LIGGGHTS has others, which no geometry file names.
+std::optional<geometry_io::Units> units_of_deck(const char* name) {
+  for (const geometry_io::Units units : {geometry_io::Units::si, geometry_io::Units::cgs})
+    if (std::strcmp(geometry_io::units_name(units), name) == 0) return units;
+  return std::nullopt;
+}
+
+std::optional<geometry_io::Format> format_of_wall(const WallNurbsOptions& options) {
+  if (options.body != WallNurbsOptions::Body::rigid) return std::nullopt;
+  return geometry_io::format_of_path(options.file);
+}
+
 void check_units(const WallNurbsOptions& options, geometry_io::Units units, const char* deck_units) {
+  if (format_of_wall(options) == geometry_io::format::stl) return;  // has none: its numbers are the deck's
   if (std::strcmp(geometry_io::units_name(units), deck_units) != 0)
-    throw std::invalid_argument(fmt::format("'{}' has units {}, the deck has units {}: they must be the same",
+    throw std::invalid_argument(fmt::format("'{}' has units {}, expected those of the deck, units {}",
                                             options.file, geometry_io::units_name(units), deck_units));
 }
 
-// LIGGGHTS has others, which no geometry file is in.
-geometry_io::Units units_of_deck(const char* name) {
-  for (const geometry_io::Units units : {geometry_io::Units::si, geometry_io::Units::cgs})
-    if (std::strcmp(geometry_io::units_name(units), name) == 0) return units;
-  return geometry_io::Units::si;
+// Before it is read, and kept.
+void check_units_of_cad(const WallNurbsOptions& options, const char* deck_units) {
+  if (format_of_wall(options) == geometry_io::format::cad && !units_of_deck(deck_units))
+    throw std::invalid_argument(
+        fmt::format("'{}' is a CAD file, whose lengths are in mm or such a unit, given a deck in units {}, "
+                    "expected units si or cgs",
+                    options.file, deck_units));
 }
 
 liggghts_pkg::VariableLookup variables_of(LAMMPS* lmp, const std::string& fix_id) {
@@ -80,9 +97,10 @@ coupling::OpenedStructure open(MPI_Comm world, const WallNurbsOptions& options, 
     case WallNurbsOptions::Body::rigid:
       break;
   }
-  return coupling::open_rigid_surface(world, options.file, options.surface, options.drive,
-                                      {units_of_deck(deck_units), options.placement, options.edge_angle,
-                                       options.search == contact::SearchMethod::newton, options.keep});
+  return coupling::open_rigid_surface(
+      world, options.file, options.surface, options.drive,
+      {units_of_deck(deck_units).value_or(geometry_io::Units::si), options.placement, options.edge_angle,
+       options.search == contact::SearchMethod::newton, options.keep});
 }
 
 /// Of the particles of all ranks; infinite if there are none.
@@ -134,6 +152,7 @@ WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
                                               variables_of(lmp, arg[0]));
     if (options_.drive.servo) complete_servo(lmp, *options_.drive.servo);
     check_type(options_.atom_type, lmp->atom->ntypes);
+    check_units_of_cad(options_, lmp->update->unit_style);
     opened_ = open(lmp->world, options_, lmp->update->unit_style);
     if (options_.substeps) {
       options_.substeps->heaviest_particle = [lmp] { return heaviest_particle(*lmp); };

@@ -171,6 +171,8 @@ DECK_WORDS = {
     "unknown keyword": (GOOD.replace("structure", "structur"), ["'structur'", "did you mean 'structure'"]),
     "stock keyword": (GOOD + " primitive zplane 0.", ["'primitive'", "structure"]),
     "word of a stock mesh": (GOOD + " heal auto_remove_duplicates", ["'heal'", "expected nothing", "mesh_walls.md"]),
+    "units differ from the deck's, in words": (
+        GOOD, in_block("units: si", "units: mm-t-s"), ["block.yaml.* units mm-t-s", "expected .*si"]),
     "switch of a stock mesh": (GOOD + " stress on", ["'stress'", r"f_ID\[1..3\]"]),
     "misplaced model keyword": (f"{GOOD} cohesion sjkr", ["'cohesion'", "first"]),
     "keyword twice": (GOOD + " type 2", ["'type'", "twice"]),

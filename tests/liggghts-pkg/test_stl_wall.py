@@ -87,6 +87,30 @@ class BesideStock(unittest.TestCase):
         for column in ("KinEng", "spin", "high"):
             self.assertLessEqual(decks.largest_difference(ours[column], stock[column]), 1e-6, column)
 
+    def test_units_that_no_geometry_file_names(self):
+        """A file without units has those of the deck, whatever they are."""
+        for units in ("cgs", "lj", "micro"):
+            with self.subTest(units):
+                ours, stock = (
+                    decks.good(
+                        begin().replace("units si", f"units {units}\nsoft_particles yes") + balls() + wall + "\n" + OUTPUT + "run 400\n",
+                        files=FILES, program=program,
+                    ).table
+                    for program, wall in WALLS.items()
+                )
+                self.assertNotEqual(stock["KinEng"][-1], stock["KinEng"][0])
+                for column in ("KinEng", "spin", "high"):
+                    self.assertLessEqual(decks.largest_difference(ours[column], stock[column]), 1e-6, column)
+
+    def test_files_that_name_their_units_are_refused_in_others(self):
+        named = {"tray.yaml": "units: si\ngeometry: {file: tray.stl}\n", "part.step": "ISO-10303-21;\n", **FILES}
+        for file, told in (
+            ("tray.yaml", "'tray.yaml' has units si, expected those of the deck, units lj"),
+            ("part.step", "'part.step' is a CAD file, .* in units lj, expected units si or cgs"),
+        ):
+            wall = WALLS[decks.NURBS].replace("tray.stl", file)
+            self.assertRegex(decks.run(begin().replace("units si", "units lj") + wall + "\n", files=named).errors[0], told)
+
     def test_a_wall_that_moves(self):
         for words in ("linear 0.1 -0.2 0.5", "rotate origin 0.001 -0.001 -0.0005 axis 1 2 0.5 period 0.02"):
             with self.subTest(words):
