@@ -248,7 +248,9 @@ DECKS = {
     ),
     "minimize": ("", "minimize 1e-4 1e-6 10 10\n", ["id plate", "minimize"]),
     "respa": ("run_style respa 2 2\n", "run 1\n", ["respa"]),
-    "id in use": ("", f"fix plate all wall/nurbs {GOOD}\nrun 1\n", ["plate|style"]),
+    "id in use": ("", f"fix plate all wall/nurbs {GOOD}\nrun 1\n", ["Replacing a fix, but new style != old style"]),
+    "id in use, by LIGGGHTS' name of this fix": (
+        "", f"fix plate all wall/gran/nurbs {GOOD}\nrun 1\n", ["Fix wall/gran/nurbs", "id plate", "in use", "'unfix plate' first"]),
     "no such column": ("", "variable v equal f_plate[99]\nthermo_style custom step v_v\nrun 1\n", ["fix"]),
     "motion's variable of another style": (
         "variable v index 1\nfix w2 all wall/nurbs " + RIGID + " motion linear/variable v_v 0 0\n", "",
