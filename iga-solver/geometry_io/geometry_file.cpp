@@ -103,6 +103,18 @@ GeometryFile read_changed(const YamlMap& map, Units units, const OpenGeometry& o
 
 }  // namespace
 
+// YAML's keys are different ones: what has the name already is a file that `geometry` names.
+[[noreturn]] void refuse_name(const YamlMap& document, const GeometryFile& geometry,
+                              const std::string& name) {
+  const YamlMap shapes = document.map("geometry");
+  const int patch = geometry.surfaces.at(name).front().patch;
+  const auto* mesh = std::get_if<TriangleMesh>(&geometry.patches[patch]);
+  document.map("surfaces")
+      .fail(name, fmt::format("surface '{}': {} has a {} of that name already, expected another name", name,
+                              shapes.has("file") ? shapes.word("file") : "a file among its shapes",
+                              mesh != nullptr && mesh->name == name ? "solid" : "surface"));
+}
+
 const char* units_name(Units units) { return kUnitsNames.begin()[static_cast<int>(units)]; }
 
 Units units_from_name(const std::string& name) {
@@ -122,7 +134,7 @@ GeometryFile read_geometry(const YamlMap& document, const OpenGeometry& open) {
     if (geometry.cad)
       geometry.cad_surfaces[name] = read_cad_surface(surfaces, name, *geometry.cad);
     else if (!geometry.surfaces.emplace(name, read_surface(surfaces, name, geometry.patches)).second)
-      surfaces.fail(name, fmt::format("surface '{}' is given twice, expected once", name));
+      refuse_name(document, geometry, name);
   return geometry;
 }
 

@@ -35,6 +35,7 @@ NINE = ", ".join([
 ])  # fmt: skip
 # Loads that no solid bears.
 SOFT = BLOCK.replace("linear_elastic", "saint_venant_kirchhoff") + "loads: {tractions: [{face: zeta+, value: [0, 0, 1e15]}]}\n"
+TRAY = "solid floor\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid floor\n"
 STEP = "ISO-10303-21;\nHEADER;\n"
 MODELS = "model hertz tangential no_history"
 GOOD = f"{MODELS} type 2 structure block.yaml surface top"
@@ -157,6 +158,15 @@ MODEL_FILES = {
         GOOD + CORRECTED, in_block("elements: [4, 4, 2], degree: 2", "elements: [4, 4, 4], degree: 4"),
         ["block.yaml: .*degrees 2 and 3, given 4, 4, 4"]),
     "compliance with few points": (
+    "a surface that is a solid of an STL file": (
+        RIGID, {"flat.yaml": "units: si\ngeometry: {file: tray.stl}\nsurfaces: {floor: all}\n", "tray.stl": TRAY},
+        ["flat.yaml:3: surface 'floor': tray.stl has a solid of that name already, expected another"]),
+    "a surface of the name that all of an STL file has": (
+        RIGID.replace("floor", "all"), {"flat.yaml": "units: si\ngeometry: {file: tray.stl}\nsurfaces: {all: all}\n", "tray.stl": TRAY},
+        ["flat.yaml:3: surface 'all': tray.stl has a surface of that name already, expected another"]),
+    "a surface that is one of a file among shapes": (
+        RIGID, {"flat.yaml": "units: si\ngeometry: {shapes: [{file: tray.stl}]}\nsurfaces: {floor: all}\n", "tray.stl": TRAY},
+        ["flat.yaml:3: surface 'floor': a file among its shapes has a solid of that name already, expected another"]),
         GOOD + CORRECTED, {"block.yaml": BLOCK + "integration: {quadrature: zou}\n"}, ["block.yaml: .*given 'zou'"]),
     "wall material nu differs": (GOOD, in_block("poissons_ratio: 0.3", "poissons_ratio: 0.31"), ["poissonsRatio", "0.31"]),
 }
