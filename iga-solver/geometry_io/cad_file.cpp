@@ -29,7 +29,10 @@ double units_per_mm(Units units) {
 }  // namespace
 
 std::string unpacked_cad(const std::string& bytes, const std::string& file, double offset_tolerance) {
+  if (bytes.empty()) throw InputError(file + ": the file is empty, expected a STEP or IGES file");
   const FileKind kind = kind_of_file(file, bytes);
+  if (kind == FileKind::binary)
+    throw InputError(file + ": is a binary file, expected a STEP or IGES file, which are text");
   if (kind != FileKind::step && kind != FileKind::iges) expect_kind(FileKind::step, file, bytes);
   try {
     if (offset_tolerance > 0.0)

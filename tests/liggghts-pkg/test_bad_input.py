@@ -143,6 +143,12 @@ MODEL_FILES = {
     "knots of an XML file not open": (XML, in_xml("0.0 0.0 0.0", "0.0 0.0"), ["wall.xml:1", "KnotVector"]),
     "broken XML": (XML, in_xml("</coefs>", ""), ["wall.xml:1: broken XML"]),
     "a file that names a missing one": (
+    "empty STEP file": (CAD, {"part.step": ""}, ["part.step: the file is empty, expected a STEP or IGES file"]),
+    "empty IGES file": (CAD.replace("step", "igs"), {"part.igs": ""}, ["part.igs: the file is empty, expected a STEP or IGES file"]),
+    "STEP file of random bytes": (
+        CAD, {"part.step": bytes(range(256))}, ["part.step: is a binary file, expected a STEP or IGES file"]),
+    "IGES file of random bytes": (
+        CAD.replace("step", "igs"), {"part.igs": bytes(range(256))}, ["part.igs: is a binary file, expected a STEP or IGES file"]),
         RIGID, {"flat.yaml": "units: si\ngeometry: {file: wall.xml}\nsurfaces: {floor: all}\n"}, ["wall.xml", "No such file"]),
     "a patch that is not there": (RIGID, in_flat("floor: all", "floor: [0, 1]"), ["flat.yaml:9", "patch is '1'", "0 to 0"]),
     "material in a rigid wall's file": (RIGID, {"flat.yaml": FLAT + "material: {law: linear_elastic}\n"}, ["material"]),
