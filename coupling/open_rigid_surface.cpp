@@ -8,6 +8,7 @@
 #include "coupling/rigid/rigid_surface.h"
 #include "geometry_io/cad_placement.h"
 #include "geometry_io/geometry_io.h"
+#include "geometry_io/wall_size.h"
 #include "nurbs/memory.h"
 #include "nurbs/usable_number.h"
 #include "parallel/all_or_none.h"
@@ -47,6 +48,16 @@ std::unique_ptr<RigidSurface> wall_of_triangles(const geometry_io::TriangleMesh&
       std::make_shared<const brep::Surface>(brep::from_triangles(mesh.points, mesh.triangles, edge_angle)));
 }
 
+void expect_sane_size(const geometry_io::GeometryFile& file, const RigidOptions& options,
+                      const std::string& path) {
+  const double factor = options.placement ? options.placement->linear().col(0).stableNorm() : 1.0;
+  const std::string problem = geometry_io::size_problem(geometry_io::extents_of(file.patches, file.cad.get()),
+                                                        nurbs::Vector3::Constant(factor));
+  if (problem.empty()) return;
+  const std::string scaled = options.placement ? fmt::format("scaled by {:.6g} ", factor) : "";
+  throw geometry_io::InputError(fmt::format("{}: {}it is {}", path, scaled, problem));
+}
+
 // Of a CAD file, whose lengths are already those of `options.units`.
 std::unique_ptr<RigidSurface> wall_of_cad(const geometry_io::GeometryFile& file, const std::string& surface,
                                           const RigidOptions& options, const std::string& path) {
@@ -76,6 +87,7 @@ OpenedStructure read_rigid_surface(MPI_Comm comm, const std::string& path, const
   const bool takes_units = format == geometry_io::format::stl || format == geometry_io::format::cad;
   const geometry_io::GeometryFile file = geometry_io::read_geometry(
       path, reader_on_all_ranks(comm), takes_units ? options.units : geometry_io::Units::si);
+  expect_sane_size(file, options, path);
   if (!options.keep.empty()) keep_on_first_rank(comm, file, path, options.keep);
   if (file.cad) return {wall_of_cad(file, surface, options, path), file.units};
   geometry_io::TriangleMesh triangles = geometry_io::named_triangles(file, surface, path).mesh;

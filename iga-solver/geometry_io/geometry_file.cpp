@@ -13,6 +13,7 @@
 #include "geometry_io/cad_selection.h"
 #include "geometry_io/shape_changes.h"
 #include "geometry_io/shape_reader.h"
+#include "geometry_io/wall_size.h"
 
 namespace geometry_io {
 namespace {
@@ -96,12 +97,11 @@ GeometryFile read_changed(const YamlMap& map, Units units, const OpenGeometry& o
                           : map.has("shapes") ? read_several(map, units, open)
                                               : GeometryFile{units, read_shapes(map), {}};
   if (!map.has("file") && !map.has("shapes") && !map.has("patches")) geometry.from_words = {0};
+  expect_scaled_size(map, extents_of(geometry.patches, geometry.cad.get()));
   const Placement change = change_shapes(map, geometry.patches);
   if (geometry.cad) change_cad(map, change, geometry);
   return geometry;
 }
-
-}  // namespace
 
 // YAML's keys are different ones: what has the name already is a file that `geometry` names.
 [[noreturn]] void refuse_name(const YamlMap& document, const GeometryFile& geometry,
@@ -114,6 +114,8 @@ GeometryFile read_changed(const YamlMap& map, Units units, const OpenGeometry& o
                               shapes.has("file") ? shapes.word("file") : "a file among its shapes",
                               mesh != nullptr && mesh->name == name ? "solid" : "surface"));
 }
+
+}  // namespace
 
 const char* units_name(Units units) { return kUnitsNames.begin()[static_cast<int>(units)]; }
 

@@ -5,6 +5,7 @@
 
 #include "geometry_io/placement.h"
 #include "geometry_io/shape_limits.h"
+#include "geometry_io/wall_size.h"
 #include "nurbs/refinement.h"
 
 namespace geometry_io {
@@ -86,7 +87,7 @@ void refine(const YamlMap& map, Patch<Dim>& patch) {
   if (map.has("knots")) insert_knots(map, patch);
 }
 
-Placement read_scale(const YamlMap& geometry) {
+Vector3 read_scale(const YamlMap& geometry) {
   Vector3 factors;
   if (geometry.is_list("scale"))
     factors = geometry.vector3("scale");
@@ -95,7 +96,7 @@ Placement read_scale(const YamlMap& geometry) {
   if (!(factors.minCoeff() > 0.0))
     geometry.fail("scale", fmt::format("scale is [{}, {}, {}], expected numbers > 0", factors[0], factors[1],
                                        factors[2]));
-  return scaling(factors);
+  return factors;
 }
 
 Placement read_rotation(const YamlMap& map) {
@@ -128,12 +129,24 @@ Placement change_shapes(const YamlMap& geometry, std::vector<Shape>& patches) {
             "refine: ", [&] { visit_nurbs(shape, [&](auto& patch) { refine(map, patch); }); });
   }
   Placement change = Placement::Identity();
-  if (geometry.has("scale")) change = read_scale(geometry);
+  if (geometry.has("scale")) change = scaling(read_scale(geometry));
   if (geometry.has("rotate")) change = read_rotation(geometry.map("rotate")) * change;
   if (geometry.has("move")) change = shifting(geometry.vector3("move")) * change;
   if (!geometry.has("scale") && !geometry.has("rotate") && !geometry.has("move")) return change;
   for (Shape& shape : patches) std::visit([&](auto& patch) { place(points_of(patch), change); }, shape);
   return change;
+}
+
+void expect_scaled_size(const YamlMap& geometry, const Vector3& extents) {
+  if (!geometry.has("scale")) return;
+  const Vector3 factors = read_scale(geometry);
+  const std::string problem = size_problem(extents, factors);
+  if (problem.empty()) return;
+  geometry.fail("scale", fmt::format("scale is {}: the shape becomes {}",
+                                     geometry.is_list("scale")
+                                         ? fmt::format("[{}, {}, {}]", factors[0], factors[1], factors[2])
+                                         : fmt::format("{}", factors[0]),
+                                     problem));
 }
 
 }  // namespace geometry_io

@@ -25,5 +25,7 @@ const std::vector<std::string>& change_words();
 /// Throws InputError, with file and line.
 /// The placement that was made of scale, rotate and move, for what else there is to place.
 Placement change_shapes(const YamlMap& geometry, std::vector<Shape>& patches);
+/// InputError if its scale makes of these extents a size that is no sane one.
+void expect_scaled_size(const YamlMap& geometry, const nurbs::Vector3& extents);
 
 }  // namespace geometry_io

@@ -133,8 +133,22 @@ MODEL_FILES = {
     "cylinder's axis zero": (PIPE, in_round("[1, 0, 0]", "[0, 0, 0]"), ["round.yaml:4", "axis is", "direction"]),
     "cylinder's angles reversed": (PIPE, in_round("[0, 180]", "[180, 0]"), ["round.yaml:5", "180, 0", "from < to"]),
     "elements that split no arc": (PIPE, in_round("[4, 2]", "[3, 2]"), ["round.yaml:5", "3 elements", "multiple of 2"]),
+    "a shape scaled to nothing": (
+        PIPE, in_round("geometry:", "geometry:\n  scale: 1e-60"), ["round.yaml:4: scale is 1e-60", "2e-62 in size", r"1e-30 to 1e\+30"]),
+    "triangles scaled beyond all sense": (
+        RIGID, {"flat.yaml": "units: si\ngeometry: {file: tray.stl, scale: [1, 1e50, 1]}\n", "tray.stl": TRAY},
+        [r"flat.yaml:2: scale is \[1, 1e\+50, 1\]", r"1e\+50 in size", r"1e-30 to 1e\+30"]),
+    "triangles of no size": (
+        f"{MODELS} type 2 geometry tray.stl surface all", {"tray.stl": TRAY.replace("1", "1e-34")},
+        ["tray.stl: .*1e-34 in size", r"1e-30 to 1e\+30"]),
     "missing HDF5 file": (HDF5, {}, ["wall.h5", "No such file"]),
     "no HDF5 file": (HDF5, {"wall.h5": FLAT}, ["wall.h5: is no HDF5 file"]),
+    "empty STEP file": (CAD, {"part.step": ""}, ["part.step: the file is empty, expected a STEP or IGES file"]),
+    "empty IGES file": (CAD.replace("step", "igs"), {"part.igs": ""}, ["part.igs: the file is empty, expected a STEP or IGES file"]),
+    "STEP file of random bytes": (
+        CAD, {"part.step": bytes(range(256))}, ["part.step: is a binary file, expected a STEP or IGES file"]),
+    "IGES file of random bytes": (
+        CAD.replace("step", "igs"), {"part.igs": bytes(range(256))}, ["part.igs: is a binary file, expected a STEP or IGES file"]),
     "incomplete HDF5 file": (HDF5, {"wall.h5": wall_file()[:2000]}, ["wall.h5: damaged or incomplete"]),
     "surface that an HDF5 file has not": (HDF5.replace("surface all", "surface lid"), {"wall.h5": wall_file()}, ["'lid'", "all"]),
     "HDF5 file in other units": (HDF5, {"wall.h5": wall_file("cgs")}, ["wall.h5", "cgs", "si"]),
@@ -143,17 +157,22 @@ MODEL_FILES = {
     "knots of an XML file not open": (XML, in_xml("0.0 0.0 0.0", "0.0 0.0"), ["wall.xml:1", "KnotVector"]),
     "broken XML": (XML, in_xml("</coefs>", ""), ["wall.xml:1: broken XML"]),
     "a file that names a missing one": (
-    "empty STEP file": (CAD, {"part.step": ""}, ["part.step: the file is empty, expected a STEP or IGES file"]),
-    "empty IGES file": (CAD.replace("step", "igs"), {"part.igs": ""}, ["part.igs: the file is empty, expected a STEP or IGES file"]),
-    "STEP file of random bytes": (
-        CAD, {"part.step": bytes(range(256))}, ["part.step: is a binary file, expected a STEP or IGES file"]),
-    "IGES file of random bytes": (
-        CAD.replace("step", "igs"), {"part.igs": bytes(range(256))}, ["part.igs: is a binary file, expected a STEP or IGES file"]),
         RIGID, {"flat.yaml": "units: si\ngeometry: {file: wall.xml}\nsurfaces: {floor: all}\n"}, ["wall.xml", "No such file"]),
+    "a surface that is a solid of an STL file": (
+        RIGID, {"flat.yaml": "units: si\ngeometry: {file: tray.stl}\nsurfaces: {floor: all}\n", "tray.stl": TRAY},
+        ["flat.yaml:3: surface 'floor': tray.stl has a solid of that name already, expected another"]),
+    "a surface of the name that all of an STL file has": (
+        RIGID.replace("floor", "all"), {"flat.yaml": "units: si\ngeometry: {file: tray.stl}\nsurfaces: {all: all}\n", "tray.stl": TRAY},
+        ["flat.yaml:3: surface 'all': tray.stl has a surface of that name already, expected another"]),
+    "a surface that is one of a file among shapes": (
+        RIGID, {"flat.yaml": "units: si\ngeometry: {shapes: [{file: tray.stl}]}\nsurfaces: {floor: all}\n", "tray.stl": TRAY},
+        ["flat.yaml:3: surface 'floor': a file among its shapes has a solid of that name already, expected another"]),
     "a patch that is not there": (RIGID, in_flat("floor: all", "floor: [0, 1]"), ["flat.yaml:9", "patch is '1'", "0 to 0"]),
     "material in a rigid wall's file": (RIGID, {"flat.yaml": FLAT + "material: {law: linear_elastic}\n"}, ["material"]),
     "surface patch as a solid": (f"{MODELS} type 2 structure flat.yaml surface floor", {}, ["flat.yaml"]),
     "units differ from the deck's": (GOOD, in_block("units: si", "units: cgs"), ["cgs", "si"]),
+    "units differ from the deck's, in words": (
+        GOOD, in_block("units: si", "units: mm-t-s"), ["block.yaml.* units mm-t-s", "expected .*si"]),
     "wall material E differs": (GOOD, in_block("5000000000.0", "6e9"), ["youngsModulus", "5000000000", "6000000000"]),
     "compliance of nine constants": (
         GOOD + CORRECTED, in_block("law: linear_elastic, youngs_modulus: 5000000000.0, poissons_ratio: 0.3", NINE),
@@ -164,15 +183,6 @@ MODEL_FILES = {
         GOOD + CORRECTED, in_block("elements: [4, 4, 2], degree: 2", "elements: [4, 4, 4], degree: 4"),
         ["block.yaml: .*degrees 2 and 3, given 4, 4, 4"]),
     "compliance with few points": (
-    "a surface that is a solid of an STL file": (
-        RIGID, {"flat.yaml": "units: si\ngeometry: {file: tray.stl}\nsurfaces: {floor: all}\n", "tray.stl": TRAY},
-        ["flat.yaml:3: surface 'floor': tray.stl has a solid of that name already, expected another"]),
-    "a surface of the name that all of an STL file has": (
-        RIGID.replace("floor", "all"), {"flat.yaml": "units: si\ngeometry: {file: tray.stl}\nsurfaces: {all: all}\n", "tray.stl": TRAY},
-        ["flat.yaml:3: surface 'all': tray.stl has a surface of that name already, expected another"]),
-    "a surface that is one of a file among shapes": (
-        RIGID, {"flat.yaml": "units: si\ngeometry: {shapes: [{file: tray.stl}]}\nsurfaces: {floor: all}\n", "tray.stl": TRAY},
-        ["flat.yaml:3: surface 'floor': a file among its shapes has a solid of that name already, expected another"]),
         GOOD + CORRECTED, {"block.yaml": BLOCK + "integration: {quadrature: zou}\n"}, ["block.yaml: .*given 'zou'"]),
     "wall material nu differs": (GOOD, in_block("poissons_ratio: 0.3", "poissons_ratio: 0.31"), ["poissonsRatio", "0.31"]),
 }
@@ -187,8 +197,6 @@ DECK_WORDS = {
     "unknown keyword": (GOOD.replace("structure", "structur"), ["'structur'", "did you mean 'structure'"]),
     "stock keyword": (GOOD + " primitive zplane 0.", ["'primitive'", "structure"]),
     "word of a stock mesh": (GOOD + " heal auto_remove_duplicates", ["'heal'", "expected nothing", "mesh_walls.md"]),
-    "units differ from the deck's, in words": (
-        GOOD, in_block("units: si", "units: mm-t-s"), ["block.yaml.* units mm-t-s", "expected .*si"]),
     "switch of a stock mesh": (GOOD + " stress on", ["'stress'", r"f_ID\[1..3\]"]),
     "misplaced model keyword": (f"{GOOD} cohesion sjkr", ["'cohesion'", "first"]),
     "keyword twice": (GOOD + " type 2", ["'type'", "twice"]),
@@ -212,9 +220,17 @@ DECK_WORDS = {
     "servo lacks its target": (f"{RIGID} servo com 0 0 0 ctrlPV force", ["servo: 'axis' is missing"]),
     "motion and servo": (f"{RIGID} motion linear 1 0 0 {SERVO}", ["'servo'", "'motion'"]),
     "motion and belt": (RIGID + " surface_vel 1 0 0 motion linear 1 0 0", ["'motion'", "'surface_vel'"]),
+    "edge_angle beyond pi": (RIGID + " edge_angle 3.2", ["id plate", "edge_angle is '3.2'", "expected 0 to pi", "rad"]),
+    "edge_angle in degrees": (GOOD + " edge_angle 30", ["id plate", "edge_angle is '30'", "expected 0 to pi", "rad"]),
     "scale of a deforming wall": (GOOD + " scale 2", ["'scale'", "given 'structure'", "model file", "scale: 0.001"]),
     "scale to nothing": (RIGID + " scale 0", ["id plate", "scale is '0'", "above 0"]),
-    "scaled beyond all sense": (RIGID + " scale 1e60 scale 1e60", ["flat.yaml: scaled and moved", r"1e\+100"]),
+    "scaled beyond all sense": (RIGID + " scale 1e60 scale 1e60", [r"flat.yaml: scaled by 1e\+120 ", r"2e\+120", r"1e-30 to 1e\+30"]),
+    "moved beyond all sense": (RIGID + " move 9e99 0 0 move 9e99 0 0", ["flat.yaml: scaled and moved", r"1e\+100"]),
+    **{
+        f"scaled by {factor}": (RIGID + f" scale {factor}", [f"flat.yaml: scaled by {given} ", f" {size} in size", r"1e-30 to 1e\+30"])
+        for factor, given, size in (
+            ("1e-90", "1e-90", "2e-90"), ("1e-105", "1e-105", "2e-105"), ("1e-150", "1e-150", "2e-150"), ("1e99", r"1e\+99", r"2e\+99"))
+    },
     "rotate lacks its angle": (RIGID + " rotate axis 0 0 1", ["'1' is the last word", "'angle'"]),
     "rotate about no axis": (RIGID + " rotate axis 0 0 0 angle 5", ["rotate axis is 0 0 0", "direction"]),
     "keep of a deforming wall": (GOOD + " keep block.h5", ["'keep'", "CAD", "given 'structure block.yaml'"]),
@@ -238,8 +254,6 @@ DECK_WORDS = {
         for cohesion in COHESIONS
     },
     "compliance of modes": (GOOD.replace("block.yaml", "block.yaml body modal 4") + CORRECTED, ["given 'body modal'"]),
-    "edge_angle beyond pi": (RIGID + " edge_angle 3.2", ["id plate", "edge_angle is '3.2'", "expected 0 to pi", "rad"]),
-    "edge_angle in degrees": (GOOD + " edge_angle 30", ["id plate", "edge_angle is '30'", "expected 0 to pi", "rad"]),
     "compliance with sub-steps": (GOOD + " substeps auto" + CORRECTED, ["not for 'substeps'"]),
     "contact area without heat": (RIGID + " contact_area projection", ["'contact_area'", "'temperature T'"]),
     "chord beyond all sense": (PIPE + " stl pipe every 5 chord 1e-12", ["chord 1e-12 takes about", "at most 1000"]),

@@ -248,11 +248,14 @@ class Errors(unittest.TestCase):
         astray = re.sub(rb"(ADVANCED_FACE\('[^']*',\(#\d+\),)#\d+", rb"\1#987654", box, count=1)
         self.assertNotEqual(astray, box)
         files = parts() | {"cut.step": box[: len(box) // 2], "astray.step": astray}
+        files["tiny.yaml"] = b"units: si\ngeometry: {file: box.step, scale: 1e-99}\n"
         for words, ranks, expected in (
             ("nested.step surface lid", 1, ["nested.step", "'lid'", "face:N with N from 1 to 24", "colour:FF8800", "sole, top"]),
             ("cut.step surface all", 3, ["cut.step:", "ends early"]),
             ("astray.step surface all", 1, ["astray.step:", "ADVANCED_FACE"]),
             ("box.step keep gone/box.h5 surface all", 2, ["gone/box.h5: cannot write here", "No such file or directory"]),
+            ("box.step surface all scale 1e-150", 2, ["box.step: scaled by 1e-150 it is 1e-151 in size, expected 1e-30 to 1e+30"]),
+            ("tiny.yaml surface all", 1, ["tiny.yaml:2: scale is 1e-99: the shape becomes 1e-100 in size, expected 1e-30 to 1e+30"]),
             ("box.step surface all keep /dev/box.h5/box.h5", 1, ["/dev/box.h5/box.h5: cannot write here"]),
         ):
             with self.subTest(words):
