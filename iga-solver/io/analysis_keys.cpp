@@ -71,10 +71,11 @@ const Kind& kind_of(const YamlMap& map, const std::string& key) {
 
 }  // namespace
 
-Analysis read_analysis(const YamlMap& document, const std::vector<std::string>& inputs) {
+Analysis read_analysis(const YamlMap& document, const std::vector<std::string>& inputs,
+                       const std::optional<HistoryOutput>& output) {
   if (!document.is_map("analysis")) return kind_of(document, "analysis").usual;
   const YamlMap map = document.map("analysis");
-  if (map.has("save")) read_save(map, inputs);
+  if (map.has("save")) read_save(map, inputs, output);
   return kind_of(map, "kind").read(map);
 }
 

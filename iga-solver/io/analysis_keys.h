@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry_io/yaml_map.h"
+#include "io/output_keys.h"
 #include "structure/analysis/modes.h"
 #include "structure/analysis/relaxation.h"
 #include "structure/analysis/static_equilibrium.h"
@@ -34,8 +35,9 @@ struct ModeAnalysis {
 using Analysis = std::variant<StaticAnalysis, RelaxAnalysis, ModeAnalysis>;
 
 /// `analysis: static` or `analysis: {kind: static, ...}`, with the keys of its kind; `inputs` are files that
-/// it must not replace.  Throws geometry_io::InputError.
-Analysis read_analysis(const geometry_io::YamlMap& document, const std::vector<std::string>& inputs);
+/// it must not replace, nor those of `output`.  Throws geometry_io::InputError.
+Analysis read_analysis(const geometry_io::YamlMap& document, const std::vector<std::string>& inputs,
+                       const std::optional<HistoryOutput>& output);
 
 /// "static", "relax" or "modes".
 const char* analysis_word(const Analysis& analysis);

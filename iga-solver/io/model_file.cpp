@@ -118,8 +118,9 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
     if (damping.stiffness > 0.0) add_viscosity(damping.stiffness, model.materials);
   }
   if (document.has("state")) model.state = read_state(document, model.geometry.units, read_and_note);
-  if (document.has("time")) model.time = read_time_span(document.map("time", "{end: 1e-3}"), inputs);
-  if (document.has("analysis")) model.analysis = read_analysis(document, inputs);
+  if (document.has("time"))
+    model.time = read_time_span(document.map("time", "{end: 1e-3}"), inputs, model.output);
+  if (document.has("analysis")) model.analysis = read_analysis(document, inputs, model.output);
   return model;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "geometry_io/yaml_map.h"
+#include "io/output_keys.h"
 
 namespace io {
 
@@ -18,10 +19,12 @@ struct TimeSpan {
   std::optional<double> save_every = {};  ///< ... and every so much time
 };
 
-/// `inputs` are files that it must not replace.  Throws geometry_io::InputError.
-TimeSpan read_time_span(const geometry_io::YamlMap& map, const std::vector<std::string>& inputs);
+/// `inputs`, and what `output` writes, are files that it must not replace.  Throws geometry_io::InputError.
+TimeSpan read_time_span(const geometry_io::YamlMap& map, const std::vector<std::string>& inputs,
+                        const std::optional<HistoryOutput>& output);
 
-/// The value of `save`, a file that is none of `inputs`.  Throws geometry_io::InputError.
-std::string read_save(const geometry_io::YamlMap& map, const std::vector<std::string>& inputs);
+/// The value of `save`, a file that is none of these.  Throws geometry_io::InputError.
+std::string read_save(const geometry_io::YamlMap& map, const std::vector<std::string>& inputs,
+                      const std::optional<HistoryOutput>& output);
 
 }  // namespace io

@@ -110,6 +110,20 @@ class OwnInput(IgaSolve):
         self.assert_error(done, "block.h5: is no HDF5 file, expected one by its name")
         self.assertEqual((self.folder / "block.h5").read_text(), BLOCK)
 
+    def test_save_is_none_of_the_outputs(self):
+        (self.folder / "link").symlink_to(self.folder)
+        (self.folder / "later.h5").symlink_to("block.h5")
+        fields = ("file: block}", "file: block, fields: {of: [displacement], every: 1e-3, on: [volume, skin]}}")
+        for name in ("block.h5", "./block.h5", "link/block.h5", str(self.folder / "block.h5"), "later.h5", "block.h5.part",
+                     "block_volume.pvd", "block_skin.pvd", "block_skin_12.vtu"):  # fmt: skip
+            for span in (f"time: {{end: 0.1, save: {name}}}", f"analysis: {{kind: static, save: {name}}}"):
+                with self.subTest(span):
+                    done = self.run_model(changed(fields, ("time: {end: 0.1}", span)), "--check", name="model.yaml")
+                    self.assert_error(done, "model.yaml:8: save is .*, which 'output' writes, expected another file")
+        other = changed(fields, ("time: {end: 0.1}", "time: {end: 0.002, save: block_state.h5}"))
+        self.assertEqual(self.run_model(other).returncode, 0)
+        self.assertTrue((self.folder / "block.h5").exists() and (self.folder / "block_state.h5").exists())
+
     def test_of_another_kind_says_how_it_is_taken(self):
         (self.folder / "box.yaml").write_text("\n".join(BLOCK.splitlines()[:3]) + "\n")
         convert = [Path(PROGRAM).with_name("nurbs-convert"), "box.yaml", "box.h5"]
