@@ -46,6 +46,7 @@ void run(const SolveOptions& options) {
     throw std::runtime_error(
         fmt::format("{}: --continue goes on with a motion in time, the model has an 'analysis'", model.file));
   if (options.check) return app::check_model(options, model);
+  app::check_save(model);  // a long run would be for nothing
   model.analysis ? analyse(options, model) : app::run_in_time(options, model);
 }
 

@@ -6,7 +6,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <stdexcept>
 
 #include "explicit_run.h"
@@ -14,6 +13,7 @@
 #include "io/history.h"
 #include "model_report.h"
 #include "nurbs/memory.h"
+#include "parallel/all_or_none.h"
 #include "progress.h"
 
 namespace app {
@@ -64,16 +64,18 @@ void print_duration(const Steps& steps, double seconds) {
   print_on_first("  run time     {}{}, without output\n", run < 1.0 ? "" : "about ", duration_text(run));
 }
 
-/// Throws if there is no place for what is written.
-void check_output(const io::ModelFile& model) {
-  if (!model.output) return;
-  const std::filesystem::path path = io::checked_path(*model.output);
-  const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  const std::string problem = std::filesystem::is_directory(folder)
-                                  ? geometry_io::problem_as_output(path.string())
-                                  : fmt::format("there is no folder '{}'", folder.string());
-  if (!problem.empty())
-    throw std::runtime_error(fmt::format("{}: cannot write here: {}", path.string(), problem));
+void expect_place_for(const std::string& path) {
+  parallel::on_first_rank(MPI_COMM_WORLD, [&] {
+    const std::string problem = geometry_io::problem_as_later_output(path);
+    if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
+  });
+}
+
+std::optional<std::string> save_of(const io::ModelFile& model) {
+  if (!model.analysis) return model.time ? model.time->save : std::nullopt;
+  if (const auto* statics = std::get_if<io::StaticAnalysis>(&*model.analysis)) return statics->save;
+  if (const auto* relax = std::get_if<io::RelaxAnalysis>(&*model.analysis)) return relax->save;
+  return {};
 }
 
 void check_motion(const SolveOptions& options, const io::ModelFile& model, const ExplicitSolver& solver) {
@@ -91,8 +93,13 @@ void check_motion(const SolveOptions& options, const io::ModelFile& model, const
 
 }  // namespace
 
+void check_save(const io::ModelFile& model) {
+  if (const std::optional<std::string> path = save_of(model)) expect_place_for(*path);
+}
+
 void check_model(const SolveOptions& options, io::ModelFile& model) {
-  check_output(model);
+  if (model.output) expect_place_for(io::checked_path(*model.output));
+  check_save(model);
   const std::vector<std::string> warnings =
       warnings_of(model, model.analysis ? std::nullopt : end_of(options, model));
   const ExplicitSolver solver = io::build_solver(model, parallel::cut_among(MPI_COMM_WORLD));

@@ -11,4 +11,7 @@ namespace app {
 /// looks like a slip.  Collective.  Throws std::runtime_error where a run would refuse the model.
 void check_model(const SolveOptions& options, io::ModelFile& model);
 
+/// Throws std::runtime_error if the state that the model is to save cannot be written.  Collective.
+void check_save(const io::ModelFile& model);
+
 }  // namespace app

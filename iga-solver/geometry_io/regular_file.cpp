@@ -86,6 +86,20 @@ std::string problem_as_output(const std::string& path) {
   return unusable(there) ? fmt::format("{}: {}", unfinished, described(there)) : std::string();
 }
 
+std::string problem_as_later_output(const std::string& path) {
+  const std::string problem = problem_as_output(path), unfinished = unfinished_name(path);
+  if (!problem.empty()) return problem;
+  std::error_code error;
+  const std::filesystem::path folder = std::filesystem::path(unfinished).parent_path();
+  if (!folder.empty() && !std::filesystem::is_directory(folder, error))
+    return fmt::format("there is no folder '{}'", folder.string());
+  const bool was_there = std::filesystem::exists(unfinished, error);
+  errno = 0;
+  if (!std::ofstream(unfinished, std::ios::app)) return last_problem();
+  if (!was_there) std::filesystem::remove(unfinished, error);
+  return {};
+}
+
 std::string unfinished_name(const std::string& path) { return target(path) + ".part"; }
 
 std::string finish_file(const std::string& path) {

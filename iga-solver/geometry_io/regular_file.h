@@ -20,6 +20,8 @@ FileContent read_regular_file(const std::string& path);
 /// Why `path` cannot become a file that is written ("Is a named pipe"), or empty: it is one already, or
 /// nothing yet, and so is its unfinished_name.
 std::string problem_as_output(const std::string& path);
+/// The same where it is not written yet, also for want of a folder or of a permission: by trying.
+std::string problem_as_later_output(const std::string& path);
 /// Where a file is written until it is complete: path.part, beside the file that a link names.
 std::string unfinished_name(const std::string& path);
 /// Gives what was written there its name, in place of an older file; why that failed, or empty.

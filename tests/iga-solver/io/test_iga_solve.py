@@ -124,6 +124,20 @@ class OwnInput(IgaSolve):
         self.assertEqual(self.run_model(other).returncode, 0)
         self.assertTrue((self.folder / "block.h5").exists() and (self.folder / "block_state.h5").exists())
 
+    def test_save_that_cannot_be_written_is_refused_at_the_start(self):
+        (self.folder / "folder.h5").mkdir()
+        for name, why in (("none/state.h5", "there is no folder 'none'"), ("folder.h5", "Is a directory"),
+                          ("/proc/state.h5", ".*")):  # fmt: skip
+            for span in (f"time: {{end: 0.01, save: {name}}}", f"analysis: {{kind: static, save: {name}}}",
+                         f"analysis: {{kind: relax, save: {name}}}"):  # fmt: skip
+                for words in ([], ["--check"]):
+                    with self.subTest(span=span, words=words):
+                        done = self.run_model(changed(("time: {end: 0.1}", span)), *words, name="model.yaml")
+                        self.assert_error(done, f"{name}: cannot write here: {why}")
+                        self.assertNotIn("mass", done.stdout)  # refused before anything is done
+        self.assertEqual(self.run_model(changed(("0.1}", "0.1, save: state.h5}")), "--check", name="model.yaml").returncode, 0)
+        self.assertEqual(sorted(os.listdir(self.folder)), ["folder.h5", "model.yaml"])
+
     def test_of_another_kind_says_how_it_is_taken(self):
         (self.folder / "box.yaml").write_text("\n".join(BLOCK.splitlines()[:3]) + "\n")
         convert = [Path(PROGRAM).with_name("nurbs-convert"), "box.yaml", "box.h5"]
