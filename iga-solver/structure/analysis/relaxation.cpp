@@ -10,9 +10,9 @@ namespace structure {
 
 namespace {
 
-double relative_residual(const ExplicitSolver& solver, NodalVectors& f) {
+double relative_residual(const ExplicitSolver& solver, double conditions_time, NodalVectors& f) {
   NodalVectors loads;
-  solver.external_forces(solver.displacements(), solver.time(), loads);
+  solver.external_forces(solver.displacements(), conditions_time, loads);
   solver.body().internal_force(solver.displacements(), f);
   solver.springs().add_forces(solver.displacements(), f);
   const double size = std::max({loads.norm(), f.norm(), std::numeric_limits<double>::min()});
@@ -27,10 +27,11 @@ RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
                 const std::function<void(const RelaxPeak&)>& on_peak) {
   const NodalVectors none = NodalVectors::Zero(3, solver.body().node_count());
   NodalVectors f = none;
-  RelaxPeak peak{0, relative_residual(solver, f)};
   double kinetic = 0.0;
+  solver.hold_conditions_at(options.conditions_time);
   solver.set_velocities(none);
-  solver.initialise_forces(none);
+  solver.initialise_forces(none);  // which puts supports where they are to be
+  RelaxPeak peak{0, relative_residual(solver, options.conditions_time, f)};
   for (long step = 1; peak.residual > options.tolerance; ++step) {
     if (step > options.most_steps)
       throw std::runtime_error(
@@ -44,7 +45,7 @@ RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
       kinetic = now;
       continue;
     }
-    peak = {step, relative_residual(solver, f)};
+    peak = {step, relative_residual(solver, options.conditions_time, f)};
     if (on_peak) on_peak(peak);
     kinetic = 0.0;
     solver.set_velocities(none);

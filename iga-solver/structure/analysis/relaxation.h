@@ -15,6 +15,7 @@ namespace structure {
 struct RelaxOptions {
   double tolerance = 1e-6;       ///< of the forces out of balance, relative to loads and reactions
   long most_steps = 10'000'000;  ///< time steps
+  double conditions_time = 1.0;  ///< loads and supports are those of then, from the beginning
 };
 
 /// How it stands at a peak of the kinetic energy.

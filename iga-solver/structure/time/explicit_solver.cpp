@@ -92,7 +92,7 @@ void ExplicitSolver::external_forces(const NodalVectors& u, double t, NodalVecto
 
 void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   check_size(F, "forces");
-  motion_.place(time_, body_->reference(), u_, x_);
+  motion_.place(conditions_time(time_), body_->reference(), u_, x_);
   body_->internal_force(led_displacements(), f_int_);
   halo_->sum_to_owners(f_int_);
   add_forces_of_others();
@@ -113,7 +113,7 @@ void ExplicitSolver::begin_step() {
   }
   for (const ForceSums& run : sums_) ledger_.half_kick(run.work_from_now(0.5 * dt_));
   largest_u_ = kick_and_drift(dt_, a_, body_->reference(), v_, u_, x_);
-  motion_.place(time_ + dt_, body_->reference(), u_, x_);
+  motion_.place(conditions_time(time_ + dt_), body_->reference(), u_, x_);
 }
 
 void ExplicitSolver::add_motion(const NodalVectors& displacements, const NodalVectors& velocities) {
@@ -175,12 +175,13 @@ void ExplicitSolver::add_forces_of_others() {
   springs_.add_forces(lead_ == 0.0 ? u_ : led_u_, f_int_);
   if (loads_.empty()) return;
   f_ext_ = f_dead_;
-  for (const std::unique_ptr<const ChangingLoad>& load : loads_) load->add(time_, x_, *halo_, f_ext_);
+  for (const std::unique_ptr<const ChangingLoad>& load : loads_)
+    load->add(conditions_time(time_), x_, *halo_, f_ext_);
 }
 
 void ExplicitSolver::accelerate(const NodalVectors& F, double h) {
   const bool moves = !motion_.is_empty() && dt_ > 0.0;
-  if (moves) motion_.find_velocities(time_, dt_, h > 0.0, u_, v_);
+  if (moves) motion_.find_velocities(conditions_time(time_ + dt_), dt_, h > 0.0, u_, v_);
   const NodalForces forces{f_int_, f_ext_, F};
   sums_.clear();
   halo_->for_each_run(v_.cols(), [&](Eigen::Index first, Eigen::Index count) {

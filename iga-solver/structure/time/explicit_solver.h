@@ -50,6 +50,8 @@ class ExplicitSolver {
   void set_springs(Springs springs) { springs_ = std::move(springs); }
   /// Forces - rate m v [1/time] from the next forces on.
   void set_mass_damping(double rate) { damping_ = rate; }
+  /// From the next forces on loads and supports are those of the time t, whenever it is.
+  void hold_conditions_at(double t) { held_at_ = t; }
   /// Current velocities [length/time], set to 0 at fixed dofs that do not move; throws as above.
   void set_velocities(const NodalVectors& v);
   /// dt [time]; throws std::invalid_argument unless it is positive and finite.
@@ -182,6 +184,8 @@ class ExplicitSolver {
   /// From f_int_, whole at own nodes: accelerations under F too, and a kick of `h` by them.
   void accelerate(const NodalVectors& F, double h);
   void find_reactions(const NodalVectors& F);
+  /// Of loads and supports when the solid's is t.
+  double conditions_time(double t) const { return held_at_.value_or(t); }
   /// Sum of m_A |q_A|^2 over all nodes.
   double nodal_sum(const NodalVectors& q) const;
   /// Over the nodes of all parts.
@@ -204,6 +208,7 @@ class ExplicitSolver {
   NodalVectors inverse_mass_;  // of each dof, 0 where it is fixed
   SupportMotion motion_;
   double dt_ = 0.0, time_ = 0.0;
+  std::optional<double> held_at_;  // the time of loads and supports, if it does not go on
   double lead_ = 0.0;
   double damping_ = 0.0;  // rate
   NodalVectors f_ext_, f_int_, u_, x_, v_, a_;

@@ -28,9 +28,9 @@ void SupportMotion::place(double t, const NodalVectors& reference, NodalVectors&
 }
 
 // From v(n) alone, so that a run that begins here goes on with the same accelerations.
-void SupportMotion::find_velocities(double t, double dt, bool holds_half, const NodalVectors& u,
+void SupportMotion::find_velocities(double t_next, double dt, bool holds_half, const NodalVectors& u,
                                     NodalVectors& v) {
-  find_factors(t + dt);
+  find_factors(t_next);
   for (Dof& d : moved_) {
     const double next = (d.size * factors_[d.motion] - u.data()[d.dof]) / dt, now = v.data()[d.dof];
     d.velocity = holds_half ? 0.5 * (now + next) : now;

@@ -19,9 +19,9 @@ class SupportMotion {
 
   /// u(t), and x = reference + u.
   void place(double t, const NodalVectors& reference, NodalVectors& u, NodalVectors& x);
-  /// With u those of the time t, and a step dt to come: v(n-1/2), or v(n) if that is what v holds, becomes
-  /// v(n).
-  void find_velocities(double t, double dt, bool holds_half, const NodalVectors& u, NodalVectors& v);
+  /// With u those of now, and a step dt to come, to t_next: v(n-1/2), or v(n) if that is what v holds,
+  /// becomes v(n).
+  void find_velocities(double t_next, double dt, bool holds_half, const NodalVectors& u, NodalVectors& v);
   /// Accelerations a of the columns [first, first + count), and what they do to the sums over these.
   void add_accelerations(Eigen::Index first, Eigen::Index count, const NodalForces& f, NodalVectors& a,
                          ForceSums& sums) const;

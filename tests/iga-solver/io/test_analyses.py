@@ -93,6 +93,23 @@ class Analyses(unittest.TestCase):
         self.assertIn("at rest after", printed)
         np.testing.assert_allclose(self.rows("probes/end")[-1], expected, rtol=1e-5, atol=1e-12)
 
+    def test_loads_and_supports_of_relax_are_those_of_time_1(self):
+        """As of static: a load and a support that are 0 at time 0, a load that is at its peak at time 1, one that has passed it."""
+        load, pulled = "value: [1e6, 0, 0]", "loads: {{tractions: [{{face: xi+, value: [1e6, 0, 0]}}]}}\n"
+        pull = "boundary: [{{name: hand, move: {{x: 5e-4}}, faces: [xi+], time: {{ramp: [0, 1]}}}}, "
+        for name, text in (
+            ("ramp", MODEL.replace(load, load + ", time: {{ramp: [0, 1]}}")),
+            ("sine", MODEL.replace(load, load + ", time: {{sine: {{frequency: 0.25}}}}")),
+            ("table", MODEL.replace(load, load + ", time: {{table: [[0, 3], [1, 1], [2, 3]]}}")),
+            ("expression", MODEL.replace("[1e6, 0, 0]", "[1e6*t, 0, 0]")),
+            ("support", MODEL.replace(pulled, "").replace("boundary: [", pull)),
+        ):
+            for analysis in ("static", "{kind: relax, tolerance: 1e-8}"):
+                with self.subTest(name=name, analysis=analysis):
+                    self.run_model(f"analysis: {analysis}", text=text)
+                    np.testing.assert_allclose(self.rows("probes/end")[-1, 0], STRESS / E * LENGTH, rtol=1e-6)
+                    np.testing.assert_allclose(self.rows("reactions/wall")[-1, 0], -0.01 * STRESS, rtol=1e-6)
+
     def test_welded_patches_of_two_materials(self):
         """Timoshenko's beam of two materials without Poisson's ratio; relax gives what static does."""
         E1, E2, width, height, length, force = 2.1e5, 7e4, 20.0, 4.0, 100.0, 20.0
