@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <optional>
+#include <string>
 
 #include "io/frequencies.h"
 #include "io/history.h"
@@ -29,8 +31,9 @@ class RestOutput {
     if (!model.output) return;
     history_.emplace(*model.output, model.geometry.units, model.probes, model.named_supports());
   }
-  void write(const ExplicitSolver& solver) {
-    if (history_) history_->record(io::measure(solver, model_.probes, model_.named_supports()));
+  /// `load_factor`: the part of the constant loads that acts.
+  void write(const ExplicitSolver& solver, double load_factor) {
+    if (history_) history_->record(row(solver, load_factor));
     if (fields_)
       fields_->write({solver.time(), solver.displacements(), solver.velocities(), solver.memory_in_order()});
   }
@@ -42,14 +45,26 @@ class RestOutput {
   }
 
  private:
+  /// An equilibrium has no steps whose work a ledger would have.
+  io::HistoryRow row(const ExplicitSolver& solver, double load_factor) const {
+    constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+    io::HistoryRow row = io::measure(solver, model_.probes, model_.named_supports());
+    row.load_work = solver.has_changing_loads() ? kUnknown : load_factor * row.load_work;
+    row.work = {kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+    row.truncation = kUnknown;
+    return row;
+  }
+
   const io::ModelFile& model_;
   std::optional<io::History> history_;
   Fields& fields_;
 };
 
 void print_result(const io::ModelFile& model, const ExplicitSolver& solver) {
-  fmt::print("  strain energy {:.8g}, work of the loads {:.8g}, largest displacement {:.8g}\n",
-             solver.strain_energy(), solver.load_work(), solver.largest_displacement());
+  const std::string work =
+      solver.has_changing_loads() ? "not known" : fmt::format("{:.8g}", solver.load_work());
+  fmt::print("  strain energy {:.8g}, work of the loads {}, largest displacement {:.8g}\n",
+             solver.strain_energy(), work, solver.largest_displacement());
   for (const structure::Probe& probe : model.probes) {
     const structure::Vector3 u = solver.displacement(probe);
     fmt::print("  probe {}: {:.8g} {:.8g} {:.8g}\n", probe.name, u[0], u[1], u[2]);
@@ -99,7 +114,7 @@ void run(const io::StaticAnalysis& analysis, const io::ModelFile& model, Fields&
   };
   statics.solve(prints(talk) ? tell : structure::StaticEquilibrium::OnIteration(), [&](double load_factor) {
     take(solver, statics.displacements(), load_factor);
-    output.write(solver);
+    output.write(solver, load_factor);
   });
   look(model, solver);
   if (prints(talk)) print_result(model, solver);
@@ -122,7 +137,7 @@ void run(const io::RelaxAnalysis& analysis, const io::ModelFile& model, Fields& 
   };
   const structure::RelaxPeak last = structure::relax(solver, analysis.options, tell);
   if (prints(talk)) fmt::print("  at rest after {} steps: out of balance {:.2e}\n", last.step, last.residual);
-  output.write(solver);
+  output.write(solver, kFullTime);
   look(model, solver);
   if (prints(talk)) print_result(model, solver);
   save(analysis.save, model, solver, talk);

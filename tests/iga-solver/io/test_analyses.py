@@ -184,6 +184,23 @@ output: {{{{file: out}}}}
             expected = [stretch - 1, lateral - 1, lateral - 1]
             np.testing.assert_allclose(self.rows("probes/end")[-1], expected, atol=1e-7)
 
+    def test_the_work_of_loads_that_change_is_not_told(self):
+        """Of constant ones it is their part times displacements."""
+        for value, known in (("tractions: [{{face: xi+, value: [1e6, 0, 0]}}]", True),
+                             ("tractions: [{{face: xi+, value: [1e6, 0, 0], time: {{ramp: [0, 1]}}}}]", False),
+                             ("tractions: [{{face: xi+, value: [1e6*t, 0, 0]}}]", False),
+                             ("pressures: [{{face: xi+, value: -1e6}}]", False)):  # fmt: skip
+            text = MODEL.replace("tractions: [{{face: xi+, value: [1e6, 0, 0]}}]", value)
+            for analysis in ("{kind: static, load_steps: 2}", "relax"):
+                with self.subTest(value=value, analysis=analysis):
+                    printed = self.run_model(f"analysis: {analysis}", text=text)
+                    self.assertEqual("work of the loads not known" in printed, not known)
+                    work = self.rows("load_work")
+                    parts = np.array([0.5, 1])[-len(work):] if known else np.full(len(work), np.nan)
+                    np.testing.assert_allclose(work, 0.01 * STRESS * STRESS / E * LENGTH * parts**2, rtol=1e-5)
+                    for name in ("loads", "supports", "damped", "internal", "truncation", "contacts"):
+                        self.assertTrue(np.isnan(self.rows("ledger/" + name)).all(), name)
+
     def test_viscosity_changes_neither_rest_nor_frequencies(self):
         found = {}
         for damping in ("", "\ndamping: {stiffness: 1e-6}"):
