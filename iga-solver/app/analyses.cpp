@@ -181,7 +181,12 @@ void run(const io::ModeAnalysis& analysis, const io::ModelFile& model, Fields& f
 
 }  // namespace
 
+void expect_finite_conditions(const io::ModelFile& model, const ExplicitSolver& solver) {
+  if (!std::holds_alternative<io::ModeAnalysis>(*model.analysis)) solver.expect_finite_conditions(kFullTime);
+}
+
 void run_analysis(const io::ModelFile& model, Fields& fields, ExplicitSolver& solver, Talk talk) {
+  expect_finite_conditions(model, solver);
   std::visit([&](const auto& analysis) { run(analysis, model, fields, solver, talk); }, *model.analysis);
 }
 

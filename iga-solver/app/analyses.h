@@ -16,4 +16,7 @@ namespace app {
 void run_analysis(const io::ModelFile& model, std::optional<io::FieldSeries>& fields,
                   structure::ExplicitSolver& solver, Talk talk);
 
+/// Throws structure::Diverged if a condition of the equilibrium that is looked for is not finite.
+void expect_finite_conditions(const io::ModelFile& model, const structure::ExplicitSolver& solver);
+
 }  // namespace app

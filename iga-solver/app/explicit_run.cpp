@@ -194,6 +194,10 @@ void run_in_time(const SolveOptions& options, io::ModelFile& model) {
     print_on_first("  continues    from time {:.6g} ({})\n", continued->time, *model.time->save);
   const double stable = find_stable_step(model, solver, options.talk);
   const Steps steps = steps_to(*end, options, model, stable, continued);
+  with_name(model, [&] {
+    solver.expect_finite_conditions(continued ? continued->time : 0.0);
+    solver.expect_finite_conditions(*end);
+  });
   solver.set_time_step(steps.size);
   if (prints) print_on_first("  time step    {:.6g}, {} steps\n", steps.size, steps.count);
   begin(solver, continued, model);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "analyses.h"
 #include "explicit_run.h"
 #include "geometry_io/regular_file.h"
 #include "io/history.h"
@@ -83,6 +84,10 @@ void check_motion(const SolveOptions& options, const io::ModelFile& model, const
   const double stable = find_stable_step(model, solver, Talk::usual);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const std::optional<double> end = end_of(options, model);
+  with_name(model, [&] {
+    solver.expect_finite_conditions(0.0);
+    if (end) solver.expect_finite_conditions(*end);
+  });
   if (!end)
     return print_on_first("  time step    not known: neither 'time: {{end: T}}' nor --end T is given\n");
   const Steps steps = steps_to(*end, options, model, stable, {});
@@ -106,9 +111,10 @@ void check_model(const SolveOptions& options, io::ModelFile& model) {
   print_model(model, solver);
   print_details(model);
   print_size(model, solver);
-  if (model.analysis)
+  if (model.analysis) {
+    with_name(model, [&] { expect_finite_conditions(model, solver); });
     print_on_first("  analysis     {}\n", io::analysis_word(*model.analysis));
-  else
+  } else
     check_motion(options, model, solver);
   for (const std::string& warning : warnings) print_on_first("WARNING: {}: {}\n", model.file, warning);
 }

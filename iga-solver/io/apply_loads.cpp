@@ -31,7 +31,8 @@ class Applied {
   void traction(const FaceLoad& load);
   void pressure(const FaceLoad& load) {
     solver_.add_load(std::make_unique<structure::FollowingPressure>(solver_.body(), skin(load),
-                                                                    load.value.field, load.time));
+                                                                    load.value.field, load.time),
+                     "of " + load.value.place);
   }
   void line(const LineLoad& load) {
     NodalVectors f = none();
@@ -82,7 +83,8 @@ void Applied::traction(const FaceLoad& load) {
   NodalVectors f = none();
   if (value.changes) {
     solver_.add_load(std::make_unique<structure::FieldTraction>(structure::SkinQuadrature(skin(load), nodes),
-                                                                value.field, load.time));
+                                                                value.field, load.time),
+                     "of " + value.place);
     return;
   }
   if (value.is_uniform)

@@ -13,6 +13,7 @@
 #include "geometry_io/parse_number.h"
 #include "nurbs/usable_number.h"
 #include "structure/conditions/grid_table.h"
+#include "structure/time/divergence.h"
 
 namespace io {
 
@@ -139,7 +140,14 @@ FieldKey read_grid_table(const YamlMap& entry, const std::string& key,
 
 structure::TimeFunction read_time_expression(const YamlMap& map, const std::string& key) {
   const Expression expression = read_expression(map, key, map.word(key), {"t"});
-  return [expression](double t) { return expression(nurbs::Vector3::Zero(), t); };
+  const std::string place = fmt::format("{}:{}", map.file(), map.line_of(key));
+  return [=](double t) {
+    const double factor = expression(nurbs::Vector3::Zero(), t);
+    if (!std::isfinite(factor))  // on all ranks alike
+      throw structure::Diverged(fmt::format("the factor '{}' of {} is {} at time {:.6g}, expected a number",
+                                            key, place, factor, t));
+    return factor;
+  };
 }
 
 FieldKey read_field(const YamlMap& map, const std::string& key, const std::vector<std::string>& variables) {

@@ -26,7 +26,7 @@ class Expression {
   std::shared_ptr<Parser> parser_;  // copies share it: one thread
 };
 
-/// A number or an expression of t.
+/// A number or an expression of t; where that is not finite the function throws structure::Diverged.
 structure::TimeFunction read_time_expression(const geometry_io::YamlMap& map, const std::string& key);
 
 /// A value that the model file gives by numbers, expressions or a table.

@@ -60,9 +60,10 @@ void ExplicitSolver::set_load(const NodalVectors& f_ext) {
   (loads_.empty() ? f_ext_ : f_dead_) = f_ext;
 }
 
-void ExplicitSolver::add_load(std::unique_ptr<const ChangingLoad> load) {
+void ExplicitSolver::add_load(std::unique_ptr<const ChangingLoad> load, std::string name) {
   if (loads_.empty()) f_dead_ = f_ext_;
   loads_.push_back(std::move(load));
+  load_names_.push_back(std::move(name));
   budget_.reset();
 }
 
@@ -262,9 +263,11 @@ void ExplicitSolver::check_divergence(const NodalVectors& F) {
                          sums[kSupports].value() + sums[kDamping].value() - sums[kInternal].value();
   const double power_before = std::exchange(power_, sums[kPower].value());
   if (!starts) budget_->add(0.5 * dt_ * (power_before + power_) + sums[kAdded].value());
-  if (!budget_->allows(kinetic) || sums[kPartsBeyond].value() > 0.0)
+  if (!budget_->allows(kinetic) || sums[kPartsBeyond].value() > 0.0) {
+    expect_finite_conditions(conditions_time(time_));  // or it is the model's fault
     throw Diverged(describe_divergence(
         {*body_, *halo_, *mass_, u_, v_, a_, F, time_, dt_, stable_time_step_, kinetic, budget_->most()}));
+  }
   if (sums[kPartsAlarmed].value() == 0.0) return;
   tell_of_elements();
   if (halo_->any(is_strained)) look_at_strain();

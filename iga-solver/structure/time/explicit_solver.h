@@ -43,8 +43,8 @@ class ExplicitSolver {
   /// std::invalid_argument if the size does not fit.
   void set_load(const NodalVectors& f_ext);
   const NodalVectors& load() const { return loads_.empty() ? f_ext_ : f_dead_; }
-  /// One more that changes with time or with the motion, from the next forces on.
-  void add_load(std::unique_ptr<const ChangingLoad> load);
+  /// One more that changes with time or with the motion, from the next forces on; `name` is for messages.
+  void add_load(std::unique_ptr<const ChangingLoad> load, std::string name = {});
   /// Springs to the ground: stiffness and strain energy count as the body's.  Before the stable step is asked
   /// for.
   void set_springs(Springs springs) { springs_ = std::move(springs); }
@@ -94,6 +94,9 @@ class ExplicitSolver {
   bool has_changing_loads() const { return !loads_.empty(); }
   /// All loads [force] at displacements u and the time t, 3 x n.  Collective.
   void external_forces(const NodalVectors& u, double t, NodalVectors& f) const;
+  /// Throws Diverged if a load on the undeformed body or the motion of a support is not finite then.
+  /// Collective.
+  void expect_finite_conditions(double t) const;
   const Body& body() const { return *body_; }
   const Supports& supports() const { return supports_; }
   const MassOperator& mass() const { return *mass_; }
@@ -191,6 +194,8 @@ class ExplicitSolver {
   /// Over the nodes of all parts.
   Vector3 sum_of_own(const std::function<Vector3(Eigen::Index node)>& value) const;
   void start_energy_budget();
+  /// Which load on the undeformed body is not finite at the time t, in a line; empty if all are.
+  std::string load_not_finite(double t) const;
   double dissipated_energy() const;
   void check_divergence(const NodalVectors& F);
   /// Throws Diverged if an element is folded; a warning if one is turned too far.
@@ -214,6 +219,7 @@ class ExplicitSolver {
   NodalVectors f_ext_, f_int_, u_, x_, v_, a_;
   NodalVectors f_dead_;  // what does not change of f_ext, if something does
   std::vector<std::unique_ptr<const ChangingLoad>> loads_;
+  std::vector<std::string> load_names_;
   Springs springs_;
   NodalVectors led_u_;           // u + lead v, where there is a lead
   double largest_u_ = 0.0;       // of all components that the part holds

@@ -221,9 +221,12 @@ output: {{{{file: out}}}}
             ("analysis: {kind: static, save: model.yaml}", "save is model.yaml, from which the model is read"),
             ("analysis: static\nstate: none.h5", "none.h5: cannot read this file"),
             ("analysis: {kind: modes, mass: full}", "expected one of: lumped, consistent"),
+            ("analysis: static", "model.yaml: the load of model.yaml:6 is not finite at time 1, expected numbers"),
+            ("analysis: relax", "model.yaml: the load of model.yaml:6 is not finite at time 1, expected numbers"),
         ):
             with self.subTest(more):
-                self.assertIn(expected, self.run_model(more, code=1))
+                text = MODEL.replace("[1e6, 0, 0]", "[1/(t-1), 0, 0]") if "finite" in expected else MODEL
+                self.assertIn(expected, self.run_model(more, text=text, code=1))
         free = MODEL.replace("boundary: [{{name: wall, fix: [x, y, z], faces: [xi-]}}, ", "boundary: [")
         self.assertIn("free in 1 of its 6 rigid motions", self.run_model("analysis: static", text=free, code=1))
         self.assertIn("runs on one rank", self.run_model("analysis: static", ranks=2, code=1))

@@ -190,6 +190,12 @@ class Loads(unittest.TestCase):
             ("loads: {tractions: [{face: zeta+, value: [0, 1, 1/x]}]}\nboundary: []", None),
             ("loads: {body_force: {value: [0, t, 1]}}", "expected a number or an expression of x, y, z"),
             ("loads: {body_force: {value: [0, sqrt(x-1), 1]}}", "model.yaml:5: the expression is not finite somewhere on the solid"),
+            ("loads: {pressures: [{face: zeta+, value: sqrt(x-1)}]}", "model.yaml: the load of model.yaml:5 is not finite at time 0"),
+            ("loads: {tractions: [{face: zeta+, value: [0, 1/t, 1]}]}", "model.yaml: the load of model.yaml:5 is not finite at time 0"),
+            ("loads: {tractions: [{face: zeta+, value: [0, 1/(t-1e-6), 1]}]}", "the load of model.yaml:5 is not finite at time 1e-06"),
+            ("loads: {gravity: {value: [0, 0, 1], time: 1/t}}", "model.yaml: the factor 'time' of model.yaml:5 is inf at time 0, expected a number"),
+            ("loads: {gravity: {value: [0, 0, 1], time: sqrt(5e-7-t)}}", "nan at time 1e-06, expected a number"),
+            ("boundary: [{move: {x: 1}, faces: [xi-], time: 1/t}]", "the factor 'time' of model.yaml:5 is inf at time 0"),
             ("loads: {pressures: [{face: zeta+, value: [0, 0, 1]}]}", "value is a list of 3, expected a word"),
             ("loads: {pressures: [{face: zeta+, value: 1, time: x}]}", "expected a number or an expression of t"),
             ("loads: {lines: [{edge: [zeta+, zeta-], value: [0, 0, 1]}]}", "edge has no control points"),
@@ -215,6 +221,21 @@ class Loads(unittest.TestCase):
             self.assertNotEqual(done.returncode, 0, more)
             self.assertIn(expected, done.stderr, more)
             self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
+
+    def test_what_is_not_finite_for_a_while_stops_there(self):
+        """Neither at the start nor at the end; on one rank and on two."""
+        gap = "(t > 1e-3 ? (t < 3e-3 ? sqrt(-1) : 1) : 1)"
+        for more, expected in (
+            (f'loads: {{pressures: [{{face: zeta+, value: "{gap}"}}]}}', "the load of model.yaml:5 is not finite"),
+            (f'loads: {{tractions: [{{face: xi+, value: ["{gap}", 0, 0]}}]}}', "the load of model.yaml:5 is not finite"),
+            (f'loads: {{pressures: [{{face: zeta+, value: 1, time: "{gap}"}}]}}', "the factor 'time' of model.yaml:5 is -?nan"),
+            (f'boundary: [{{move: {{x: 1e-6}}, faces: [xi-], time: "{gap}"}}]', "the factor 'time' of model.yaml:5 is -?nan"),
+        ):  # fmt: skip
+            for ranks in (1, 2):
+                with self.subTest(more=more, ranks=ranks):
+                    done, _ = run(block(more, elements="[20, 18, 3]"), 4e-3, 5e-5, ranks)
+                    self.assertNotEqual(done.returncode, 0)
+                    self.assertRegex(done.stderr, rf"model.yaml: step \d+: {expected} at time 0.001\d*, expected .*; the histories before it are")
 
 
 if __name__ == "__main__":
