@@ -106,7 +106,7 @@ void warn_of_unused(const io::ModelFile& model, Warnings& warnings) {
   unused(!model.output && !model.analysis && !model.probes.empty(), "probes", "there is no 'output'");
   unused(!model.output && !model.analysis && !model.named_supports().empty(), "name of boundary",
          "reactions are recorded by 'output'");
-  unused(!model.modal_damping.empty(), "damping.modal", "it is of 'body modal N' in a deck");
+  if (const std::string modal = unused_modal_damping(model); !modal.empty()) warnings.push_back(modal);
   if (!model.analysis) return;
   const char* const why = "an 'analysis' has no motion in time";
   unused(model.time.has_value() && !(is_of(model, kRelax) && model.time->step), "time", why);
@@ -130,6 +130,10 @@ void warn_of_output(const io::ModelFile& model, std::optional<double> end, Warni
 }
 
 }  // namespace
+
+std::string unused_modal_damping(const io::ModelFile& model) {
+  return model.modal_damping.empty() ? "" : "'damping.modal' is not used: it is of 'body modal N' in a deck";
+}
 
 Warnings warnings_of(const io::ModelFile& model, std::optional<double> end) {
   Warnings warnings;

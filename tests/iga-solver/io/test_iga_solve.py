@@ -90,6 +90,16 @@ class Divergence(IgaSolve):
         self.assertEqual(os.listdir(self.folder), ["block.yaml"])
 
 
+class ModalDamping(IgaSolve):
+    def test_that_does_nothing_is_told(self):
+        for more in ("damping: {modal: 0.1}\n", ""):
+            for words in ([], ["--quiet"]):
+                done = self.run_model(BLOCK + more, "--end", "0.001", *words)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                told = "WARNING: block.yaml: 'damping.modal' is not used: it is of 'body modal N' in a deck\n"
+                self.assertEqual(done.stderr, told if more else "")
+
+
 class OwnInput(IgaSolve):
     def test_is_never_overwritten(self):
         self.run_model(BLOCK, "--end", "0.001")
