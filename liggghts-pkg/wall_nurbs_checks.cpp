@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -21,13 +22,14 @@ namespace liggghts_pkg {
 
 namespace {
 
+/// `round_off`: of a constant that may be 0.
 void check_property(LAMMPS_NS::Modify& modify, const char* property, int wall_type, double model_value,
-                    const std::string& file) {
+                    double round_off, const std::string& file) {
   LAMMPS_NS::Fix* fix =
       modify.find_fix_property(property, "property/global", "peratomtype", 0, 0, "wall/nurbs", false);
   if (!fix) return;  // the contact model does not use it
   const double deck_value = static_cast<LAMMPS_NS::FixPropertyGlobal*>(fix)->get_values()[wall_type - 1];
-  if (std::abs(deck_value - model_value) > 1e-6 * std::abs(model_value))
+  if (std::abs(deck_value - model_value) > std::max(1e-6 * std::abs(model_value), round_off))
     throw std::invalid_argument(fmt::format(
         "{} of atom type {} is {:.10g} in the deck but {:.10g} in '{}'; make them equal, or write 'material "
         "independent' to keep both",
@@ -91,8 +93,9 @@ void check_run_style(const LAMMPS_NS::Update& update) {
 void check_wall_material(LAMMPS_NS::Modify& modify, int wall_type,
                          const std::optional<coupling::SurfaceMaterial>& material, const std::string& file) {
   if (!material) return;
-  check_property(modify, "youngsModulus", wall_type, material->youngs_modulus, file);
-  check_property(modify, "poissonsRatio", wall_type, material->poissons_ratio, file);
+  constexpr double kRoundOff = 1e-9;  // of the mean of an anisotropic law
+  check_property(modify, "youngsModulus", wall_type, material->youngs_modulus, 0.0, file);
+  check_property(modify, "poissonsRatio", wall_type, material->poissons_ratio, kRoundOff, file);
 }
 
 namespace {

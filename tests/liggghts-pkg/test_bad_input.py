@@ -376,6 +376,14 @@ class BadInput(unittest.TestCase):
             deck = bob.prelude(ball=(7e9, 0.25)) + f"fix plate all wall/nurbs {words}\nthermo 1\nrun 1\n"
             decks.good(deck, files=files)  # the ball's material is its own
 
+    def test_a_poissons_ratio_of_0_may_come_with_round_off(self):
+        """Hill's mean of these constants is -5e-17."""
+        law = "law: orthotropic_elastic, " + ", ".join(
+            [f"E_{i}: 1e8" for i in (1, 2, 3)] + [f"nu_{i}: 0" for i in (12, 13, 23)] + [f"G_{i}: 5e7" for i in (12, 13, 23)])  # fmt: skip
+        files = in_block("law: linear_elastic, youngs_modulus: 5000000000.0, poissons_ratio: 0.3", law)
+        deck = bob.prelude(wall=(1e8, 0.0)) + f"fix plate all wall/nurbs {GOOD}\nthermo 1\nrun 1\n"
+        decks.good(deck, files=files)
+
 
 if __name__ == "__main__":
     unittest.main()
