@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "advised_size.h"
 #include "coupling/model_text.h"
 #include "fix_gravity.h"
 #include "fix_property_global.h"
@@ -195,17 +196,17 @@ std::string alarm_of_mesh(const contact::ContactLoop& loop, MPI_Comm world) {
         "% "
         "of the force is missing ({} contacts above {:g} % in this run); use 'compliance corrected', or "
         "elements "
-        "of at least {:.2g} there",
+        "of at least {:.3g} there",
         uncorrected.size, place(uncorrected), 100.0 * uncorrected.value, uncorrected.count, 100.0 * kMost,
-        uncorrected.size * uncorrected.value / kMost);
+        rounded_up(uncorrected.size * uncorrected.value / kMost));
   if (not_static.count > 0)
     return fmt::format(
         "the contact of {} is too short for 'compliance corrected', which is static: it lasts {:.2g} of what "
         "a "
         "shear wave takes through three elements of size {:.3g} ({} contacts of this kind in this run); use "
-        "elements of at most {:.2g} there, or 'compliance none'",
+        "elements of at most {:.3g} there, or 'compliance none'",
         place(not_static), 1.0 / not_static.value, not_static.size, not_static.count,
-        not_static.size / not_static.value);
+        rounded_down(not_static.size / not_static.value));
   return "";
 }
 
