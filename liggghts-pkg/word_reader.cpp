@@ -75,11 +75,13 @@ double WordReader::number_at_least_zero(const std::string& keyword) {
   return given;
 }
 
+// Pi may be rounded up.
 double WordReader::angle(const std::string& keyword) {
+  constexpr double kRounded = 3.15;
   const double given = number(keyword);
-  if (given < 0.0 || given > nurbs::kPi)
+  if (given < 0.0 || given > kRounded)
     fail(fmt::format("{} is '{}', expected 0 to pi (3.14159), in rad", keyword, words_[next_ - 1]));
-  return given;
+  return std::min(given, nurbs::kPi);
 }
 
 double WordReader::number_above_zero(const std::string& keyword) {

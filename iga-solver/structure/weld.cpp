@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <stdexcept>
 
 #include "nurbs/boundary.h"
@@ -171,6 +172,39 @@ void expect_one_mesh(const std::vector<nurbs::Volume>& patches, const NodeNumber
   });
 }
 
+/// Of another patch, how many nodes of a face it has, and how many of those inside it.
+struct Shared {
+  int all = 0, inside = 0;
+};
+
+std::map<int, Shared> shared_nodes(const FaceNet& face, const NodeNumbering& nodes) {
+  std::map<int, Shared> shared;
+  for (int j = 0; j < face.count(1); ++j)
+    for (int i = 0; i < face.count(0); ++i) {
+      const auto found = std::lower_bound(nodes.welded().begin(), nodes.welded().end(), face.node(i, j));
+      if (found == nodes.welded().end() || *found != face.node(i, j)) continue;
+      std::set<int> others;
+      for (const auto& [patch, control_point] : nodes.places_of_welded(found - nodes.welded().begin()))
+        if (patch != face.patch) others.insert(patch);
+      const bool is_inside = 0 < i && i + 1 < face.count(0) && 0 < j && j + 1 < face.count(1);
+      for (const int patch : others) ++shared[patch].all, shared[patch].inside += is_inside;
+    }
+  return shared;
+}
+
+/// Where a face meets another patch in part, some control points may stand at one place by chance.
+void expect_whole_faces(const std::vector<nurbs::Volume>& patches, const NodeNumbering& nodes) {
+  for (const FaceNet& face : faces_of(patches, nodes)) {
+    const int count = face.count(0) * face.count(1);
+    for (const auto& [patch, shared] : shared_nodes(face, nodes))
+      if (shared.inside > 0 && shared.all < count)
+        throw std::invalid_argument(fmt::format(
+            "patch {} meets face '{}' in part: {} of the {} control points of that face stand where it has "
+            "some, expected all, or none inside; divide patches so that whole faces meet, or move them apart",
+            patch, face.name(), shared.all, count));
+  }
+}
+
 }  // namespace
 
 NodeNumbering without_welds(const std::vector<nurbs::Volume>& patches) {
@@ -198,7 +232,9 @@ NodeNumbering weld(const std::vector<nurbs::Volume>& patches, double relative_to
   for (int place = 0; place < before; ++place) first[place] = place;
   for (std::size_t k = 0; k < rim.size(); ++k) first[rim[k]] = rim[first_of_rim[k]];
   NodeNumbering nodes(control_point_counts(patches), first);
-  if (!nodes.welded().empty()) expect_one_mesh(patches, nodes, relative_tolerance * extent(patches));
+  if (nodes.welded().empty()) return nodes;
+  expect_one_mesh(patches, nodes, relative_tolerance * extent(patches));
+  expect_whole_faces(patches, nodes);
   return nodes;
 }
 

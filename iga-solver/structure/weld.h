@@ -11,8 +11,9 @@
 namespace structure {
 
 /// Welds control points on the faces of the patches that stand at the same place, within `relative_tolerance`
-/// times the extent of all.  Faces that are one surface must have one mesh: throws std::invalid_argument that
-/// names them if their degrees, knots, control points or weights differ.
+/// times the extent of all.  Faces that are one surface must have one mesh, and patches meet in whole faces:
+/// throws std::invalid_argument that names them if their degrees, knots, control points or weights differ, or
+/// some of a face's inner control points alone stand where another patch has one.
 NodeNumbering weld(const std::vector<nurbs::Volume>& patches, double relative_tolerance = 1e-9);
 
 /// Every patch on its own.

@@ -157,6 +157,22 @@ TEST(Weld, RefusesTwoMeshesOnOneFace) {
   EXPECT_NE(message({block, moved(models::block({1, 1, 1}, {2, 2, 2}, {2, 3, 2}), {1, 0, 0})}), "");
 }
 
+// Half of the control points of the upper block's face stand where the lower one has some.
+TEST(Weld, RefusesPatchesThatMeetInPartOfAFace) {
+  const Volume block =
+      nurbs::box({0, 0, 0}, {4, 4, 1},
+                 {KnotVector::uniform(1, 4), KnotVector::uniform(1, 4), KnotVector::uniform(1, 1)});
+  EXPECT_THAT(
+      [&] {
+        weld({block, moved(block, {2, 0, 1})});
+      },
+      testing::ThrowsMessage<std::invalid_argument>(
+          testing::HasSubstr("patch 1 meets face 'zeta+' in part: 15 of the 25 control points")));
+  EXPECT_THROW(weld({block, moved(block, {1, 1, 0})}), std::invalid_argument);  // one inside the other
+  EXPECT_NO_THROW(weld({block, moved(block, {4, 0, 1})}));                      // an edge
+  EXPECT_NO_THROW(weld({block, moved(block, {4, 2, 0}), moved(block, {0, 0, 1})}).node_count());
+}
+
 TEST(Weld, RefusesOtherWeightsOnOneFace) {
   const Volume block = models::block({1, 1, 1}, {2, 2, 2}, 2);
   const auto weighted = [&](double inner) {
