@@ -110,10 +110,11 @@ bool ComplianceCorrection::damped(const ParticleView& particles, const Time& now
   DampedApproach kept(memory);
   kept.advance(contact.overlap, approach - of_surface, of_surface, dt);
   if (kept.is_on()) {
-    const DampedOverlap own = damped_overlap(contact.overlap, law, kept.damper(law, dt), kLargest);
-    seen = {kept.x(), kept.root(), 0.0, own.s, own.force, kept.dashpot(law), kept.damper(law, dt).stiffness};
+    const DampedApproach::Damper damper = kept.damper(law, dt);
+    const DampedOverlap own = damped_overlap(contact.overlap, law, damper, kLargest);
+    seen = {kept.x(), kept.root(), 0.0, own.s, own.force, kept.dashpot(law), damper.stiffness};
     seen.rate = (seen.force - law.K * seen.x * seen.root) / seen.dashpot;
-    if (!now.is_setup) kept.observe(law, contact.overlap + law.give * seen.force, dt);
+    if (!now.is_setup) kept.observe(contact.overlap + law.give * seen.force, dt);
   }
   if (!now.is_setup) kept.keep(memory);
   return kept.is_on();

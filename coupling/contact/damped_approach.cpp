@@ -28,25 +28,21 @@ void DampedApproach::advance(double overlap, double of_particle, double of_surfa
   if (x_ > 0.0) root_ = std::sqrt(std::sqrt(x_));
 }
 
-// omega dt
-double DampedApproach::turn(const DampedLaw& law, double dt) const {
+DampedApproach::Damper DampedApproach::damper(const DampedLaw& law, double dt) {
   constexpr double kMostPerStep = 0.3, kMostS = 0.9;
-  const double S = 1.5 * law.K * root_ * root_, c = std::max(law.give, 0.0);
-  const double slowest = 2.0 * c * dashpot(law) / (1.0 - std::min(c * S, kMostS)) + law.delay +
-                         kSlow * std::sqrt(law.inertia / S);
-  return std::min(dt / slowest, kMostPerStep);
-}
-
-DampedApproach::Damper DampedApproach::damper(const DampedLaw& law, double dt) const {
-  const double gamma = dashpot(law), stiffness = dt > 0.0 ? gamma * turn(law, dt) / dt : 0.0;
+  const double gamma = dashpot(law), S = 1.5 * law.K * root_ * root_, c = std::max(law.give, 0.0);
+  const double slowest =
+      2.0 * c * gamma / (1.0 - std::min(c * S, kMostS)) + law.delay + kSlow * std::sqrt(law.inertia / S);
+  turn_ = std::min(dt / slowest, kMostPerStep);
+  const double stiffness = dt > 0.0 ? gamma * turn_ / dt : 0.0;
   return {gamma * rate_ - stiffness * x_, stiffness};
 }
 
-void DampedApproach::observe(const DampedLaw& law, double x, double dt) {
-  const double turn = this->turn(law, dt), e = x - x_;
-  x_ += 3.0 * turn * e;
-  u_ += 3.0 * turn * turn * e / dt;
-  w_ += turn * turn * turn * e / (dt * dt);
+void DampedApproach::observe(double x, double dt) {
+  const double e = x - x_;
+  x_ += 3.0 * turn_ * e;
+  u_ += 3.0 * turn_ * turn_ * e / dt;
+  w_ += turn_ * turn_ * turn_ * e / (dt * dt);
 }
 
 }  // namespace contact

@@ -54,21 +54,20 @@ class DampedApproach {
   struct Damper {
     double force, stiffness;  ///< [force], [force/length]
   };
-  Damper damper(const DampedLaw& law, double dt) const;
-  /// With the overlap that its force F leaves, x = overlap + c F.
-  void observe(const DampedLaw& law, double x, double dt);
+  Damper damper(const DampedLaw& law, double dt);
+  /// After that, with the overlap that its force F leaves, x = overlap + c F.
+  void observe(double x, double dt);
   void keep(double* memory) const { memory[0] = x_, memory[1] = u_, memory[2] = w_; }
 
   /// By how much the surfaces may lose touch while the contact goes on [length].
   static double held_gap(const double* memory) { return memory[0] > 0.0 ? kDent * memory[0] : 0.0; }
 
  private:
-  double turn(const DampedLaw& law, double dt) const;
-
   static constexpr double kOver = -1.0, kDent = 10.0, kSlow = 0.15;
   double x_, u_, w_;  // x = 0: new; kOver: w is the least overlap since
   double rate_ = 0.0;
   double root_ = 0.0;  // x^(1/4) as it presses
+  double turn_ = 0.0;  // omega dt
 };
 
 }  // namespace contact

@@ -36,13 +36,15 @@ class Shapes(unittest.TestCase):
 
 
 class Compliance(unittest.TestCase):
-    def test_spheres_overlap_the_solid_and_not_each_other(self):
+    def test_spheres_overlap_the_solid_each_at_a_place_of_its_own(self):
         for name, body in compliance.BODIES.items():
             centres = body.centres(compliance.OVERLAP)
             height = centres[2] if name == "plate" else np.hypot(centres[0], centres[2]) - compliance.RING
             np.testing.assert_allclose(compliance.RADIUS - height, compliance.OVERLAP, rtol=1e-6)
             self.assertLess(np.abs(centres[1]).max(), 0.03)
-            self.assertGreater(pdist(centres.T).min(), 2 * compliance.RADIUS - 2 * compliance.OVERLAP)
+            self.assertEqual(centres.shape, (3, compliance.SPHERES))
+            self.assertGreater(pdist(centres.T).min(), 0.1 * compliance.SIZE / compliance.PER_ELEMENT)
+        self.assertIn("neigh_modify exclude group all all", compliance.DECK)
 
     def test_the_ratio_has_a_bound(self):
         for corrected, passes in ((1.49e-7, True), (1.51e-7, False)):

@@ -65,7 +65,9 @@ std::vector<double> lobatto_points(int count) {
 
 ComplianceTable::ComplianceTable(const std::array<int, 2>& counts,
                                  const std::vector<std::vector<double>>& values)
-    : counts_(counts), largest_normal_(*std::max_element(values[normal].begin(), values[normal].end())) {
+    : kernel_(table_kernel(nurbs::simd_level())),
+      counts_(counts),
+      largest_normal_(*std::max_element(values[normal].begin(), values[normal].end())) {
   const Eigen::MatrixXd of_s = to_powers(counts[0]), of_t = to_powers(counts[1]);
   double* next = powers_.data();
   for (const std::vector<double>& component : values) {
@@ -80,40 +82,22 @@ ComplianceTable::ComplianceTable(const std::array<int, 2>& counts,
 
 namespace {
 
-/// Polynomials in s and t, each coefficient of all `count` of them in one place; and their derivatives.
-template <int count>
-struct Polynomials {
-  using Values = Eigen::Array<double, count, 1>;
-
-  Polynomials(const double* first, const std::array<int, 2>& counts, double s, double t) {
-    if (counts[0] == 5 && counts[1] == 5)  // of degree 2
-      add<5>(first, counts, s, t);
-    else
-      add<0>(first, counts, s, t);
-  }
-  Values c = Values::Zero(), by_s = c, by_t = c;
-
- private:
-  /// `known`: counts in both directions, or 0 where they are known at run time only.
-  template <int known>
-  void add(const double* first, const std::array<int, 2>& counts, double s, double t) {
-    constexpr int kLine = 64 / sizeof(double);
-    const int in_s = known > 0 ? known : counts[0], in_t = known > 0 ? known : counts[1];
-    const double* next = first + static_cast<std::ptrdiff_t>(count) * in_s * in_t;
-    for (const double* line = first; line < next; line += kLine) __builtin_prefetch(line);
-    for (int j = in_t; j > 0; --j) {
-      next -= count;
-      Values value = Values::Map(next), change = Values::Zero();
-      for (int i = in_s - 1; i > 0; --i) {
-        next -= count;
-        change = change * s + value;
-        value = value * s + Values::Map(next);
+/// A polynomial in s and t, and its derivatives.
+struct Polynomial {
+  Polynomial(const double* first, const std::array<int, 2>& counts, double s, double t) {
+    const double* next = first + static_cast<std::ptrdiff_t>(counts[0]) * counts[1];
+    for (int j = counts[1]; j > 0; --j) {
+      double row = *--next, change = 0.0;
+      for (int i = counts[0] - 1; i > 0; --i) {
+        change = change * s + row;
+        row = row * s + *--next;
       }
-      by_t = by_t * t + c;
-      c = c * t + value;
+      by_t = by_t * t + value;
+      value = value * t + row;
       by_s = by_s * t + change;
     }
   }
+  double value = 0.0, by_s = 0.0, by_t = 0.0;
 };
 
 /// An element's own parameter, from -1 to 1, and its change with that of the patch.
@@ -130,16 +114,19 @@ ComplianceTable::Value ComplianceTable::at(Component component, const nurbs::Par
                                            const nurbs::Parameter<2>& xi) const {
   const double* const first = powers_.data() + static_cast<std::size_t>(component) * counts_[0] * counts_[1];
   const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
-  const Polynomials<1> at(first, counts_, s.value, t.value);
-  return {at.c[0], {at.by_s[0] * s.change, at.by_t[0] * t.change}};
+  const Polynomial at(first, counts_, s.value, t.value);
+  return {at.value, {at.by_s * s.change, at.by_t * t.change}};
 }
 
 std::array<ComplianceTable::Value, ComplianceTable::kTogether> ComplianceTable::together(
     const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high, const nurbs::Parameter<2>& xi) const {
   const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
-  const Polynomials<kTogether> at(together_.data(), counts_, s.value, t.value);
+  static_assert(kTogether == FourPolynomials::kCount);
+  FourPolynomials at;
+  kernel_(together_.data(), counts_[0], counts_[1], s.value, t.value, at);
   std::array<Value, kTogether> values;
-  for (int k = 0; k < kTogether; ++k) values[k] = {at.c[k], {at.by_s[k] * s.change, at.by_t[k] * t.change}};
+  for (int k = 0; k < kTogether; ++k)
+    values[k] = {at.value[k], {at.by_s[k] * s.change, at.by_t[k] * t.change}};
   return values;
 }
 

@@ -11,6 +11,7 @@
 
 #include "structure/compliance/hit_element.h"
 #include "structure/compliance/local_problem.h"
+#include "structure/compliance/table_kernel.h"
 
 namespace structure {
 
@@ -44,7 +45,8 @@ class ComplianceTable {
  private:
   static constexpr int kMost = 7 * 7;  // values of a component: of degree 3
 
-  // In one piece: who asks for a table in a time step finds it in memory, seldom in a cache.
+  // In one piece, as it comes from memory.
+  TableKernel kernel_;
   std::array<int, 2> counts_;
   double largest_normal_;
   std::array<double, kTogether * kMost> together_;  // [of t][of s][component] in s, t from -1 to 1

@@ -60,7 +60,7 @@ class Contact {
     double F = 0.0;
     if (kept.is_on()) {
       F = contact::damped_overlap(overlap, law_, kept.damper(law_, dt), 0.99).force;
-      kept.observe(law_, overlap + law_.give * F, dt);
+      kept.observe(overlap + law_.give * F, dt);
     }
     kept.keep(memory_);
     return F;

@@ -7,6 +7,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
 
 #include "models.h"
 #include "nurbs/primitives.h"
@@ -187,6 +190,43 @@ TEST(Compliance, ATableHoldsWhatAnyPointOfItsElementHas) {
         }
       }
     }
+}
+
+// Runs give the same digits on all machines: beside sums of powers, of degrees 2, 3 and both.
+TEST(TableKernel, InstructionSetsAgreeInAllDigits) {
+  using structure::FourPolynomials;
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const auto& [in_s, in_t] : {std::pair(5, 5), {7, 7}, {5, 7}}) {
+    std::vector<double> coefficients(FourPolynomials::kCount * in_s * in_t);
+    for (double& c : coefficients) c = uniform(random);
+    const double s = uniform(random), t = uniform(random);
+    FourPolynomials portable;
+    structure::table_kernel(nurbs::SimdLevel::portable)(coefficients.data(), in_s, in_t, s, t, portable);
+    for (int k = 0; k < FourPolynomials::kCount; ++k) {
+      double value = 0.0, by_s = 0.0, by_t = 0.0;
+      for (int j = 0; j < in_t; ++j)
+        for (int i = 0; i < in_s; ++i) {
+          const double c = coefficients[k + FourPolynomials::kCount * (i + in_s * j)];
+          value += c * std::pow(s, i) * std::pow(t, j);
+          if (i > 0) by_s += c * i * std::pow(s, i - 1) * std::pow(t, j);
+          if (j > 0) by_t += c * j * std::pow(s, i) * std::pow(t, j - 1);
+        }
+      EXPECT_NEAR(portable.value[k], value, 1e-13);
+      EXPECT_NEAR(portable.by_s[k], by_s, 1e-12);
+      EXPECT_NEAR(portable.by_t[k], by_t, 1e-12);
+    }
+    for (const nurbs::SimdLevel level : {nurbs::SimdLevel::avx2, nurbs::SimdLevel::avx512}) {
+      if (!nurbs::available(level)) continue;
+      FourPolynomials found;
+      structure::table_kernel(level)(coefficients.data(), in_s, in_t, s, t, found);
+      for (int k = 0; k < FourPolynomials::kCount; ++k) {
+        EXPECT_EQ(found.value[k], portable.value[k]);
+        EXPECT_EQ(found.by_s[k], portable.by_s[k]);
+        EXPECT_EQ(found.by_t[k], portable.by_t[k]);
+      }
+    }
+  }
 }
 
 TEST(Compliance, IsThatOfTheBodyWhereverItStandsAndInAnyUnits) {
