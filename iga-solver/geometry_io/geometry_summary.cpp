@@ -28,8 +28,7 @@ using nurbs::Volume;
 
 constexpr const char* kDirections[] = {"xi", "eta", "zeta"};
 constexpr double kDegreesPerRadian = 57.29577951308232;
-constexpr double kSmooth = 1e-6;    // angle [rad] and relative jump below which a border is called G1 and C1
-constexpr double kNoNormal = 1e-9;  // |a x b| this much below |a| |b| is no normal
+constexpr double kSmooth = 1e-6;  // angle [rad] and relative jump below which a border is called G1 and C1
 
 template <int Dim>
 using Tangents = std::array<Vector3, Dim>;
