@@ -102,7 +102,7 @@ class SurfaceProjector {
   };
   Slopes slopes(const Parameter<2>& xi, const Vector3& delta) const {
     const Start at = start(xi);
-    const DistanceJet jet = this->jet(at, Vector3::Zero());
+    const DistanceJet jet = from_origin(at);
     Eigen::Vector2d scale;  // from the derivatives by local coordinates
     for (int i = 0; i < 2; ++i) scale[i] = elements_.axis(i, at.at.e[i]).per_half_width;
     Slopes slopes;
@@ -119,7 +119,7 @@ class SurfaceProjector {
     Vector3 point, along[2];
   };
   Tangents tangents(const Parameter<2>& xi) const {
-    const DistanceJet at = jet(start(xi), Vector3::Zero());
+    const DistanceJet at = from_origin(start(xi));
     return {Vector3::Map(at.r), {Vector3::Map(at.S_i[0]), Vector3::Map(at.S_i[1])}};
   }
 
@@ -134,11 +134,11 @@ class SurfaceProjector {
     const ElementAxis::Place u = elements_.axis(0).locate(xi[0]), v = elements_.axis(1).locate(xi[1]);
     return {{u.e, v.e}, {u.s, v.s}};
   }
-  DistanceJet jet(const Start& at, const Vector3& d) const {
+  DistanceJet from_origin(const Start& at) const {
     const ElementKernel& kernel = elements_.kernel();
-    const double point[3] = {d[0], d[1], d[2]};
+    constexpr double kOrigin[3] = {0.0, 0.0, 0.0};
     DistanceJet jet;
-    kernel.evaluate(kernel.p, kernel.q, at.element.row, at.at.s, point, jet);
+    kernel.evaluate(kernel.p, kernel.q, at.element.row, at.at.s, kOrigin, jet);
     return jet;
   }
   // Newton's method alone.
