@@ -70,14 +70,12 @@ double LiggghtsContactModel::hertz_damping(int particle) const {
   return of_pair(particle).damping * std::sqrt(mass);
 }
 
-// The rate as LIGGGHTS' surface models have it.
-contact::ContactModel::Shear LiggghtsContactModel::shear(const Contact& contact) const {
-  if (!springs_.exist() || !constants_.are_known()) return ContactModel::shear(contact);
+// As LIGGGHTS' surface models have it.
+Vector3 LiggghtsContactModel::slip(const Contact& contact) const {
   const int i = contact.particle;
   const Vector3 n = contact.delta / contact.distance, omega = Vector3::Map(atom_.omega[i]);
   const double arm = atom_.radius[i] - 0.5 * contact.overlap;
-  const Vector3 slip = Vector3::Map(atom_.v[i]) - contact.wall_velocity + arm * n.cross(omega);
-  return {of_pair(i).shear, springs_.stretch(contact.history), slip};
+  return Vector3::Map(atom_.v[i]) - contact.wall_velocity + arm * n.cross(omega);
 }
 
 }  // namespace liggghts_pkg

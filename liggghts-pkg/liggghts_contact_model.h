@@ -32,7 +32,10 @@ class LiggghtsContactModel final : public contact::ContactModel {
     return springs_.exist() && constants_.are_known() ? of_pair(particle).shear
                                                       : ContactModel::shear_constant(particle);
   }
-  Shear shear(const contact::Contact& contact) const override;
+  nurbs::Vector3 shear_stretch(const contact::Contact& contact) const override {
+    return springs_.exist() ? springs_.stretch(contact.history) : ContactModel::shear_stretch(contact);
+  }
+  nurbs::Vector3 slip(const contact::Contact& contact) const override;
   /// Before each run.
   void read_constants(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model, int wall_type) {
     constants_.read(lmp, normal_model);

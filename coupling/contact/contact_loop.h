@@ -138,6 +138,8 @@ class ContactLoop {
   void turn_body(const Contact& contact, coupling::ContactForce& on_body) const;
   void answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,
               ContactObserver* observer, std::size_t first);
+  void evaluate_corrected(const ParticleView& particles, const ComplianceCorrection::Time& now,
+                          ContactModel& model, Contact* begin, Contact* end);
   void look_at(const ParticleView& particles, const StepInfo& step, const ContactModel& model,
                ContactObserver* observer, std::size_t first);
   void look_at_mesh(const ParticleView& particles, const StepInfo& step, double hertz_constant,

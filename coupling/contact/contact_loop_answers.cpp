@@ -16,10 +16,10 @@ void ContactLoop::answer(const ParticleView& particles, const StepInfo& step, Co
                          ContactObserver* observer, std::size_t first) {
   if (first == contacts_.size()) return;
   Contact *const begin = &contacts_[first], *const end = contacts_.data() + contacts_.size();
-  const ComplianceCorrection::Time now = {step.number, step.dt, step.is_setup};
-  if (correction_) correction_->before(particles, now, model, begin, end);
-  model.evaluate(begin, static_cast<int>(end - begin));
-  if (correction_) correction_->after(particles, model, begin, end);
+  if (correction_)
+    evaluate_corrected(particles, {step.number, step.dt, step.is_setup}, model, begin, end);
+  else
+    model.evaluate(begin, static_cast<int>(end - begin));
   bool are_plain = !wall_.needs_forces() && !observer;
   Vector3 sum = Vector3::Zero();  // not finite if one of them is not
   for (const Contact* contact = begin; contact < end; ++contact) {
@@ -34,12 +34,24 @@ void ContactLoop::answer(const ParticleView& particles, const StepInfo& step, Co
   if (!are_plain) look_at(particles, step, model, observer, first);
 }
 
+void ContactLoop::evaluate_corrected(const ParticleView& particles, const ComplianceCorrection::Time& now,
+                                     ContactModel& model, Contact* begin, Contact* end) {
+  constexpr int kMost = ComplianceCorrection::kCapacity;
+  for (Contact* piece = begin; piece < end; piece += kMost) {
+    const int count = static_cast<int>(std::min<std::ptrdiff_t>(kMost, end - piece));
+    correction_->before(particles, now, model, piece, count);
+    model.evaluate(piece, count);
+    correction_->after(particles, now, model, piece, count);
+  }
+}
+
 double ContactLoop::ask_again(const ParticleView& particles, long step, ContactModel& model,
                               Contact& contact) const {
-  if (correction_) correction_->before(particles, {step, 0.0, true}, model, &contact, &contact + 1);
+  const ComplianceCorrection::Time now = {step, 0.0, true};
+  if (correction_) correction_->before(particles, now, model, &contact, 1);
   model.evaluate(&contact, 1);
   const double overlap = contact.overlap;
-  if (correction_) correction_->after(particles, model, &contact, &contact + 1);
+  if (correction_) correction_->after(particles, now, model, &contact, 1);
   return overlap;
 }
 

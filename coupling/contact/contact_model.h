@@ -61,15 +61,14 @@ class ContactModel {
   virtual double hertz_constant(int /*particle*/) const { return std::numeric_limits<double>::quiet_NaN(); }
   /// D / r*^(1/4) [force time/length^(3/2)] of such a particle whose damping is D x^(1/4) dx/dt.
   virtual double hertz_damping(int /*particle*/) const { return 0.0; }
-  /// A spring along the surface of such a contact, as Mindlin's, that is kept from step to step.
-  struct Shear {
-    double constant;  ///< stiffness / (r* overlap)^(1/2) [pressure]; 0: there is none
-    Vector3 stretch;  ///< [length]
-    Vector3 slip;     ///< how fast the particle's surface slides over the foot [length/time]
-  };
-  /// The first of these alone.
+  /// A spring along the surface of such a contact, as Mindlin's, that is kept from step to step: stiffness /
+  /// (r* overlap)^(1/2) [pressure]; 0: there is none.
   virtual double shear_constant(int /*particle*/) const { return 0.0; }
-  virtual Shear shear(const Contact& /*contact*/) const { return {0.0, Vector3::Zero(), Vector3::Zero()}; }
+  /// Its stretch [length].
+  virtual Vector3 shear_stretch(const Contact& /*contact*/) const { return Vector3::Zero(); }
+  /// How fast the particle's surface slides over the foot [length/time]; what is along the normal does not
+  /// count.
+  virtual Vector3 slip(const Contact& /*contact*/) const { return Vector3::Zero(); }
 };
 
 /// Hears of contacts that touch or have a force, after they have it.

@@ -15,7 +15,6 @@
 
 namespace {
 
-using contact::corrected_overlap;
 using nurbs::Vector3;
 using test::kRadius;
 using testing::AllOf;
@@ -24,7 +23,6 @@ using testing::ThrowsMessage;
 
 constexpr double kConstant = 1e4, kSide = 8.0;
 const double kK = kConstant * std::sqrt(kRadius);
-constexpr double kLargest = contact::ComplianceCorrection::kLargest;
 
 /// c = c0 (1 + ripple sin(2 pi x) cos(2 pi y)), one wave per element of length 1.
 class Ripples final : public coupling::LocalCompliance {
@@ -111,24 +109,18 @@ struct Scene {
   long step_number = 0;
 };
 
-TEST(CorrectedOverlap, SolvesForTheLawsOwn) {
-  for (const double c : {3e-4, 1e-5, 0.0, -1e-5, -3e-3})
-    for (const double overlap : {1e-12, 1e-4, 3e-2}) {
-      const auto [x, s, root] = corrected_overlap(overlap, c, kK, 0.9);
-      EXPECT_NEAR(x - c * kK * x * std::sqrt(x), overlap, 1e-15 + 1e-13 * overlap) << c;
-      EXPECT_NEAR(s, 1.5 * c * kK * std::sqrt(x), 1e-9);
-      EXPECT_NEAR(root, std::sqrt(x), 1e-14 * root);
-    }
-}
-
-// x (1 - 2 s/3) has its largest value where s = 1: nothing beyond that has a solution, and nothing beyond the
-// limit is looked for.
-TEST(CorrectedOverlap, StopsAtTheLimit) {
-  const double c = 3e-4, at_limit = std::pow(kLargest / (1.5 * c * kK), 2),
-               overlap = at_limit * (1.0 - 2.0 / 3.0 * kLargest);
-  EXPECT_LT(corrected_overlap(0.999 * overlap, c, kK, kLargest).s, kLargest);
-  EXPECT_GE(corrected_overlap(1.001 * overlap, c, kK, kLargest).s, kLargest);
-  EXPECT_GE(corrected_overlap(100.0 * overlap, c, kK, kLargest).s, kLargest);
+/// x - c (K x^(3/2) + spring x) = overlap, by bisection up to s = 1, and s there.
+struct OwnOverlap {
+  double x, s;
+};
+OwnOverlap own_overlap(double overlap, double c, double spring = 0.0) {
+  const auto excess = [&](double x) { return x - c * (kK * x * std::sqrt(x) + spring * x) - overlap; };
+  double low = overlap, high = std::pow((1.0 - c * spring) / (1.5 * c * kK), 2);
+  for (int k = 0; k < 200; ++k) {
+    const double x = 0.5 * (low + high);
+    (excess(x) < 0.0 ? low : high) = x;
+  }
+  return {low, c * (1.5 * kK * std::sqrt(low) + spring)};
 }
 
 // m V^2/2 = 2/5 K x^(5/2) - c F^2/2 where the ball turns back.
@@ -218,7 +210,7 @@ TEST(ComplianceCorrection, ModelsSeeTheirOwnOverlapAndItsRate) {
   Scene scene(compliance, {0.3, 0.2, kRadius - overlap}, {0.5, 0, -2}, 1e-5);
   scene.begin();
   const contact::Contact& seen = scene.model.seen;
-  const auto [x, s, root] = corrected_overlap(overlap, c, kK, kLargest);
+  const auto [x, s] = own_overlap(overlap, c);
   EXPECT_NEAR(seen.overlap, x, 1e-15);
   EXPECT_NEAR(seen.delta.norm(), kRadius - x, 1e-15);
   EXPECT_NEAR(seen.wall_velocity[2], 2.0 / (1.0 - s) - 2.0, 1e-12);
@@ -247,7 +239,7 @@ void expect_stable_up_to(double step, double below, double above, double overlap
 
 TEST(ComplianceCorrection, IsAsStiffAsItIsToTheTimeStep) {
   const double overlap = 0.02, c = 1.5e-4;
-  const auto [x, s, root] = corrected_overlap(overlap, c, kK, kLargest);
+  const auto [x, s] = own_overlap(overlap, c);
   const double tangent = 1.5 * kK * std::sqrt(x) / (1.0 - s);
   expect_stable_up_to(2.0 / std::sqrt(tangent), 0.9995, 1.0005, overlap, c);
 }
@@ -261,12 +253,88 @@ TEST(ComplianceCorrection, DampingHasItsShareOfTheTimeStep) {
   double step = stable(S);
   for (int i = 0; i < 50; ++i) {
     const double spring = 0.3 * gamma / step;
-    const double s =
-        contact::damped_overlap(overlap, {kK, damping, 1.0, c, 0.0}, {-spring * overlap, spring}, kLargest).s;
+    const double s = own_overlap(overlap * (1.0 - c * spring), c, spring).s;
     step = stable((S + spring) / (1.0 - s));
   }
   EXPECT_LT(step, 0.8 * stable(0.0));
   expect_stable_up_to(step, 0.999, 1.001, overlap, c, damping);
+}
+
+/// Hertz' law for some, damped for others, with springs along the surface for some of both.
+class Mixed final : public contact::ContactModel {
+ public:
+  static constexpr int kSpring = 3;  // numbers in the history
+  Mixed(test::Balls& balls, double dt) : balls_(balls), dt_(dt) {}
+  void evaluate(contact::Contact* contacts, int count) override {
+    for (contact::Contact* c = contacts; c < contacts + count; ++c) {
+      const Vector3 n = c->delta / c->distance, slip = this->slip(*c);
+      const double x = std::max(c->overlap, 0.0), root = std::sqrt(x * c->effective_radius);
+      const double damping = hertz_damping(c->particle) * std::sqrt(root);
+      Eigen::Map<Vector3> stretch(c->history);
+      stretch += dt_ * (slip - n.dot(slip) * n) + c->further_slip;
+      c->force =
+          (kConstant * root * x - damping * n.dot(slip)) * n - shear_constant(c->particle) * root * stretch;
+      c->torque.setZero();
+    }
+  }
+  int kind(int i) const { return balls_.tag[i] % 4; }
+  double hertz_constant(int) const override { return kConstant; }
+  double hertz_damping(int i) const override { return kind(i) < 2 ? 0.0 : 20.0 * kind(i); }
+  double shear_constant(int i) const override { return kind(i) % 2 == 0 ? 0.0 : 0.8 * kConstant; }
+  Vector3 shear_stretch(const contact::Contact& c) const override { return Vector3::Map(c.history); }
+  Vector3 slip(const contact::Contact& c) const override {
+    return balls_.velocity(c.particle) - c.wall_velocity;
+  }
+
+ private:
+  test::Balls& balls_;
+  double dt_;
+};
+
+/// Some balls over a sheet with ripples, for a while.  The result are their places and velocities.
+std::vector<double> places_of(const std::vector<int>& numbers) {
+  constexpr double kDt = 1e-4;
+  Ripples compliance(1e-4, 0.3);
+  compliance.along = {coupling::LocalCompliance::Component{5e-5, {1e-5, 0}},
+                      coupling::LocalCompliance::Component{6e-5, {0, 1e-5}},
+                      coupling::LocalCompliance::Component{1e-6, {0, 0}}};
+  test::RisingSheet sheet(sheet_of(Sheet::plane), 0.0);
+  sheet.compliance = &compliance;
+  sheet.set_time_step(kDt);
+  test::Balls balls(2, contact::ComplianceCorrection::kMemory + Mixed::kSpring);
+  for (const int k : numbers) {
+    balls.add({0.19 * (k % 7) - 0.5, 0.17 * (k / 7) - 0.6, kRadius + 0.002 * (k % 5) - 0.004}, kRadius,
+              {0.3 * (k % 3), 0.1, -0.5 - 0.05 * (k % 4)});
+    balls.tag.back() = 1 + k;
+  }
+  coupling::SurfaceExchange exchange(MPI_COMM_SELF, sheet);
+  contact::ContactLoop loop(sheet, exchange, contact::ContactLoop::Options{});
+  loop.wall().import();
+  loop.build_list(balls.view(), {4.0, 1.0, kDt, {{-9, -9, -9}, {9, 9, 9}, {false, false, false}}});
+  Mixed model(balls, kDt);
+  for (int step = 0; step < 60; ++step) {
+    std::fill(balls.f.begin(), balls.f.end(), 0.0);
+    std::fill(balls.torque.begin(), balls.torque.end(), 0.0);
+    loop.step(balls.view(), {step, kDt, 1.0, step == 0}, model);
+    for (std::size_t k = 0; k < balls.x.size(); ++k) balls.x[k] += kDt * (balls.v[k] += kDt * balls.f[k]);
+  }
+  std::vector<double> all = balls.x;
+  all.insert(all.end(), balls.v.begin(), balls.v.end());
+  return all;
+}
+
+// More than are corrected together, of all kinds.
+TEST(ComplianceCorrection, EachOfManyContactsIsAsItIsAlone) {
+  std::vector<int> numbers(45);
+  for (int k = 0; k < 45; ++k) numbers[k] = k;
+  const std::vector<double> together = places_of(numbers);
+  for (const int k : numbers) {
+    const std::vector<double> alone = places_of({k});
+    for (int d = 0; d < 3; ++d) {
+      EXPECT_EQ(together[3 * k + d], alone[d]) << k;
+      EXPECT_EQ(together[135 + 3 * k + d], alone[3 + d]) << k;
+    }
+  }
 }
 
 TEST(ComplianceCorrection, DampedContactsNeedRoomInTheMemory) {

@@ -1,20 +1,67 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A ball on a spring with a mass, which stands for a mesh that gives way, as damped contacts are corrected by
-// it: the same as the ball on a rigid wall, whose law is integrated here by itself.
-#include "coupling/contact/damped_approach.h"
+// The overlap that is left behind a compliance; and a ball on a spring with a mass, which stands for a mesh
+// that gives way, as damped contacts are corrected by it: the same as the ball on a rigid wall, whose law is
+// integrated here by itself.
+#include "coupling/contact/approach_kernel.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
-#include "coupling/contact/compliance.h"
+#include "nurbs/types.h"
 
 namespace {
 
-using contact::DampedApproach;
-using contact::DampedLaw;
+using contact::ApproachBlock;
+using contact::ApproachKernel;
+using contact::ApproachStep;
 using nurbs::kPi;
+using nurbs::SimdLevel;
+
+const ApproachKernel kApproachKernel = contact::approach_kernel(nurbs::simd_level());
+constexpr double kLimit = 0.9;
+
+/// Overlaps in all lanes behind c of a law K.
+ApproachBlock solved(double K, double c, const std::vector<double>& overlaps, double limit = kLimit) {
+  ApproachBlock block;
+  for (int k = 0; k < ApproachBlock::kCapacity; ++k) {
+    block.overlap[k] = overlaps[k % overlaps.size()];
+    block.constant[k] = K, block.radius[k] = 1.0, block.give[k] = c;
+  }
+  kApproachKernel.elastic(block, {limit, 1.0, 1.0});
+  return block;
+}
+
+constexpr double kStiff = 7e3;
+
+TEST(ApproachKernel, SolvesForTheLawsOwnOverlap) {
+  const std::vector<double> overlaps = {1e-12, 1e-4, 3e-2};
+  for (const double c : {3e-4, 1e-5, 0.0, -1e-5, -3e-3, -1.0}) {
+    const ApproachBlock block = solved(kStiff, c, overlaps);
+    for (int k = 0; k < ApproachBlock::kCapacity; ++k) {
+      const double x = block.x[k], overlap = block.overlap[k];
+      EXPECT_NEAR(x - c * kStiff * x * std::sqrt(x), overlap, 1e-15 + 1e-13 * overlap) << c;
+      EXPECT_NEAR(block.root[k], std::sqrt(x), 1e-14 * block.root[k]);
+      EXPECT_NEAR(block.force[k], kStiff * std::pow(x, 1.5), 1e-13 * block.force[k]);
+      const double s = 1.5 * c * kStiff * std::sqrt(x);
+      EXPECT_NEAR(block.give_way[k], s, 1e-9 * (1.0 + std::abs(s)));
+    }
+  }
+}
+
+// x (1 - 2 s/3) has its largest value where s = 1: nothing beyond that has a solution, and nothing beyond the
+// limit is looked for.
+TEST(ApproachKernel, StopsAtTheLimit) {
+  const double c = 3e-4, at_limit = std::pow(kLimit / (1.5 * c * kStiff), 2),
+               overlap = at_limit * (1.0 - 2.0 / 3.0 * kLimit);
+  const ApproachBlock block = solved(kStiff, c, {0.999 * overlap, 1.001 * overlap, 100.0 * overlap});
+  EXPECT_LT(block.give_way[0], kLimit);
+  EXPECT_NEAR(block.give_way[0], kLimit, 0.01);
+  EXPECT_GE(block.give_way[1], kLimit);
+  EXPECT_NEAR(block.give_way[2], 10.0 * kLimit, 1e-9);  // elements 10 times as large would be at the limit
+}
 
 constexpr double kHertz = 1.0, kMass = 1.0;
 constexpr double kSpeed = 0.9;  // the ball goes in by about 1 where nothing is damped
@@ -45,31 +92,30 @@ Answer rigid(double e, double dt, double mass = kStands) {
   return {-v / kSpeed, peak};
 }
 
-/// What contact does in a step (compliance.cpp).
-class Contact {
+/// What contact does in a step (compliance.cpp), in one of the lanes.
+class DampedContact {
  public:
-  Contact(double e, double c, double delay) : law_{kHertz, damping_of(e), kMass, c, delay} {}
+  DampedContact(double e, double c, double delay) {
+    block_.constant[kLane] = kHertz, block_.radius[kLane] = 1.0, block_.give[kLane] = c;
+    block_.damping[kLane] = damping_of(e), block_.inertia[kLane] = kMass, block_.delay[kLane] = delay;
+  }
   double step(double overlap, double of_particle, double of_surface, double dt) {
-    const double gap = DampedApproach::held_gap(memory_);
-    if (overlap <= -gap) {
-      std::fill_n(memory_, DampedApproach::kMemory, 0.0);
+    double memory[ApproachBlock::kMemory] = {number(0), number(1), number(2)};
+    if (overlap <= -contact::held_gap(memory)) {
+      for (int m = 0; m < ApproachBlock::kMemory; ++m) number(m) = 0.0;
       return 0.0;
     }
-    DampedApproach kept(memory_);
-    kept.advance(overlap, of_particle, of_surface, dt);
-    double F = 0.0;
-    if (kept.is_on()) {
-      F = contact::damped_overlap(overlap, law_, kept.damper(law_, dt), 0.99).force;
-      kept.observe(overlap + law_.give * F, dt);
-    }
-    kept.keep(memory_);
-    return F;
+    block_.overlap[kLane] = overlap;
+    block_.of_particle[kLane] = of_particle, block_.of_surface[kLane] = of_surface;
+    kApproachKernel.damped(block_, {0.99, dt, dt});
+    return block_.x[kLane] > 0.0 ? block_.force[kLane] : 0.0;
   }
-  double x() const { return memory_[0]; }
+  double x() { return number(0); }
 
  private:
-  DampedLaw law_;
-  double memory_[DampedApproach::kMemory] = {};
+  static constexpr int kLane = 3;
+  double& number(int m) { return block_.memory[m][kLane]; }
+  ApproachBlock block_;
 };
 
 /// Ball and mesh; all speeds are towards the body, which itself comes at `body`.
@@ -94,7 +140,7 @@ struct BallAndMesh {
     ball += 0.5 * dt * (pressed - F) / kMass;
   }
   double c, spring_mass;  // which give way in (c spring_mass)^(1/2)
-  Contact contact;
+  DampedContact contact;
   double body, dt, mass, mobility = 0.0, ball = 0.0, x = 0.0, dent = 0.0, dent_speed = 0.0, F = 0.0;
 };
 
@@ -205,7 +251,7 @@ TEST(DampedApproach, AVibratingBodyLosesEnergyAtAnyFrequency) {
                own = std::sqrt(1.5 * std::sqrt(x) * kHertz / kMass);
   for (const double e : {0.3, 0.5, 0.7, 0.9})
     for (const double ratio : {2.0, 4.0, 8.0, 16.0, 32.0, 64.0}) {
-      Contact contact(e, kGive, 0.01);
+      DampedContact contact(e, kGive, 0.01);
       const double frequency = ratio * own, dt = std::min(kFineStep, 0.02 / frequency);
       const int steps = static_cast<int>(40.0 * 2.0 * kPi / own / dt);
       double ball = 0.0, place = x, F = kWeight, taken = 0.0;
@@ -223,7 +269,7 @@ TEST(DampedApproach, AVibratingBodyLosesEnergyAtAnyFrequency) {
 
 // The skin that a ball comes to may vibrate, and be gone as they touch.  It comes back.
 TEST(DampedApproach, AContactThatIsOverBeginsAnewWhereTheOverlapGrows) {
-  Contact contact(0.3, 0.05, 0.01);
+  DampedContact contact(0.3, 0.05, 0.01);
   constexpr double kSlow = 0.02, kAway = -0.5;
   EXPECT_GT(contact.step(1e-6, kSlow, kAway, kFineStep), -1.0);
   EXPECT_EQ(contact.step(0.5e-6, kSlow, kAway, kFineStep), 0.0);
@@ -247,13 +293,62 @@ TEST(DampedApproach, ItGoesOnWhereSurfacesLoseTouch) {
   EXPECT_GT(least, 0.1);
 }
 
+// It finds what the contact was left with; what it keeps is not for a setup to change.
 TEST(DampedApproach, ASetupMovesNothing) {
-  double memory[DampedApproach::kMemory] = {0.25, 0.125};
-  DampedApproach kept(memory);
-  kept.advance(0.1, 1.0, 7.0, 0.0);
-  EXPECT_EQ(kept.x(), 0.25);
-  EXPECT_EQ(kept.rate(), 1.125);
-  EXPECT_TRUE(kept.is_on());
+  ApproachBlock block;
+  block.constant[0] = block.radius[0] = block.damping[0] = block.inertia[0] = 1.0;
+  block.overlap[0] = 0.25, block.of_particle[0] = 1.0, block.of_surface[0] = 7.0;
+  block.memory[0][0] = 0.25, block.memory[1][0] = 0.125;
+  kApproachKernel.damped(block, {kLimit, 1e-3, 0.0});
+  EXPECT_EQ(block.x[0], 0.25);
+  EXPECT_NEAR(block.rate[0], 1.125, 1e-15);
+  EXPECT_EQ(block.memory[1][0], 0.125);
+}
+
+/// As contacts are, and as they end.
+ApproachBlock random_block(std::mt19937& engine) {
+  const auto in = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine);
+  };
+  ApproachBlock block;
+  for (int k = 0; k < ApproachBlock::kCapacity; ++k) {
+    block.overlap[k] = in(-0.1, 1.0);
+    block.of_particle[k] = in(-1.0, 1.0), block.of_surface[k] = in(-1.0, 1.0);
+    block.radius[k] = in(0.5, 2.0), block.constant[k] = in(0.5, 2.0), block.give[k] = in(-0.3, 0.3);
+    block.damping[k] = in(0.1, 1.0), block.inertia[k] = in(0.5, 2.0), block.delay[k] = in(0.0, 0.1);
+    block.memory[0][k] = in(-0.3, 1.0), block.memory[1][k] = in(-1.0, 1.0),
+    block.memory[2][k] = in(-1.0, 1.0);
+  }
+  return block;
+}
+
+TEST(ApproachKernel, AllInstructionSetsFindTheSameDigits) {
+  std::mt19937 engine(5);
+  for (int trial = 0; trial < 200; ++trial) {
+    const ApproachBlock block = random_block(engine);
+    for (const bool is_damped : {false, true}) {
+      const auto run = [&](SimdLevel level, const ApproachBlock& from) {
+        ApproachBlock on = from;
+        const ApproachKernel kernel = contact::approach_kernel(level);
+        (is_damped ? kernel.damped : kernel.elastic)(on, {kLimit, 0.01, 0.01});
+        return on;
+      };
+      const ApproachBlock expected = run(SimdLevel::portable, block);
+      for (const SimdLevel level : {SimdLevel::avx2, SimdLevel::avx512}) {
+        if (!nurbs::available(level)) continue;
+        const ApproachBlock found = run(level, block);
+        const auto same = [&](const ApproachBlock::Lanes& a, const ApproachBlock::Lanes& b) {
+          for (int k = 0; k < ApproachBlock::kCapacity; ++k)
+            if (is_damped ? expected.x[k] > 0.0 : block.overlap[k] > 0.0) {
+              ASSERT_EQ(a[k], b[k]) << k;
+            }
+        };
+        same(found.x, expected.x), same(found.rate, expected.rate), same(found.force, expected.force);
+        same(found.give_way, expected.give_way), same(found.tangent, expected.tangent);
+        for (int m = 0; m < ApproachBlock::kMemory; ++m) same(found.memory[m], expected.memory[m]);
+      }
+    }
+  }
 }
 
 }  // namespace
