@@ -270,10 +270,12 @@ class Mixed final : public contact::ContactModel {
       const Vector3 n = c->delta / c->distance, slip = this->slip(*c);
       const double x = std::max(c->overlap, 0.0), root = std::sqrt(x * c->effective_radius);
       const double damping = hertz_damping(c->particle) * std::sqrt(root);
+      const Vector3 along = slip - n.dot(slip) * n;
       Eigen::Map<Vector3> stretch(c->history);
-      stretch += dt_ * (slip - n.dot(slip) * n) + c->further_slip;
-      c->force =
-          (kConstant * root * x - damping * n.dot(slip)) * n - shear_constant(c->particle) * root * stretch;
+      stretch += dt_ * along + c->further_slip;
+      c->force = (kConstant * root * x - damping * n.dot(slip)) * n;
+      if (shear_constant(c->particle) > 0.0)
+        c->force -= shear_constant(c->particle) * root * stretch + 0.5 * damping * along;
       c->torque.setZero();
     }
   }
