@@ -129,10 +129,13 @@ void ContactTracker::keep_one_of_each_valley(const Query& query) {
 // In a kink that counts as smooth there are two feet, side by side, where a smooth surface has one.
 void ContactTracker::keep_nearer_across_smooth_edges(const Query& query) {
   const auto to_centre = [&](const Foot& foot) { return Vector3((query.centre - foot.point).normalized()); };
+  const auto angle = [](const Vector3& a, const Vector3& b) {  // 0 to pi, as edge_angle
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+  };
   const auto repeats = [&](const Foot& foot, const Foot& nearer) {
     return (nearer.distance < foot.distance || (nearer.distance == foot.distance && &nearer < &foot)) &&
            (foot.point - nearer.point).norm() <= 2.0 * edge_angle_ * foot.distance &&
-           to_centre(foot).cross(to_centre(nearer)).norm() <= std::sin(edge_angle_) &&
+           angle(to_centre(foot), to_centre(nearer)) <= edge_angle_ &&
            search_.projector().across_smooth_edge(foot, nearer);
   };
   for (auto foot = found_.begin(); foot != found_.end();)

@@ -233,6 +233,26 @@ TEST(ContactTracker, AKinkBelowTheEdgeAngleHasOneFoot) {
   }
 }
 
+// Also where it turns by more than a right angle, up to pi.
+TEST(ContactTracker, ASharpKinkBelowTheEdgeAngleHasOneFoot) {
+  constexpr double kDistance = 0.25;
+  for (const bool is_one_patch : {false, true})
+    for (const double turn : {1.4, 1.7, 2.4, 2.9}) {
+      const double height = kDistance / std::cos(0.5 * turn);
+      const std::vector<nurbs::Surface> trough = shallow_trough(std::tan(0.5 * turn), is_one_patch);
+      const auto count = [&](double edge_angle) {
+        Scene scene(trough, {Vector3(1e-3 * kDistance, 0.1, height)}, 0.3, 0.3, {Vector3::Zero()}, 2,
+                    edge_angle);
+        int feet_found = 0;
+        scene.step(1, [&](int, const FeetRange& feet) { feet_found = feet.count; });
+        return feet_found;
+      };
+      EXPECT_EQ(count(0.99 * turn), 2) << turn << ' ' << is_one_patch;
+      EXPECT_EQ(count(1.01 * turn), 1) << turn << ' ' << is_one_patch;
+      EXPECT_EQ(count(M_PI), 1) << turn << ' ' << is_one_patch;
+    }
+}
+
 // In the trough z = x^2 a particle above the centre of curvature (0, 1/2) has a foot on each side; as it
 // sinks they grow together, and one of their slots is given back.
 TEST(ContactTracker, BranchesGrowTogether) {
