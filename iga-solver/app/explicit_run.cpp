@@ -60,6 +60,21 @@ io::SavedState read_saved(const io::ModelFile& model) {
   });
 }
 
+/// The model may have changed since: what that means for the state decides.
+void compare_settings(const io::SavedState& saved, const io::ModelFile& model) {
+  if (saved.settings.empty()) return;  // written before states kept them
+  const std::string density = io::difference(saved.settings, model.settings, "density");
+  if (!density.empty())
+    throw std::runtime_error(fmt::format(
+        "{0}: {1} is the state of a solid of another density: {2}; expected that of then, or a new "
+        "motion from time 0 by 'state: {1}'",
+        model.file, saved.file, density));
+  const std::string others = io::difference(saved.settings, model.settings);
+  if (!others.empty() && is_first_rank())
+    fmt::print(stderr, "WARNING: {}: goes on from {}, saved with another model: {}\n", model.file, saved.file,
+               others);
+}
+
 /// What a run writes, each when it is due.
 class RunOutput {
  public:
@@ -93,7 +108,8 @@ class RunOutput {
 
  private:
   void save(const ExplicitSolver& solver) {
-    const io::SavedState state = io::moment_of(solver);
+    io::SavedState state = io::moment_of(solver);
+    state.settings = model_.settings;
     parallel::on_first_rank(MPI_COMM_WORLD,
                             [&] { io::write_state(*model_.time->save, model_.geometry.units, state); });
   }
@@ -184,6 +200,7 @@ void run_in_time(const SolveOptions& options, io::ModelFile& model) {
   ExplicitSolver solver = io::build_solver(model, parallel::cut_among(MPI_COMM_WORLD));
   if (saved) {
     io::continue_from(*saved, solver);
+    compare_settings(*saved, model);
     continued = saved->moment;
     output.resume();
     saved.reset();

@@ -42,6 +42,24 @@ bool contains(Range range, double x) {
          (range.high_included ? x <= range.high : x < range.high);
 }
 
+void add_text(const YamlNode& node, std::string& text) {
+  const auto add_all = [&](char begin, char end, bool pairs) {
+    text += begin;
+    for (size_t i = 0; i < node.children.size(); ++i) {
+      if (i > 0) text += pairs && i % 2 == 1 ? ": " : ", ";
+      add_text(*node.children[i], text);
+    }
+    text += end;
+  };
+  double number = 0.0;
+  if (node.kind == NodeKind::list)
+    add_all('[', ']', false);
+  else if (node.kind == NodeKind::map)
+    add_all('{', '}', true);
+  else
+    text += parse_number(node.scalar, number) ? fmt::format("{}", number) : one_line(node.scalar);
+}
+
 std::string one_of(const std::vector<std::string>& words) {
   return fmt::format("{}", fmt::join(words, ", "));
 }
@@ -257,6 +275,12 @@ std::vector<double> YamlMap::read_numbers(const std::vector<const YamlNode*>& li
   std::vector<double> numbers;
   for (const YamlNode* item : list) numbers.push_back(read_number(*item, name, {}));
   return numbers;
+}
+
+std::string YamlMap::text_of(const std::string& key) const {
+  std::string text;
+  add_text(value(key), text);
+  return text;
 }
 
 std::string YamlMap::name_of(const std::string& key) const {

@@ -57,6 +57,9 @@ class YamlMap {
   /// A list of lists of numbers (knots, control points).
   std::vector<std::vector<double>> table(const std::string& key) const;
 
+  /// The value on one line as a flow, numbers alike however they are written: for comparisons.
+  std::string text_of(const std::string& key) const;
+
   /// Throws InputError "file:line: message", the line being that of the key (or of the mapping).
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;
   const std::string& file() const { return file_; }

@@ -74,6 +74,10 @@ structure::NodeNumbering read_welds(const YamlMap& document, const geometry_io::
   }
 }
 
+bool is_saved(const YamlMap& document) {
+  return document.has("time") && document.is_map("time") && document.map("time").has("save");
+}
+
 ModelFile read_required(const YamlMap& document, const geometry_io::ReadFile& read) {
   geometry_io::GeometryFile geometry =
       geometry_io::read_geometry(document, geometry_io::geometry_opener(read));
@@ -96,6 +100,7 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   document.allow_only({"units", "geometry", "material", "boundary", "surfaces", "probes", "output", "loads",
                        "initial", "time", "integration", "damping", "weld", "analysis", "state"});
   ModelFile model = read_required(document, read_and_note);
+  if (is_saved(document)) model.settings = settings_of(document, model.materials);
   if (document.has("integration"))
     model.integration = read_integration(document.map("integration", "{quadrature: full}"));
   if (document.has("boundary"))

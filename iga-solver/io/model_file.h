@@ -45,6 +45,7 @@ struct ModelFile {
   std::optional<TimeSpan> time = {};
   std::optional<Analysis> analysis = {};  ///< absent: a motion in time
   std::optional<SavedState> state = {};   ///< what it starts from
+  Settings settings = {};                 ///< of a motion that is saved
 
   /// Those of `boundary` that have names.
   std::vector<structure::NamedSupport> named_supports() const { return io::named_supports(boundary); }

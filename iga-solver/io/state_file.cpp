@@ -85,6 +85,7 @@ void write_state(const std::string& path, geometry_io::Units units, const SavedS
     file.add_numbers("/state/time_step", {1}, &state.moment->step);
     file.add_numbers("/state/work", {state.moment->work.size()}, state.moment->work.data());
   }
+  if (!state.settings.empty()) file.add_texts("/state/settings", to_texts(state.settings));
   const std::string problem = geometry_io::write_file(path, [&](std::ostream& out) { out << file.bytes(); });
   if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
 }
@@ -111,6 +112,7 @@ SavedState read_state(const std::string& path, geometry_io::Units units, const g
   if (file.has("/state/time"))
     state.moment = {read_number(file, "/state/time"), read_number(file, "/state/time_step"),
                     file.numbers("/state/work").numbers};
+  if (file.has("/state/settings")) state.settings = settings_from(file.texts("/state/settings"));
   return state;
 }
 

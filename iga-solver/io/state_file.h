@@ -4,6 +4,9 @@
 //   /state/reference     [nodes][3] undeformed positions of the control points: a state belongs to one mesh
 //   /state/displacement  [nodes][3],  /state/velocity [nodes][3],  /state/memory [numbers], if any
 //   /state/time, /state/time_step [1], /state/work [numbers], of a motion that may be continued
+//   /state/settings      texts: names and values, in turn, of what the model said beside the mesh; not in
+//   older
+//                        files
 #pragma once
 
 #include <optional>
@@ -12,6 +15,7 @@
 
 #include "geometry_io/geometry_io.h"
 #include "geometry_io/yaml_map.h"
+#include "io/settings.h"
 #include "structure/time/explicit_solver.h"
 
 namespace io {
@@ -28,6 +32,7 @@ struct SavedState {
     std::vector<double> work;
   };
   std::optional<Moment> moment = {};
+  Settings settings = {};  ///< of the model of then, if the file tells
 };
 
 /// Throws std::runtime_error, naming the file, if it cannot be written.

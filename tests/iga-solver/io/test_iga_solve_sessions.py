@@ -94,6 +94,52 @@ class Continued(Sessions):
         with h5py.File(self.folder / "plate.h5") as file:
             np.testing.assert_allclose(file["time"], 4e-7 * np.arange(16), atol=8e-8)
 
+    def test_a_changed_model_is_told(self):
+        plate = PLATE.replace("LAW", "linear_elastic").replace("end: 4e-6", "end: 1.5e-6")
+        self.solve(plate)
+        state = self.folder / "saved.h5"
+        saved = state.read_bytes()
+        longer = plate.replace("end: 1.5e-6", "end: 2e-6")
+        alike = longer.replace("7.4e10", "74.0e9").replace("every: 4e-7", "every: 5e-7")
+        changes = (
+            ("", "", ""),
+            ("material: linear_elastic, E = .* then, neo_hooke, E = .* now", "linear_elastic", "neo_hooke"),
+            ("material: linear_elastic, E = 7.*, nu = 0.23 then, linear_elastic, E = 7.*, nu = 0.23 now", "74.0e9", "73.0e9"),
+            (r"damping: \{mass: 10000\S* then, \{mass: 20000\S* now", "mass: 1e4", "mass: 2e4"),
+            (r"boundary: .*fix: \[x, y, z\].* then, .*fix: \[z\].* now", "fix: [x, y, z]", "fix: [z]"),
+            ("loads.tractions: .*-1e8.* then, .*-2e8.* now", "-1e8", "-2e8"),
+            (r"loads.gravity: none then, \[0\S*, 0\S*, -9.81\] now", "loads: {", "loads: {gravity: [0, 0, -9.81], "),
+            ("integration: none then, {quadrature: full} now", "units: si", "units: si\nintegration: {quadrature: full}"),
+        )
+        for expected, old, new in changes:
+            with self.subTest(expected):
+                state.write_bytes(saved)
+                warnings = self.warnings_of_continuing(alike.replace(old, new))
+                self.assertEqual(len(warnings), 1 if expected else 0, warnings)
+                if expected:
+                    self.assertRegex(warnings[0], f"^WARNING: plate.yaml: goes on from saved.h5, saved with another model: {expected}$")
+        state.write_bytes(saved)
+        denser = longer.replace("density: 2480", "density: 2500")
+        self.assertIn("another density: density: 2480 then, 2500 now", self.solve(denser, "--continue", code=1))
+
+    def test_states_of_before_settings_were_kept(self):
+        plate = PLATE.replace("LAW", "linear_elastic").replace("end: 4e-6", "end: 1.5e-6")
+        self.solve(plate)
+        (self.folder / "saved.h5").rename(self.folder / "new.h5")
+        with h5py.File(self.folder / "new.h5") as new, h5py.File(self.folder / "saved.h5", "w") as old:
+            for name, value in new.attrs.items():
+                old.attrs[name] = np.bytes_(value) if isinstance(value, str) else value
+            new.copy("state", old)
+            del old["state/settings"]
+        self.assertEqual(self.warnings_of_continuing(plate.replace("end: 1.5e-6", "end: 2e-6").replace("7.4e10", "7e10")), [])
+
+    def warnings_of_continuing(self, text: str) -> list:
+        (self.folder / "plate.yaml").write_text(text)
+        done = subprocess.run(
+            [PROGRAM, "plate.yaml", "--continue"], cwd=self.folder, capture_output=True, text=True, timeout=60, check=True
+        )
+        return done.stderr.splitlines()
+
     def test_refusals(self):
         plate = PLATE.replace("LAW", "linear_elastic")
         self.assertIn("saved.h5: cannot read", self.solve(plate, "--continue", code=1))
