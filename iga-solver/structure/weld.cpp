@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -138,6 +139,51 @@ Vector3 centre(const nurbs::Volume& patch, const FaceNet& net) {
                             patch.control_points(Eigen::all, net.surface.volume_control_point), middle);
 }
 
+/// Tangents in the middle of a face: one that leads into the patch, and the normal of the other two.
+struct FaceSide {
+  Vector3 inward, normal;
+};
+
+FaceSide side_of(const nurbs::Volume& patch, nurbs::Face face) {
+  const int across = static_cast<int>(face) / 2;
+  const bool is_upper = static_cast<int>(face) % 2 == 1;
+  nurbs::Parameter<3> middle;
+  for (int d = 0; d < 3; ++d) {
+    const nurbs::KnotVector& knots = patch.space.knots(d);
+    middle[d] = d != across ? 0.5 * (knots.front() + knots.back()) : is_upper ? knots.back() : knots.front();
+  }
+  nurbs::RationalBasis<3> basis;
+  nurbs::evaluate(patch.space, middle, 1, basis);
+  Vector3 tangents[3];
+  for (int d = 0; d < 3; ++d) {
+    tangents[d].setZero();
+    for (int k = 0; k < basis.count; ++k)
+      tangents[d] += basis.dR[d][k] * patch.control_points.col(basis.control_point[k]);
+  }
+  return {is_upper ? Vector3(-tangents[across]) : tangents[across],
+          tangents[(across + 1) % 3].cross(tangents[(across + 2) % 3])};
+}
+
+/// On a face that two patches share one is on each side.
+void expect_opposite_sides(const std::vector<nurbs::Volume>& patches, const FaceNet& a, const FaceNet& b,
+                           double tolerance) {
+  const nurbs::Volume &first = patches[a.patch], &second = patches[b.patch];
+  const FaceSide side = side_of(first, a.face);
+  const double first_way = side.inward.dot(side.normal),
+               second_way = side_of(second, b.face).inward.dot(side.normal);
+  if (a.patch == b.patch || !(first_way * second_way > 0.0)) return;
+  const bool is_given_twice =
+      first.control_points.cols() == second.control_points.cols() &&
+      (first.control_points - second.control_points).cwiseAbs().maxCoeff() <= tolerance;
+  throw std::invalid_argument(
+      is_given_twice
+          ? fmt::format("patches {} and {} are one volume given twice, expected it once", a.patch, b.patch)
+          : fmt::format(
+                "patches {} and {} lie in each other: both are on the same side of the face that they "
+                "share, '{}' and '{}', expected one on each side; remove one of them, or move them apart",
+                a.patch, b.patch, a.name(), b.name()));
+}
+
 double extent(const std::vector<nurbs::Volume>& patches) {
   Vector3 low = Vector3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (const nurbs::Volume& patch : patches) {
@@ -164,7 +210,7 @@ void expect_one_mesh(const std::vector<nurbs::Volume>& patches, const NodeNumber
                      double tolerance) {
   for_each_touching_pair(faces_of(patches, nodes), [&](const FaceNet& a, const FaceNet& b) {
     if ((centre(patches[a.patch], a) - centre(patches[b.patch], b)).norm() > tolerance) return;
-    if (same_mesh(a, b)) return;
+    if (same_mesh(a, b)) return expect_opposite_sides(patches, a, b, tolerance);
     throw std::invalid_argument(
         fmt::format("faces '{}' ({}) and '{}' ({}) are one surface, expected one mesh on both: the same "
                     "degrees, knots and weights, so that they can be welded",

@@ -11,9 +11,10 @@
 namespace structure {
 
 /// Welds control points on the faces of the patches that stand at the same place, within `relative_tolerance`
-/// times the extent of all.  Faces that are one surface must have one mesh, and patches meet in whole faces:
-/// throws std::invalid_argument that names them if their degrees, knots, control points or weights differ, or
-/// some of a face's inner control points alone stand where another patch has one.
+/// times the extent of all.  Faces that are one surface must have one mesh, and patches meet in whole faces,
+/// one on each side: throws std::invalid_argument that names them if their degrees, knots, control points or
+/// weights differ, some of a face's inner control points alone stand where another patch has one, or both are
+/// on one side, as a patch that is given twice.
 NodeNumbering weld(const std::vector<nurbs::Volume>& patches, double relative_tolerance = 1e-9);
 
 /// Every patch on its own.

@@ -173,6 +173,23 @@ TEST(Weld, RefusesPatchesThatMeetInPartOfAFace) {
   EXPECT_NO_THROW(weld({block, moved(block, {4, 2, 0}), moved(block, {0, 0, 1})}).node_count());
 }
 
+// Whole faces are shared, of the same mesh, by two patches on the same side of them.
+TEST(Weld, RefusesPatchesInEachOther) {
+  const Volume block = models::block({1, 1, 1}, {2, 2, 2}, 2), beside = moved(block, {1, 0, 0});
+  EXPECT_EQ(message({block, beside, block}), "patches 0 and 2 are one volume given twice, expected it once");
+  EXPECT_EQ(message({ring(0, 90, 2), ring(90, 180, 2), ring(90, 180, 2)}),
+            "patches 1 and 2 are one volume given twice, expected it once");
+  EXPECT_THAT(message({block, turned(block)}),
+              testing::HasSubstr("patches 0 and 1 lie in each other: both are on the same side"));
+  const auto bar = [](double height) { return models::block({1, 1, height}, {1, 1, 1}, 1); };
+  EXPECT_THAT(
+      message({bar(1), moved(bar(1), {0, 0, 1}), bar(3)}),
+      testing::HasSubstr("patches 0 and 2 lie in each other: both are on the same side of the face that "
+                         "they share, 'zeta-' and '2 zeta-', expected one on each side"));
+  EXPECT_EQ(message({bar(1), moved(bar(2), {0, 0, 1}), moved(bar(1), {0, 0, -1})}), "");
+  EXPECT_EQ(message({block, turned(beside)}), "");
+}
+
 TEST(Weld, RefusesOtherWeightsOnOneFace) {
   const Volume block = models::block({1, 1, 1}, {2, 2, 2}, 2);
   const auto weighted = [&](double inner) {
