@@ -65,25 +65,26 @@ void know_law(ApproachBlock& b) {
   for (int k = 0; k < kAll; ++k) b.K[k] = b.constant[k] * __builtin_sqrt(b.radius[k]);
 }
 
-// Whether any has moved.  Who has come to its end stays there: nobody's digits depend on the others.  (Not
+// Whether any goes on.  Who has come to its end stays there: nobody's digits depend on the others.  (Not
 // inlined: it would be unrolled before it is vectorised.)
 [[gnu::noinline]] bool newton_step(ApproachBlock& b) {
   constexpr double kSame = 3e-9;
-  long moved = 0;  // as wide as what is compared: else it is not vectorised
+  long moves = 0;  // as wide as what is compared: else it is not vectorised
   for (int k = 0; k < kAll; ++k) {
     const double q = b.q[k], q2 = q * q, next = (q * (q2 - 1.0) + b.e[k]) / (3.0 * q2 - 1.0),
-                 change = __builtin_fabs(b.change[k]) > kSame * q ? next : 0.0;
+                 change = b.moves[k] > 0.0 ? next : 0.0;
     b.q[k] = q - change;
-    b.change[k] = change;
-    moved += change != 0.0;
+    b.moves[k] = __builtin_fabs(change) > kSame * q ? 1.0 : 0.0;
+    moves += __builtin_fabs(change) > kSame * q;
   }
-  return moved > 0;
+  return moves > 0;
 }
 
 // x - c K x^(3/2) = left  with  q = (left/x)^(1/2),  e = c K left^(1/2)  is  q^3 - q + e = 0,  of which 1,
-// where e = 0, is the largest root.  Newton's steps come down to it from above.  They begin at its series, 1
-// - e/2 - 3/8 e^2 - 1/2 e^3 - 105/128 e^4 - ..., or where that is none at what is above any, and are
-// quadratic: the last is not followed.
+// where e = 0, is the largest root.  Newton's steps come down to it from above, and are quadratic: none comes
+// after a small one.  They begin at its series,
+//   1 - e/2 - 3/8 e^2 - 1/2 e^3 - 105/128 e^4 - ...,
+// or, where that is none, above any.
 void solve(ApproachBlock& b, double limit) {
   constexpr int kMostSteps = 60;
   constexpr double kSeries = -0.5;
@@ -95,7 +96,7 @@ void solve(ApproachBlock& b, double limit) {
     const double series = 1.0 - e * (0.5 + e * (0.375 + e * (0.5 + e * 0.8203125)));
     b.asked[k] = asked / at_limit, b.e[k] = e;
     b.q[k] = e > kSeries ? series : 1.0 - 0.5 * e;
-    b.change[k] = 1.0;
+    b.moves[k] = 1.0;
   }
   for (int step = 0; step < kMostSteps && newton_step(b); ++step) {
   }

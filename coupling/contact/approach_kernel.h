@@ -47,7 +47,8 @@ struct ApproachBlock {
   Lanes damping = {};          // D / radius^(1/4) [force time/length^(3/2)]
   Lanes inertia = {};          // of the particle; infinite: as heavy as can be [mass]
   Lanes delay = {};            // h/c_s, until the mesh gives way [time]
-  Lanes memory[kMemory] = {};  // before and after the step
+  Lanes memory[kMemory] = {};  // before and after the step; where x is negative it is over, although the
+                               // surfaces may not have come apart yet
 
   // What the law is to be asked with, and what it answers:
   Lanes x = {}, root = {};     // x, which is positive while a damped contact is on; x^(1/2)
@@ -62,15 +63,8 @@ struct ApproachBlock {
 
   // On the way: of x + ... = left behind give/share, force = K x^(3/2) + of_damper + damper x
   Lanes of_damper = {}, damper = {}, share = {}, left = {}, turn = {};
-  Lanes e = {}, q = {}, change = {}, asked = {};
+  Lanes e = {}, q = {}, moves = {}, asked = {};
 };
-
-/// A damped contact is over where its x is negative, although the surfaces may not have come apart yet; until
-/// then they may be apart by so much [length].
-inline double held_gap(const double* memory) {
-  constexpr double kDent = 10.0;
-  return memory[0] > 0.0 ? kDent * memory[0] : 0.0;
-}
 
 struct ApproachStep {
   double limit;   ///< the largest share that may give way, below 1

@@ -71,7 +71,7 @@ double ComplianceCorrection::held_gap(const ParticleSlots& slots, int history_co
   if (history_count < kMemory) return gap;
   for (int s = 0; s < slots.used(); ++s)
     if (ContactSlot slot = slots.slot(s); !slot.empty())
-      gap = std::max(gap, contact::held_gap(slot.history() + history_count - kMemory));
+      gap = std::max(gap, held_gap(slot.history() + history_count - kMemory));
   return gap;
 }
 
@@ -87,8 +87,7 @@ void ComplianceCorrection::before(const ParticleView& particles, const Time& now
     contacts[k].further_slip.setZero();  // of the last step, if somebody asks once more
     if (!before_[k].block) continue;
     see_overlap(particles, now, contacts[k], before_[k]);
-    if (before_[k].block && model.shear_constant(contacts[k].particle) > 0.0)
-      enter_shear(particles, model, contacts[k], before_[k]);
+    if (before_[k].block && before_[k].has_shear) enter_shear(particles, model, contacts[k], before_[k]);
   }
   if (shear_count_ == 0) return;
   shear_kernel_.begin(shear_, now.dt);
@@ -105,8 +104,9 @@ void ComplianceCorrection::enter(const ParticleView& particles, const ContactMod
   const double damping = model.hertz_damping(i);
   const bool is_damped = damping > 0.0;
   const double* const memory = is_damped ? memory_of(particles, contact) : nullptr;
-  if (!(contact.overlap > 0.0) && !(is_damped && contact::held_gap(memory) > 0.0)) return;
-  before.give = compliance_.at(contact.foot, model.shear_constant(i) > 0.0);
+  if (!(contact.overlap > 0.0) && !(is_damped && held_gap(memory) > 0.0)) return;
+  before.has_shear = model.shear_constant(i) > 0.0;
+  before.give = compliance_.at(contact.foot, before.has_shear);
   before.directions = SurfaceDirections::at(wall_, contact.foot, contact.delta);
   before.n = contact.delta / contact.distance;
   const double of_surface = before.n.dot(contact.wall_velocity);

@@ -51,8 +51,12 @@ class ComplianceCorrection {
   /// surface, and Contact::tangent and Contact::dashpot are known.
   void after(const ParticleView& particles, const Time& now, const ContactModel& model, Contact* contacts,
              int count);
-  /// How far a particle's surface may be from its feet while a contact in one of these slots goes on
-  /// [length].
+  /// How far the surfaces may be apart while a damped contact that keeps this goes on [length].
+  static double held_gap(const double* memory) {
+    constexpr double kDent = 10.0;
+    return memory[0] > 0.0 ? kDent * memory[0] : 0.0;
+  }
+  /// The same of any contact in these slots.
   static double held_gap(const ParticleSlots& slots, int history_count);
 
  private:
@@ -62,7 +66,8 @@ class ComplianceCorrection {
     bool touches;
     Vector3 delta, wall_velocity;
     const ApproachBlock* block;  // null: not corrected, or over
-    int lane, shear_lane;        // shear_lane < 0: no spring along the surface
+    int lane, shear_lane;        // shear_lane < 0: no spring along the surface that goes on
+    bool has_shear;              // it has one
     Vector3 n;
     double approach;  // [length/time]
     SurfaceDirections directions;

@@ -4,22 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <map>
 #include <utility>
 
 namespace io {
 
 namespace {
-
-// Tables of loads may be long.
-std::string shortened(const std::string& text) {
-  constexpr std::size_t kLongest = 1000;
-  if (text.size() <= kLongest) return text;
-  std::uint64_t checksum = 0xcbf29ce484222325;  // FNV-1a
-  for (const unsigned char c : text) checksum = (checksum ^ c) * 0x100000001b3;
-  return fmt::format("{}... ({} characters, checksum {:x})", text.substr(0, kLongest), text.size(), checksum);
-}
 
 std::string text_of(const structure::Material& material) {
   std::string text = fmt::format("{}, E = {:.10g}, nu = {:.10g}", material.law(), material.youngs_modulus(),
@@ -60,11 +50,10 @@ Settings settings_of(const geometry_io::YamlMap& document,
     settings.push_back({"material" + of_patch, text_of(*materials[p])});
   }
   for (const char* const key : {"integration", "damping", "boundary"})
-    if (document.has(key)) settings.push_back({key, shortened(document.text_of(key))});
+    if (document.has(key)) settings.push_back({key, document.text_of(key)});
   if (document.has("loads") && document.is_map("loads")) {
     const geometry_io::YamlMap loads = document.map("loads");
-    for (const std::string& key : loads.keys())
-      settings.push_back({"loads." + key, shortened(loads.text_of(key))});
+    for (const std::string& key : loads.keys()) settings.push_back({"loads." + key, loads.text_of(key)});
   }
   return settings;
 }

@@ -18,8 +18,7 @@ struct Setting {
 };
 using Settings = std::vector<Setting>;
 
-/// Densities and materials of each patch, integration, damping, boundary and each kind of loads.  Long texts
-/// end in a checksum of the rest.
+/// Densities and materials of each patch, integration, damping, boundary and each kind of loads.
 Settings settings_of(const geometry_io::YamlMap& document,
                      const std::vector<std::shared_ptr<const structure::Material>>& materials);
 

@@ -4,9 +4,8 @@
 //   /state/reference     [nodes][3] undeformed positions of the control points: a state belongs to one mesh
 //   /state/displacement  [nodes][3],  /state/velocity [nodes][3],  /state/memory [numbers], if any
 //   /state/time, /state/time_step [1], /state/work [numbers], of a motion that may be continued
-//   /state/settings      texts: names and values, in turn, of what the model said beside the mesh; not in
-//   older
-//                        files
+//   /state/settings      texts: names and values, in turn, of what the model said beside the mesh; older
+//                        files have none
 #pragma once
 
 #include <optional>

@@ -167,11 +167,12 @@ FaceSide side_of(const nurbs::Volume& patch, nurbs::Face face) {
 /// On a face that two patches share one is on each side.
 void expect_opposite_sides(const std::vector<nurbs::Volume>& patches, const FaceNet& a, const FaceNet& b,
                            double tolerance) {
+  if (a.patch == b.patch) return;
   const nurbs::Volume &first = patches[a.patch], &second = patches[b.patch];
   const FaceSide side = side_of(first, a.face);
   const double first_way = side.inward.dot(side.normal),
                second_way = side_of(second, b.face).inward.dot(side.normal);
-  if (a.patch == b.patch || !(first_way * second_way > 0.0)) return;
+  if (!(first_way * second_way > 0.0)) return;
   const bool is_given_twice =
       first.control_points.cols() == second.control_points.cols() &&
       (first.control_points - second.control_points).cwiseAbs().maxCoeff() <= tolerance;

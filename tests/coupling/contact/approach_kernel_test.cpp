@@ -10,13 +10,13 @@
 #include <cmath>
 #include <random>
 
+#include "coupling/contact/compliance.h"
 #include "nurbs/types.h"
 
 namespace {
 
 using contact::ApproachBlock;
 using contact::ApproachKernel;
-using contact::ApproachStep;
 using nurbs::kPi;
 using nurbs::SimdLevel;
 
@@ -101,7 +101,7 @@ class DampedContact {
   }
   double step(double overlap, double of_particle, double of_surface, double dt) {
     double memory[ApproachBlock::kMemory] = {number(0), number(1), number(2)};
-    if (overlap <= -contact::held_gap(memory)) {
+    if (overlap <= -contact::ComplianceCorrection::held_gap(memory)) {
       for (int m = 0; m < ApproachBlock::kMemory; ++m) number(m) = 0.0;
       return 0.0;
     }
