@@ -45,101 +45,38 @@ LocalExtent extent_for(const nurbs::Space<3>& space) {
   return {std::max({space.degree(0), space.degree(1), space.degree(2)}) + 1};
 }
 
-/// Row k of the result: coefficient of s^k of the polynomials that are 1 at one of the points and 0 at the
-/// others.
-Eigen::MatrixXd to_powers(int count) {
-  const std::vector<double> points = lobatto_points(count);
-  Eigen::MatrixXd powers(count, count);
-  for (int i = 0; i < count; ++i)
-    for (int k = 0; k < count; ++k) powers(i, k) = std::pow(points[i], k);
-  return powers.inverse();
-}
-
-}  // namespace
-
-std::vector<double> lobatto_points(int count) {
-  std::vector<double> points(count);
-  for (int i = 0; i < count; ++i) points[i] = -std::cos(nurbs::kPi * i / (count - 1));
-  return points;
-}
-
-ComplianceTable::ComplianceTable(const std::array<int, 2>& counts,
-                                 const std::vector<std::vector<double>>& values)
-    : kernel_(table_kernel(nurbs::simd_level())),
-      counts_(counts),
-      largest_normal_(*std::max_element(values[normal].begin(), values[normal].end())) {
-  const Eigen::MatrixXd of_s = to_powers(counts[0]), of_t = to_powers(counts[1]);
-  double* next = powers_.data();
-  for (const std::vector<double>& component : values) {
-    const Eigen::MatrixXd powers =
-        of_s * Eigen::MatrixXd::Map(component.data(), counts[0], counts[1]) * of_t.transpose();
-    next = std::copy_n(powers.data(), powers.size(), next);
-  }
-  const int count = counts[0] * counts[1];
-  for (int k = 0; k < count; ++k)
-    for (int c = 0; c < kTogether; ++c) together_[k * kTogether + c] = powers_[c * count + k];
-}
-
-namespace {
-
-/// A polynomial in s and t, and its derivatives.
-struct Polynomial {
-  Polynomial(const double* first, const std::array<int, 2>& counts, double s, double t) {
-    const double* next = first + static_cast<std::ptrdiff_t>(counts[0]) * counts[1];
-    for (int j = counts[1]; j > 0; --j) {
-      double row = *--next, change = 0.0;
-      for (int i = counts[0] - 1; i > 0; --i) {
-        change = change * s + row;
-        row = row * s + *--next;
-      }
-      by_t = by_t * t + value;
-      value = value * t + row;
-      by_s = by_s * t + change;
+/// Changes the values inside as smoothly as `change` asks for on the sides: bilinear between them (Coons,
+/// 1967).
+void blend(const std::array<int, 2>& counts, const std::vector<Matrix3>& change,
+           std::vector<Matrix3>& values) {
+  const std::vector<double> s = lobatto_points(counts[0]), t = lobatto_points(counts[1]);
+  const int right = counts[0] - 1, top = counts[1] - 1;
+  const auto at = [&](int i, int j) -> const Matrix3& { return change[i + counts[0] * j]; };
+  for (int j = 1; j < top; ++j)
+    for (int i = 1; i < right; ++i) {
+      const double x1 = 0.5 * (1.0 + s[i]), x0 = 1.0 - x1, y1 = 0.5 * (1.0 + t[j]), y0 = 1.0 - y1;
+      values[i + counts[0] * j] += x0 * at(0, j) + x1 * at(right, j) + y0 * at(i, 0) + y1 * at(i, top) -
+                                   x0 * y0 * at(0, 0) - x1 * y0 * at(right, 0) - x0 * y1 * at(0, top) -
+                                   x1 * y1 * at(right, top);
     }
-  }
-  double value = 0.0, by_s = 0.0, by_t = 0.0;
-};
-
-/// An element's own parameter, from -1 to 1, and its change with that of the patch.
-struct OwnParameter {
-  OwnParameter(double low, double high, double xi)
-      : change(2.0 / (high - low)), value(change * (xi - low) - 1.0) {}
-  double change, value;
-};
+}
 
 }  // namespace
-
-ComplianceTable::Value ComplianceTable::at(Component component, const nurbs::Parameter<2>& low,
-                                           const nurbs::Parameter<2>& high,
-                                           const nurbs::Parameter<2>& xi) const {
-  const double* const first = powers_.data() + static_cast<std::size_t>(component) * counts_[0] * counts_[1];
-  const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
-  const Polynomial at(first, counts_, s.value, t.value);
-  return {at.value, {at.by_s * s.change, at.by_t * t.change}};
-}
-
-std::array<ComplianceTable::Value, ComplianceTable::kTogether> ComplianceTable::together(
-    const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high, const nurbs::Parameter<2>& xi) const {
-  const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
-  static_assert(kTogether == FourPolynomials::kCount);
-  FourPolynomials at;
-  kernel_(together_.data(), counts_[0], counts_[1], s.value, t.value, at);
-  std::array<Value, kTogether> values;
-  for (int k = 0; k < kTogether; ++k)
-    values[k] = {at.value[k], {at.by_s[k] * s.change, at.by_t[k] * t.change}};
-  return values;
-}
 
 ComplianceTables::ComplianceTables(ReferenceBody body, std::vector<SkinPiece> skin)
-    : body_(std::move(body)), near_(body_), gradients_(body_), skin_(std::move(skin)) {
+    : body_(std::move(body)),
+      near_(body_),
+      gradients_(body_),
+      skin_(std::move(skin)),
+      shared_(body_, near_, skin_, surfaces_) {
   expect_quadrature(body_.quadrature);
   for (const SkinPiece& piece : skin_) {
     const nurbs::Volume& patch = body_.patches[piece.patch];
     expect_law(*body_.materials[piece.patch]);
     expect_degrees(patch.space);
     surfaces_.emplace_back(body_, piece);
-    tables_.emplace_back(surfaces_.back().space().element_count());
-    known_.emplace_back(tables_.back().size(), nullptr);
+    solved_of_.emplace_back(surfaces_.back().space().element_count());
+    known_.emplace_back(solved_of_.back().size(), nullptr);
     const int d = static_cast<int>(piece.face) / 2;
     const LocalExtent extent = extent_for(patch.space);
     alike_.push_back(
@@ -151,26 +88,43 @@ LocalPatch ComplianceTables::patch_of(const HitElement& hit) const {
   return {body_, near_, hit.volume(), extent_for(body_.patches[hit.volume().patch].space)};
 }
 
-std::unique_ptr<ComplianceTable> ComplianceTables::solve(int piece, const HitElement& hit) const {
-  std::vector<double> points[2];
-  std::array<int, 2> counts;
-  for (int d = 0; d < 2; ++d) {
-    counts[d] = 2 * surfaces_[piece].space().degree(d) + 1;
-    for (const double s : lobatto_points(counts[d]))
-      points[d].push_back(0.5 * ((1.0 - s) * hit.low()[d] + (1.0 + s) * hit.high()[d]));
-  }
+ComplianceTables::Tensors ComplianceTables::solve(int piece, int element) const {
+  const HitElement hit(body_, near_, skin_[piece], surfaces_[piece], element);
   std::vector<SkinPoint> feet;
-  std::vector<Matrix3> frames;
-  for (const double eta : points[1])
-    for (const double xi : points[0]) {
-      feet.push_back(hit.foot({xi, eta}));
-      frames.push_back(hit.frame({xi, eta}));
-    }
+  for (const nurbs::Parameter<2>& xi : table_points(surfaces_[piece].space(), element))
+    feet.push_back(hit.foot(xi));
   const LocalPatch patch = patch_of(hit);
-  const std::vector<Matrix3> tensors = LocalProblem(patch, gradients_).compliances(feet);
+  return LocalProblem(patch, gradients_).compliances(feet);
+}
+
+int ComplianceTables::first_alike(int piece, int element) const {
+  const nurbs::Space<2>& space = surfaces_[piece].space();
+  nurbs::Indices<2> span = space.element_indices(element);
+  for (int d = 0; d < 2; ++d) span[d] = alike_[piece][d][span[d]];
+  return space.element_index(span);
+}
+
+const ComplianceTables::Solved& ComplianceTables::solved(int piece, int element) {
+  const int first = first_alike(piece, element);
+  Solved& solved = solved_of_[piece][first];
+  if (!solved.tensors.empty() || !solved.problem.empty()) return solved;
+  try {
+    solved.tensors = solve(piece, first);
+    ++solved_;
+  } catch (const std::invalid_argument& problem) {
+    solved.problem = problem.what();
+  }
+  return solved;
+}
+
+std::unique_ptr<ComplianceTable> ComplianceTables::table(int piece, int element,
+                                                         const Tensors& tensors) const {
+  const HitElement hit(body_, near_, skin_[piece], surfaces_[piece], element);
+  const nurbs::Space<2>& space = surfaces_[piece].space();
+  const std::vector<nurbs::Parameter<2>> points = table_points(space, element);
   std::vector<std::vector<double>> values(ComplianceTable::kComponents);
-  for (std::size_t f = 0; f < feet.size(); ++f) {
-    const Matrix3 c = frames[f].transpose() * tensors[f] * frames[f];
+  for (std::size_t point = 0; point < points.size(); ++point) {
+    const Matrix3 frame = hit.frame(points[point]), c = frame.transpose() * tensors[point] * frame;
     const double components[] = {c(2, 2),
                                  c(0, 0),
                                  c(1, 1),
@@ -179,26 +133,40 @@ std::unique_ptr<ComplianceTable> ComplianceTables::solve(int piece, const HitEle
                                  0.5 * (c(1, 2) + c(2, 1))};
     for (int k = 0; k < ComplianceTable::kComponents; ++k) values[k].push_back(components[k]);
   }
-  return std::make_unique<ComplianceTable>(counts, values);
+  return std::make_unique<ComplianceTable>(table_counts(space), values);
 }
 
 const ComplianceTable& ComplianceTables::find(int piece, int element) {
-  const nurbs::Space<2>& space = surfaces_[piece].space();
-  nurbs::Indices<2> span = space.element_indices(element);
-  for (int d = 0; d < 2; ++d) span[d] = alike_[piece][d][span[d]];
-  const int first = space.element_index(span);
-  std::unique_ptr<ComplianceTable>& table = tables_[piece][first];
-  if (table) return *(known_[piece][element] = table.get());
-  try {
-    table = solve(piece, {body_, near_, skin_[piece], surfaces_[piece], first});
-  } catch (const std::invalid_argument& problem) {
+  const Solved& own = solved(piece, element);
+  if (!own.problem.empty()) {
     const Vector3 X = surfaces_[piece].at_centre(element);
     throw std::invalid_argument(
         fmt::format("no local compliance of the element about ({:.6g}, {:.6g}, {:.6g}): {}", X[0], X[1], X[2],
-                    problem.what()));
+                    own.problem));
   }
-  ++made_;
-  return *(known_[piece][element] = table.get());
+  Tensors means;
+  Origin origin;
+  for (const std::vector<TablePoint>& points : shared_.of(piece, element)) {
+    Matrix3 sum = Matrix3::Zero();
+    int count = 0;
+    for (const TablePoint& point : points) {
+      const Tensors& tensors = solved(point.piece, point.element).tensors;
+      if (tensors.empty()) continue;
+      sum += tensors[point.index];
+      ++count;
+      origin.emplace_back(&tensors, point.index);
+    }
+    origin.emplace_back(nullptr, 0);
+    means.push_back(sum / count);
+  }
+  std::unique_ptr<ComplianceTable>& made = tables_[origin];
+  if (!made) {
+    Tensors change = means;
+    for (std::size_t k = 0; k < change.size(); ++k) change[k] -= own.tensors[k];
+    blend(table_counts(surfaces_[piece].space()), change, means);
+    made = table(piece, first_alike(piece, element), means);  // to the last bit, whoever asks first
+  }
+  return *(known_[piece][element] = made.get());
 }
 
 Matrix3 ComplianceTables::direct(int piece, int element, const nurbs::Parameter<2>& xi) const {

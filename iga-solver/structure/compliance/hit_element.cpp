@@ -15,25 +15,33 @@ std::array<int, 2> along(nurbs::Face face) {
   return {d == 0 ? 1 : 0, d == 2 ? 1 : 2};
 }
 
-BodyElement behind(const ReferenceBody& body, const SkinPiece& piece, const nurbs::Indices<2>& span) {
+}  // namespace
+
+BodyElement element_behind(const ReferenceBody& body, const SkinPiece& piece, int element) {
   const nurbs::Space<3>& space = body.patches[piece.patch].space;
   const int face = static_cast<int>(piece.face), d = face / 2;
   const std::array<int, 2> directions = along(piece.face);
+  const int count = space.knots(directions[0]).element_count();
   nurbs::Indices<3> at{};
   at[d] = face % 2 == 0 ? 0 : space.knots(d).element_count() - 1;
-  for (int k = 0; k < 2; ++k) at[directions[k]] = span[k];
+  at[directions[0]] = element % count, at[directions[1]] = element / count;
   return {piece.patch, space.element_index(at)};
 }
 
-}  // namespace
+int element_on(const ReferenceBody& body, const SkinPiece& piece, int volume_element) {
+  const nurbs::Space<3>& space = body.patches[piece.patch].space;
+  const int face = static_cast<int>(piece.face), d = face / 2;
+  const std::array<int, 2> directions = along(piece.face);
+  const nurbs::Indices<3> at = space.element_indices(volume_element);
+  if (at[d] != (face % 2 == 0 ? 0 : space.knots(d).element_count() - 1)) return -1;
+  return at[directions[0]] + space.knots(directions[0]).element_count() * at[directions[1]];
+}
 
 // Near a free edge the half-space's traction on the other face is without limit, near a wall that stands on
 // the skin its displacement.
 HitElement::HitElement(const ReferenceBody& body, const NearElements& near, const SkinPiece& piece,
                        const FaceSurface& surface, int element)
-    : surface_(surface),
-      element_(element),
-      volume_(behind(body, piece, surface.space().element_indices(element))) {
+    : surface_(surface), element_(element), volume_(element_behind(body, piece, element)) {
   constexpr double kNearest = 0.25;
   const nurbs::Indices<2> span = surface.space().element_indices(element);
   for (int k = 0; k < 2; ++k) {

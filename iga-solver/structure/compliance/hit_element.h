@@ -7,6 +7,11 @@
 
 namespace structure {
 
+/// The element of the body behind one of a piece of its skin.
+BodyElement element_behind(const ReferenceBody& body, const SkinPiece& piece, int element);
+/// The other way: -1 if that element of the piece's patch does not touch the piece.
+int element_on(const ReferenceBody& body, const SkinPiece& piece, int volume_element);
+
 class HitElement {
  public:
   /// Keeps a reference to the surface.  Throws std::invalid_argument if it has no normal at a side's middle.

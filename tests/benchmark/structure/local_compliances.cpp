@@ -59,8 +59,8 @@ void measure(const std::string& body, int degree, int count) {
       R"({{"body": "{}", "degree": {}, "largest_aspect": {:.4g}, "tables": {}, "largest_compliance": {:.16g}, )"
       R"("seconds": {:.6g}, "ms_per_table": {:.6g}, "seconds_of_all": {:.6g}}})"
       "\n",
-      body, degree, largest_aspect(volume), tables.made(), largest, seconds, 1e3 * seconds / tables.made(),
-      seconds / tables.made() * kOnTop);
+      body, degree, largest_aspect(volume), tables.solved(), largest, seconds,
+      1e3 * seconds / tables.solved(), seconds / tables.solved() * kOnTop);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "nurbs/primitives.h"
 #include "point_force.h"
 #include "structure/compliance/compliance_tables.h"
+#include "top.h"
 
 namespace {
 
@@ -27,13 +28,7 @@ double normal_compliance(const ReferenceBody& body, const nurbs::Parameter<2>& x
   ComplianceTables tables(body, {piece});
   const Vector3 n = surface.at(element, xi).outward_normal;
   const double c = n.dot(tables.direct(0, element, xi) * n);
-  const auto span = surface.space().element_indices(element);
-  nurbs::Parameter<2> low, high;
-  for (int d = 0; d < 2; ++d) {
-    low[d] = surface.space().knots(d).breaks()[span[d]];
-    high[d] = surface.space().knots(d).breaks()[span[d] + 1];
-  }
-  const double of_table = tables.of(0, element).at(ComplianceTable::normal, low, high, xi).c;
+  const double of_table = top::value(tables, surface.space(), 0, element, xi, ComplianceTable::normal).c;
   EXPECT_NEAR(of_table, c, 0.03 * c) << xi[0] << ' ' << xi[1];
   return c;
 }

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/compliance/compliance_table.h"
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace structure {
+
+std::vector<double> lobatto_points(int count) {
+  std::vector<double> points(count);
+  for (int i = 0; i < count; ++i) points[i] = -std::cos(nurbs::kPi * i / (count - 1));
+  return points;
+}
+
+std::array<int, 2> table_counts(const nurbs::Space<2>& space) {
+  return {2 * space.degree(0) + 1, 2 * space.degree(1) + 1};
+}
+
+std::vector<nurbs::Parameter<2>> table_points(const nurbs::Space<2>& space, int element) {
+  const std::array<int, 2> counts = table_counts(space);
+  const nurbs::Indices<2> span = space.element_indices(element);
+  std::array<std::vector<double>, 2> along;
+  for (int d = 0; d < 2; ++d) {
+    const std::vector<double>& breaks = space.knots(d).breaks();
+    for (const double s : lobatto_points(counts[d]))
+      along[d].push_back(0.5 * ((1.0 - s) * breaks[span[d]] + (1.0 + s) * breaks[span[d] + 1]));
+  }
+  std::vector<nurbs::Parameter<2>> points;
+  for (const double eta : along[1])
+    for (const double xi : along[0]) points.push_back({xi, eta});
+  return points;
+}
+
+namespace {
+
+/// Row k of the result: coefficient of s^k of the polynomials that are 1 at one of the points and 0 at the
+/// others.
+Eigen::MatrixXd to_powers(int count) {
+  const std::vector<double> points = lobatto_points(count);
+  Eigen::MatrixXd powers(count, count);
+  for (int i = 0; i < count; ++i)
+    for (int k = 0; k < count; ++k) powers(i, k) = std::pow(points[i], k);
+  return powers.inverse();
+}
+
+}  // namespace
+
+ComplianceTable::ComplianceTable(const std::array<int, 2>& counts,
+                                 const std::vector<std::vector<double>>& values)
+    : kernel_(table_kernel(nurbs::simd_level())),
+      counts_(counts),
+      largest_normal_(*std::max_element(values[normal].begin(), values[normal].end())) {
+  const Eigen::MatrixXd of_s = to_powers(counts[0]), of_t = to_powers(counts[1]);
+  double* next = powers_.data();
+  for (const std::vector<double>& component : values) {
+    const Eigen::MatrixXd powers =
+        of_s * Eigen::MatrixXd::Map(component.data(), counts[0], counts[1]) * of_t.transpose();
+    next = std::copy_n(powers.data(), powers.size(), next);
+  }
+  const int count = counts[0] * counts[1];
+  for (int k = 0; k < count; ++k)
+    for (int c = 0; c < kTogether; ++c) together_[k * kTogether + c] = powers_[c * count + k];
+}
+
+namespace {
+
+/// A polynomial in s and t, and its derivatives.
+struct Polynomial {
+  Polynomial(const double* first, const std::array<int, 2>& counts, double s, double t) {
+    const double* next = first + static_cast<std::ptrdiff_t>(counts[0]) * counts[1];
+    for (int j = counts[1]; j > 0; --j) {
+      double row = *--next, change = 0.0;
+      for (int i = counts[0] - 1; i > 0; --i) {
+        change = change * s + row;
+        row = row * s + *--next;
+      }
+      by_t = by_t * t + value;
+      value = value * t + row;
+      by_s = by_s * t + change;
+    }
+  }
+  double value = 0.0, by_s = 0.0, by_t = 0.0;
+};
+
+/// An element's own parameter, from -1 to 1, and its change with that of the patch.
+struct OwnParameter {
+  OwnParameter(double low, double high, double xi)
+      : change(2.0 / (high - low)), value(change * (xi - low) - 1.0) {}
+  double change, value;
+};
+
+}  // namespace
+
+ComplianceTable::Value ComplianceTable::at(Component component, const nurbs::Parameter<2>& low,
+                                           const nurbs::Parameter<2>& high,
+                                           const nurbs::Parameter<2>& xi) const {
+  const double* const first = powers_.data() + static_cast<std::size_t>(component) * counts_[0] * counts_[1];
+  const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
+  const Polynomial at(first, counts_, s.value, t.value);
+  return {at.value, {at.by_s * s.change, at.by_t * t.change}};
+}
+
+std::array<ComplianceTable::Value, ComplianceTable::kTogether> ComplianceTable::together(
+    const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high, const nurbs::Parameter<2>& xi) const {
+  const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
+  static_assert(kTogether == FourPolynomials::kCount);
+  FourPolynomials at;
+  kernel_(together_.data(), counts_[0], counts_[1], s.value, t.value, at);
+  std::array<Value, kTogether> values;
+  for (int k = 0; k < kTogether; ++k)
+    values[k] = {at.value[k], {at.by_s[k] * s.change, at.by_t[k] * t.change}};
+  return values;
+}
+
+}  // namespace structure

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Local compliances on one element of a body's skin, as polynomials.  There c is one of degree 2 p in each
+// direction, but for what the half-space's data add, which vary little; so (2 p + 1)^2 values hold it.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "nurbs/patch.h"
+#include "structure/compliance/table_kernel.h"
+
+namespace structure {
+
+class ComplianceTable {
+ public:
+  /// Components of the tensor in the frame (t_1, t_2, n): t_1 along the surface's first direction, n out of
+  /// the body, t_2 = n x t_1.
+  enum Component { normal, first, second, first_second, first_normal, second_normal, kComponents };
+  static constexpr int kTogether = first_second + 1;  ///< those that a contact with friction asks for
+
+  /// c [length/force], and its changes with the parameters [length/force/parameter].
+  struct Value {
+    double c;
+    std::array<double, 2> change;
+  };
+
+  /// From values at table_points(): [component][point].
+  ComplianceTable(const std::array<int, 2>& counts, const std::vector<std::vector<double>>& values);
+
+  /// On the element [low, high] of the parameters.
+  Value at(Component component, const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high,
+           const nurbs::Parameter<2>& xi) const;
+  /// The first kTogether components, to the last bit as one by one.
+  std::array<Value, kTogether> together(const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high,
+                                        const nurbs::Parameter<2>& xi) const;
+  /// Largest value at its points [length/force].
+  double largest_normal() const { return largest_normal_; }
+
+ private:
+  static constexpr int kMost = 7 * 7;  // values of a component: of degree 3
+
+  // In one piece, as it comes from memory.
+  TableKernel kernel_;
+  std::array<int, 2> counts_;
+  double largest_normal_;
+  std::array<double, kTogether * kMost> together_;  // [of t][of s][component] in s, t from -1 to 1
+  std::array<double, kComponents * kMost> powers_;  // [component][of t][of s], the same
+};
+
+/// Chebyshev's points with both ends of [-1, 1], rising.
+std::vector<double> lobatto_points(int count);
+
+/// How many values a table has in each direction: the product of so many lobatto_points() is its points.
+std::array<int, 2> table_counts(const nurbs::Space<2>& space);
+/// On the element, the first direction fastest.
+std::vector<nurbs::Parameter<2>> table_points(const nurbs::Space<2>& space, int element);
+
+}  // namespace structure
