@@ -137,8 +137,14 @@ void give_gravity(const LAMMPS_NS::Modify& modify, coupling::StructureSolver& st
 
 std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::StructureSolver& structure,
                             const std::string& file) {
-  if (!structure.deforms() || structure.gravity()) return "";
+  if (!structure.deforms()) return "";
   const auto [sum, ids, varies] = gravities_of(modify);
+  if (structure.takes_gravity_of_deck() && ids.empty())
+    return fmt::format(
+        "'{}' has 'gravity: deck', and the deck no fix gravity, so nothing pulls the solid: expected one "
+        "before the run, or 'gravity: [0, 0, 0]' if that is meant",
+        file);
+  if (structure.gravity()) return "";
   const std::string whose = fmt::format("fix gravity (id {}) acts on particles alone", fmt::join(ids, ", "));
   if (varies)
     return fmt::format(

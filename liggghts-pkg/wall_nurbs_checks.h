@@ -37,7 +37,8 @@ void give_gravity(const LAMMPS_NS::Modify& modify, coupling::StructureSolver& st
                   const std::string& file);
 
 /// What to tell the user if `fix gravity` pulls at the particles, and nothing at the solid that they hit: the
-/// line that its file lacks.  Empty if all is well.  In setup: the deck's gravity is known only then.
+/// line that its file lacks; or if the solid waits for one that is not there.  Empty if all is well.  In
+/// setup: the deck's gravity is known only then.
 std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::StructureSolver& structure,
                             const std::string& file);
 

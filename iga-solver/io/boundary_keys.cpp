@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "io/output_keys.h"
 #include "io/time_keys.h"
 #include "structure/conditions/columns.h"
 #include "structure/conditions/loads.h"
@@ -112,6 +113,7 @@ std::vector<BoundaryEntry> read_boundary(const std::vector<YamlMap>& entries, co
   std::vector<BoundaryEntry> boundary;
   for (const YamlMap& map : entries) {
     boundary.push_back(read_entry(map, geometry, nodes));
+    expect_series_name(map, "name", boundary.back().name);
     for (std::size_t i = 0; i + 1 < boundary.size(); ++i)
       if (!boundary[i].name.empty() && boundary[i].name == boundary.back().name)
         map.fail("name", fmt::format("name '{}' is given twice, expected once", boundary[i].name));

@@ -19,6 +19,7 @@ using geometry_io::YamlMap;
 namespace {
 
 structure::Probe read_probe(const YamlMap& probes, const std::string& name, const ModelFile& model) {
+  expect_series_name(probes, name, name);
   const YamlMap map = probes.map(name);
   map.allow_only({"face", "patch", "at"});
   const int patch = read_patch(map, model.geometry);

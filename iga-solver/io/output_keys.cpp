@@ -69,4 +69,11 @@ HistoryOutput read_output(const YamlMap& output, const geometry_io::GeometryFile
   return result;
 }
 
+void expect_series_name(const YamlMap& map, const std::string& key, const std::string& name) {
+  if (name == "." || name == ".." || name.find('/') != std::string::npos)
+    map.fail(key, fmt::format("name '{}' cannot be that of a data set of histories, expected one without '/' "
+                              "that is not '.' or '..'",
+                              name));
+}
+
 }  // namespace io

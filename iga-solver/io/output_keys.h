@@ -32,4 +32,8 @@ struct HistoryOutput {
 HistoryOutput read_output(const geometry_io::YamlMap& output, const geometry_io::GeometryFile& geometry,
                           const std::vector<std::string>& inputs, bool without_time = false);
 
+/// A probe or support has a data set of its name in histories.  Throws geometry_io::InputError, at the key,
+/// unless HDF5 takes the name for one.
+void expect_series_name(const geometry_io::YamlMap& map, const std::string& key, const std::string& name);
+
 }  // namespace io

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "io/series_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <stdexcept>
+#include <system_error>
 
 #include "geometry_io/regular_file.h"
 
@@ -168,8 +172,28 @@ void SeriesFile::end_row(double value) {
   unfinished_ = false;
 }
 
+// HDF5 does not survive a write that fails: it crashes when it is closed.  So the room for what it is about
+// to write is asked for before, and without it HDF5 may go on in memory, where nobody looks.
+void SeriesFile::expect_room() const {
+  constexpr hsize_t kMargin = 1 << 16;  // [bytes] for what HDF5 adds while it writes, of its own
+  hsize_t size = 0;
+  void* handle = nullptr;
+  check(H5Fget_filesize(file_, &size), "tell its size");
+  check(H5Fget_vfd_handle(file_, H5P_DEFAULT, &handle), "tell its descriptor");
+  const int descriptor = *static_cast<int*>(handle);
+  const int problem = posix_fallocate(descriptor, 0, static_cast<off_t>(size + kMargin));
+  if (problem == 0) return;
+  if (const int memory = memfd_create("lost", MFD_CLOEXEC); memory >= 0) {
+    dup2(memory, descriptor);
+    close(memory);
+  }
+  throw std::runtime_error(
+      fmt::format("{}: cannot write here: {}", path_, std::generic_category().message(problem)));
+}
+
 void SeriesFile::flush() {
   const SilentErrors silent;
+  expect_room();
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flush this file");
 }
 

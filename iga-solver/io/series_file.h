@@ -48,6 +48,7 @@ class SeriesFile {
   SeriesFile(std::string path, hid_t file);
   template <class Result>
   Result check(Result result, const char* action) const;
+  void expect_room() const;
   void flush();
   void write_attribute(hid_t object, const std::string& name, const std::string& value);
 

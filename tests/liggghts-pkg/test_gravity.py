@@ -63,6 +63,13 @@ class Gravity(unittest.TestCase):
             with self.subTest(name):
                 self.assertEqual(run(**settings)[0], [])
 
+    def test_a_solid_that_takes_the_decks_says_so_where_the_deck_has_none(self):
+        model = BLOCK + "loads: {gravity: deck}\n"
+        for ranks in (1, 2):
+            (warning,) = run("", model, ranks=ranks)[0]
+            self.assertRegex(warning, r"id plate.*'block.yaml' has 'gravity: deck', and the deck no fix gravity")
+        self.assertEqual(run("fix g all gravity 0. vector 0 0 -1\n", model)[0], [])
+
     def test_a_solid_may_take_the_decks(self):
         """The sum of what there is, on any number of ranks, and anew in each run; one that varies is refused."""
         model = BLOCK + "loads: {gravity: deck, tractions: [{face: zeta+, value: [1000, 0, 0]}]}\n"

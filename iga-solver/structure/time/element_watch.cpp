@@ -61,14 +61,16 @@ void ElementWatch::look_at(const Body& body, const NodalVectors& u, int element)
   const double strain_beside = seen.slope_of_spline * seen.residual / seen.spacing;
   if (seen.H.norm() + strain_beside < kSmall || !seen.H.allFinite()) return;
   const Matrix3 F = Matrix3::Identity() + seen.H;
+  const double det_F = F.determinant();
   if (body.element_material(element).is_small_strain()) {
-    const double turn = degrees_of_rotation(F);
-    if (!turned_ && turn > kLargestTurn) turned_ = {element, turn};
-  } else if (!folded_ && (F.determinant() <= 0.0 || F.jacobiSvd().singularValues()[2] < strain_beside)) {
+    // What is inside out is no rotation and a stretch: it counts as half a turn.
+    const double turn = det_F > 0.0 ? degrees_of_rotation(F) : 180.0;
+    if (!turned_ && turn > kLargestTurn) turned_ = {element, turn, det_F <= 0.0};
+  } else if (!folded_ && (det_F <= 0.0 || F.jacobiSvd().singularValues()[2] < strain_beside)) {
     values_.resize(3 * static_cast<std::size_t>(body.padded_functions(element)));
     body.gather(element, u, values_.data());
     const double ratio = body.smallest_volume_ratio(element, values_.data());
-    if (ratio <= 0.0) folded_ = {element, ratio};
+    if (ratio <= 0.0) folded_ = {element, ratio, true};
   }
 }
 
@@ -94,6 +96,11 @@ std::string describe_turned(const Body& body, const Halo& halo, const ElementWat
   const std::optional<ElementWatch::Seen>& seen = watch.turned();
   const Id id = seen ? halo.element_id(seen->element) : -1;
   return halo.words_of_largest(seen ? seen->value : kNowhere, id, [&] {
+    if (seen->is_folded)
+      return fmt::format(
+          "at time {:.6g} element {} ({}) is inside out, which its law {}, of small strain, does not know: "
+          "loads, contact forces or initial velocities are too large for it, or the mesh is too coarse there",
+          time, id, body.describe_element(seen->element), body.element_material(seen->element).law());
     return fmt::format(
         "at time {:.6g} element {} ({}) is turned by {:.3g} degrees, and its law {}, of small strain, takes "
         "turning for strain: use saint_venant_kirchhoff or neo_hooke beyond {:g} degrees",

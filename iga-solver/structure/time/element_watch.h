@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Whether elements do what their law is not for: turn, where it is one of small strain (a rotation by theta
 // strains it by about theta^2/2), or fold, where it goes on as if nothing had happened (F enters Saint
-// Venant-Kirchhoff's law as F^T F alone).  Elements are looked at in turn, each once in kTurns steps at
-// least, and none while displacements are far too small.  What is seen first is the affine motion that fits
-// an element's nodes best, x = c + F X; only where that, or how far they are from it, leaves room for a fold
-// are the quadrature points asked.
+// Venant-Kirchhoff's law as F^T F alone).  Elements are looked at in turn, each
+// once in kTurns steps at least, and none while displacements are far too small.  What is seen first is the
+// affine motion that fits an element's nodes best, x = c + F X; only where that, or how far they are from it,
+// leaves room for a fold are the quadrature points asked.
 #pragma once
 
 #include <limits>
@@ -30,6 +30,7 @@ class ElementWatch {
   struct Seen {
     int element;
     double value;
+    bool is_folded;
   };
   /// What has been seen first of each kind.
   const std::optional<Seen>& turned() const { return turned_; }

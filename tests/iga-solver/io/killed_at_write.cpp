@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Preloaded into a program: ends it with SIGKILL before its write number KILL_AT, from 0, to a file whose
-// name has
-// ".h5" in it.
+// name has ".h5" in it; or lets no such file be longer than FULL_AT bytes, as on a disk that is full.
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <string>
@@ -23,9 +23,18 @@ void count_write(int file) {
   if (is_hdf5(file) && left-- == 0) kill(getpid(), SIGKILL);
 }
 
+bool has_no_room(int file, long end) {
+  static const long limit = std::getenv("FULL_AT") ? std::atol(std::getenv("FULL_AT")) : -1;
+  return limit >= 0 && end > limit && is_hdf5(file);
+}
+
 template <class Offset>
 ssize_t write_there(const char* function, int file, const void* bytes, size_t size, Offset offset) {
   count_write(file);
+  if (has_no_room(file, static_cast<long>(offset + size))) {
+    errno = ENOSPC;
+    return -1;
+  }
   using Write = ssize_t (*)(int, const void*, size_t, Offset);
   return reinterpret_cast<Write>(dlsym(RTLD_NEXT, function))(file, bytes, size, offset);
 }
@@ -37,4 +46,12 @@ extern "C" ssize_t pwrite(int file, const void* bytes, size_t size, off_t offset
 }
 extern "C" ssize_t pwrite64(int file, const void* bytes, size_t size, off64_t offset) {
   return write_there("pwrite64", file, bytes, size, offset);
+}
+extern "C" int posix_fallocate(int file, off_t offset, off_t size) {
+  if (has_no_room(file, offset + size)) return ENOSPC;
+  using Allocate = int (*)(int, off_t, off_t);
+  return reinterpret_cast<Allocate>(dlsym(RTLD_NEXT, "posix_fallocate"))(file, offset, size);
+}
+extern "C" int posix_fallocate64(int file, off64_t offset, off64_t size) {
+  return posix_fallocate(file, offset, size);
 }

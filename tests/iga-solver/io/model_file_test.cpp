@@ -174,6 +174,8 @@ TEST(ModelFile, RefusesBadInputInOneLineThatNamesFileLineGivenAndExpected) {
        "{name: a, fix: [x], faces: [xi-]}\n  - {name: a, fix: [z],",
        7,
        {"name 'a' is given twice"}},
+      {"{fix: [z],", "{name: a/b, fix: [z],", 7, {"name 'a/b' cannot be that of a data set", "without '/'"}},
+      {"below: {face", "..: {face", 11, {"name '..' cannot be that of a data set"}},
       {"gravity: [0, 0, -9.81]", "gravity: -9.81", 14, {"gravity"}},
       {"face: eta+", "face: theta+", 17, {"theta+", "eta+"}},
       {"velocity: [0, 1, 2]", "speed: 3", 18, {"speed", "velocity"}},

@@ -84,11 +84,6 @@ class Divergence(IgaSolve):
                 self.assertEqual(len(file[name]), len(file["time"]), name)
                 self.assertTrue(numpy.isfinite(file[name][()]).all(), name)
 
-    def test_nothing_unfinished_is_left(self):
-        done = self.run_model(BLOCK + "probes: {'.': {face: zeta+, at: [0, 0]}}\n")
-        self.assert_error(done, "block.h5: HDF5 cannot create the data set 'probes/.'")
-        self.assertEqual(os.listdir(self.folder), ["block.yaml"])
-
 
 class ModalDamping(IgaSolve):
     def test_that_does_nothing_is_told(self):

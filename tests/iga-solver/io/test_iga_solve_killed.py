@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""iga-solve killed between any two writes to its histories.  Not for the address sanitizer, which wants to be loaded first."""
+"""iga-solve killed between any two writes to its histories, or out of disk.  Not for the address sanitizer, which wants to be loaded first."""
 
 import os
 import signal
@@ -56,6 +56,30 @@ class Killed(IgaSolve):
         older = (self.folder / "block.h5").read_bytes()
         self.assertTrue(self.run_killed_at(0))
         self.assertEqual((self.folder / "block.h5").read_bytes(), older)
+
+
+class Full(IgaSolve):
+    """HDF5 does not survive a write that fails: it crashed when the program ended, after its trace."""
+
+    def run_until_full(self, size: int) -> None:
+        environment = os.environ | {"LD_PRELOAD": os.environ["KILLED_AT_WRITE"], "FULL_AT": str(size)}
+        done = subprocess.run(
+            [PROGRAM, "block.yaml"], cwd=self.folder, env=environment, capture_output=True, text=True, timeout=60, check=False)
+        self.assert_error(done, "block.h5: cannot write here: No space left on device")
+
+    def test_without_a_row_nothing_is_left(self):
+        (self.folder / "block.yaml").write_text(MODEL)
+        self.run_until_full(20_000)
+        self.assertEqual(os.listdir(self.folder), ["block.yaml"])
+
+    def test_what_was_recorded_before_can_be_read(self):
+        (self.folder / "block.yaml").write_text(changed(("every: 1e-3", "every: 1e-4"), ("end: 0.1", "end: 0.25, step: 1e-4")))
+        self.run_until_full(320_000)
+        found = histories(self.folder / "block.h5")
+        self.assertGreater(len(found["time"]), 1000)
+        self.assertTrue((numpy.diff(found["time"]) > 0).all())
+        for name, series in found.items():
+            self.assertGreaterEqual(len(series), len(found["time"]), name)
 
 
 if __name__ == "__main__":

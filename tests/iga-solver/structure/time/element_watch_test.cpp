@@ -71,6 +71,18 @@ TEST(ElementWatch, LetsOtherLawsTurn) {
   }
 }
 
+// What is inside out has no rotation: told as 180 degrees it reads as if another law would do.
+TEST(ElementWatch, TellsALinearLawsElementThatIsInsideOutFromOneThatTurns) {
+  ExplicitSolver solver(std::make_unique<Solid>(models::block({1, 1, 1}, {2, 2, 2}, 2), models::elastic()),
+                        {});
+  NodalVectors u = solver.body().reference();
+  u.topRows(2).setZero();
+  models::set_displacements(solver, -1.5 * u);
+  solver.look_at_elements();
+  EXPECT_THAT(solver.take_warning(), AllOf(HasSubstr("element 0 (spans 0, 0, 0"), HasSubstr("is inside out"),
+                                           HasSubstr("linear_elastic"), Not(HasSubstr("turned"))));
+}
+
 // The quadrature points are asked only where there is room for a fold: that must never hide one.
 TEST(ElementWatch, SeesExactlyTheFieldsThatFoldAnElement) {
   int folded = 0, rounds = 0;
