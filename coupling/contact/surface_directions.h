@@ -3,7 +3,8 @@
 // what changes along the surface is worked out with.  From (centre - S) . S_i = 0:
 //   (S_i . S_j - delta . S_ij) d(xi_j) = S_i . d(centre) - sum over A of (R_A S_i - R_A,i delta) . d(X_A),
 // so over a hill the foot is slower than the centre, and in a hollow faster; and what moves it by turning
-// the surface below the centre, the last term, is a couple for a force that depends on the foot.
+// the surface below the centre, the last term, is a couple for a force that depends on the foot.  A foot on
+// an edge, where (centre - S) . S_i is not 0, stays on it.
 #pragma once
 
 #include <Eigen/LU>
@@ -19,8 +20,9 @@ struct SurfaceDirections {
 
   /// At a foot of a wall that deforms; `delta`: from there to the centre, in space [length].
   static SurfaceDirections at(const Wall& wall, const nurbs::SurfacePoint& foot, const Vector3& delta) {
-    const auto [S_i, hessian] = wall.slopes(foot, wall.to_frame_direction(delta));
-    SurfaceDirections directions{{}, hessian.inverse()};
+    const Vector3 in_frame = wall.to_frame_direction(delta);
+    const auto [S_i, hessian] = wall.slopes(foot, in_frame);
+    SurfaceDirections directions{{}, rates_of(S_i, hessian, in_frame)};
     for (int j = 0; j < 2; ++j) directions.tangents.col(j) = wall.to_space_direction(S_i.col(j));
     return directions;
   }
@@ -28,6 +30,21 @@ struct SurfaceDirections {
   /// Of what changes with the parameters like this, the gradient with the centre's place along S_j.
   Eigen::Vector2d gradient(const std::array<double, 2>& change) const {
     return rates * Eigen::Vector2d(change[0], change[1]);
+  }
+
+ private:
+  static Eigen::Matrix2d rates_of(const nurbs::Tangents& S_i, const Eigen::Matrix2d& hessian,
+                                  const Vector3& delta) {
+    constexpr double kStays = 1e-6;  // far above the round-off of a foot's search [rad]
+    const Eigen::Vector2d slope = S_i.transpose() * delta;
+    Eigen::Matrix2d rates = Eigen::Matrix2d::Zero();
+    bool stays[2];
+    for (int i = 0; i < 2; ++i)
+      stays[i] = slope[i] * slope[i] > kStays * kStays * S_i.col(i).squaredNorm() * delta.squaredNorm();
+    if (!stays[0] && !stays[1]) return hessian.inverse();
+    for (int i = 0; i < 2; ++i)
+      if (!stays[i]) rates(i, i) = 1.0 / hessian(i, i);
+    return rates;
   }
 };
 

@@ -100,6 +100,37 @@ class RandomImpacts(unittest.TestCase):
         self.assertGreater(np.abs(without / fine - 1.0).min(), 0.01)
 
 
+class Edges(unittest.TestCase):
+    """A ball that gives way by nothing flies past an edge of a free steel block and strikes it, 1 m/s down and 30 along: over the edge,
+    or along it, where the foot stays on it.  Elements of the two faces are not alike.  (The body takes couples as a surface does: along an
+    edge that is worth 3.5e-5 at any time step.)"""
+
+    def change_of_energy(self, along: tuple[float, float, float], start: float) -> float:
+        """Beside that of an impact; `start`: where its centre is above the edge [degrees]."""
+        block = bob.block(size=(1.2e-3, 1.2e-3, 0.9e-3), elements=(12, 6, 4), youngs_modulus=STEEL[0], nu=STEEL[1], density=7850.0, fixed=())
+        block = block.replace("top: zeta+", "top: [zeta+, xi+]").replace("origin: [-0.0006,", "origin: [-0.0012,")
+        down, away = np.radians(45.0), np.radians(start)
+        centre = (bob.RADIUS + 2e-8) * np.array([np.cos(away), 0.0, np.sin(away)]) + [0.0, 0.03e-3, 0.0]
+        velocity = 30.0 * np.array(along) - [np.cos(down), 0.0, np.sin(down)]
+        models = "model hertz tangential no_history"
+        deck = bob.prelude(balls=(tuple(centre.tolist()),), models=models, ball=(1e20, 0.2), wall=STEEL, timestep=1e-9, velocity=tuple(velocity.tolist()))
+        deck += bob.wall(models, "structure block.yaml surface top compliance corrected") + bob.output((7, 15, 16), 10) + "run 3500\n"
+        table = decks.good(deck, files={"block.yaml": block}, timeout=300).table
+        touches = np.flatnonzero(table["plate7"] > 0)
+        self.assertEqual(table["plate7"].max(), 1.0)
+        self.assertLess(touches[-1] + 30, len(table["plate7"]))
+        energy = table["KinEng"] + table["plate15"] + table["plate16"]
+        change = (energy[touches[-1] + 30] - energy[0]) / (energy[0] / 901.0)
+        print(f"{along}: over {np.degrees(np.arctan2(table['z'], table['x']))[touches[[0, -1]]]} degrees, energy {change:.2e}")
+        return change
+
+    def test_over_an_edge_no_energy_comes(self):
+        self.assertLess(abs(self.change_of_energy((np.sqrt(0.5), 0.0, -np.sqrt(0.5)), 46.5)), 1e-4)
+
+    def test_along_an_edge_no_energy_comes(self):
+        self.assertLess(abs(self.change_of_energy((0.0, 1.0, 0.0), 45.0)), 1e-4)
+
+
 class Bounces(unittest.TestCase):
     """A ball that gives way by nothing between a rigid lid and a steel block, which is 56 times as heavy as the ball, or lighter than
     it, and floats on springs that are soft beside the contact.  Both strike each other, and the block turns and vibrates."""

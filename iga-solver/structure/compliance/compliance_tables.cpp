@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -59,6 +57,13 @@ void blend(const std::array<int, 2>& counts, const std::vector<Matrix3>& change,
                                    x0 * y0 * at(0, 0) - x1 * y0 * at(right, 0) - x0 * y1 * at(0, top) -
                                    x1 * y1 * at(right, top);
     }
+}
+
+/// With the normal, as contacts over an edge are.
+Matrix3 turned(const Matrix3& tensor, const Vector3& from, const Vector3& to) {
+  if (from == to) return tensor;
+  const Matrix3 turn = Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+  return turn * tensor * turn.transpose();
 }
 
 }  // namespace
@@ -147,12 +152,14 @@ const ComplianceTable& ComplianceTables::find(int piece, int element) {
   Tensors means;
   Origin origin;
   for (const std::vector<TablePoint>& points : shared_.of(piece, element)) {
+    const TablePoint here{piece, element, static_cast<int>(means.size()), {}};
+    const Vector3& normal = std::lower_bound(points.begin(), points.end(), here)->normal;
     Matrix3 sum = Matrix3::Zero();
     int count = 0;
     for (const TablePoint& point : points) {
       const Tensors& tensors = solved(point.piece, point.element).tensors;
       if (tensors.empty()) continue;
-      sum += tensors[point.index];
+      sum += turned(tensors[point.index], point.normal, normal);
       ++count;
       origin.emplace_back(&tensors, point.index);
     }

@@ -4,6 +4,7 @@
 // crosses it changes no force.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>

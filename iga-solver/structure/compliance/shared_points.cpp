@@ -26,7 +26,7 @@ SharedPoints::Sides SharedPoints::sides_of(int piece, int element) const {
   const FaceSurface& surface = surfaces_[piece];
   const std::array<int, 2> counts = table_counts(surface.space());
   const std::vector<nurbs::Parameter<2>> points = table_points(surface.space(), element);
-  Sides sides{piece, element, {}, {}, {}};
+  Sides sides{piece, element, surface.at_centre(element), {}, {}, {}};
   try {
     for (int j = 0; j < counts[1]; ++j)
       for (int i = 0; i < counts[0]; ++i) {
@@ -54,22 +54,26 @@ std::vector<SharedPoints::Sides> SharedPoints::beside(int piece, int element) co
   return found;
 }
 
-// What two elements have in common has one normal, by the angle below which contacts take edges as smooth.
+// The angle below which an edge is smooth is that of contacts.
 std::vector<std::vector<TablePoint>> SharedPoints::of(int piece, int element) const {
   constexpr double kSmooth = 0.02;     // [rad]
   constexpr double kSamePlace = 1e-6;  // of the element
   const std::array<int, 2> counts = table_counts(surfaces_[piece].space());
   std::vector<std::vector<TablePoint>> shared(static_cast<std::size_t>(counts[0]) * counts[1]);
-  for (std::size_t k = 0; k < shared.size(); ++k) shared[k] = {{piece, element, static_cast<int>(k)}};
   const Sides own = sides_of(piece, element);
+  for (std::size_t k = 0; k < shared.size(); ++k)
+    shared[k] = {{piece, element, static_cast<int>(k), Vector3::Zero()}};
   if (own.index.empty()) return shared;
   const double size = (own.place.back() - own.place.front()).norm();
+  for (std::size_t a = 0; a < own.index.size(); ++a) shared[own.index[a]].front().normal = own.normal[a];
   for (const Sides& other : beside(piece, element))
     for (std::size_t a = 0; a < own.index.size(); ++a)
-      for (std::size_t b = 0; b < other.index.size(); ++b)
-        if ((own.place[a] - other.place[b]).norm() <= kSamePlace * size &&
-            (own.normal[a] - other.normal[b]).norm() <= kSmooth)
-          shared[own.index[a]].push_back({other.piece, other.element, other.index[b]});
+      for (std::size_t b = 0; b < other.index.size(); ++b) {
+        if ((own.place[a] - other.place[b]).norm() > kSamePlace * size) continue;
+        const bool is_smooth = (own.normal[a] - other.normal[b]).norm() <= kSmooth;
+        if (is_smooth || !(own.is_above(a, other.centre) || other.is_above(b, own.centre)))
+          shared[own.index[a]].push_back({other.piece, other.element, other.index[b], other.normal[b]});
+      }
   for (std::vector<TablePoint>& points : shared) {
     std::sort(points.begin(), points.end());
     const auto same = [](const TablePoint& a, const TablePoint& b) { return !(a < b) && !(b < a); };

@@ -14,6 +14,7 @@ class FaceSurface;
 /// Of the table of an element: index counts as table_points() does.
 struct TablePoint {
   int piece, element, index;
+  Vector3 normal;  ///< of the element there, outwards; 0 if it has none everywhere
   bool operator<(const TablePoint& other) const;
 };
 
@@ -23,15 +24,20 @@ class SharedPoints {
   SharedPoints(const ReferenceBody& body, const NearElements& near, const std::vector<SkinPiece>& skin,
                const std::vector<FaceSurface>& surfaces);
 
-  /// Per point of an element's table all that are in its place, itself included, rising; across welds, too.
-  /// Elements without a normal somewhere have none in common with others.
+  /// Per point of an element's table all that are in its place, itself included, rising; across welds and
+  /// convex edges, too.  Elements without a normal somewhere have none in common with others.
   std::vector<std::vector<TablePoint>> of(int piece, int element) const;
 
  private:
   struct Sides {
     int piece, element;
-    std::vector<int> index;  // points on the element's sides
+    Vector3 centre;          // of the element
+    std::vector<int> index;  // points on its sides
     std::vector<Vector3> place, normal;
+    /// Seen from one of these points.
+    bool is_above(int point, const Vector3& place_of_other) const {
+      return normal[point].dot(place_of_other - place[point]) > 0.0;
+    }
   };
   Sides sides_of(int piece, int element) const;
   std::vector<Sides> beside(int piece, int element) const;

@@ -131,6 +131,49 @@ TEST(ComplianceAtBorders, DoesNotJumpOverWelds) {
   }
 }
 
+// Elements of the top are half as long as those of the side.  The end's are not touched.
+TEST(ComplianceAtBorders, DoesNotJumpOverAConvexEdge) {
+  const ReferenceBody body = block_body({5, 6, 4}, {10, 6, 4}, 2);
+  const std::vector<structure::SkinPiece> skin = {{0, nurbs::Face::zeta_plus}, {0, nurbs::Face::xi_plus}};
+  const structure::FaceSurface top(body, skin[0]), side(body, skin[1]);
+  ComplianceTables tables(body, skin), of_top(body, {skin[0]});
+  for (const double y : {0.5, 1.0, 2.25, 3.8}) {
+    const int row = static_cast<int>(y);
+    const auto c = [&](ComplianceTables& of, int p, ComplianceTable::Component component) {
+      return p == 0 ? top::value(of, top.space(), 0, 9 + 10 * row, {1.0, y / 6}, component).c
+                    : top::value(of, side.space(), 1, row + 6 * 3, {y / 6, 1.0}, component).c;
+    };
+    const double normal = c(tables, 0, ComplianceTable::normal);
+    EXPECT_NEAR(c(tables, 1, ComplianceTable::normal), normal, 1e-11 * normal) << y;
+    EXPECT_GT(std::abs(c(of_top, 0, ComplianceTable::normal) / normal - 1.0), 0.05);
+    // along the edge, which is the second direction of the top and the first of the side
+    const double along = c(tables, 0, ComplianceTable::second);
+    EXPECT_NEAR(c(tables, 1, ComplianceTable::first), along, 1e-11 * along) << y;
+  }
+}
+
+// There contacts end: each of the two surfaces has its own.
+TEST(ComplianceAtBorders, AtAConcaveEdgeIsEachSidesOwn) {
+  Volume angle = nurbs::box(Vector3::Zero(), {12, 4, 3},
+                            {KnotVector(2, {0, 0, 0, 1, 2, 3, 3, 4, 6, 6, 6}), KnotVector::uniform(2, 4),
+                             KnotVector::uniform(2, 3)});
+  for (auto X : angle.control_points.colwise()) {
+    const double s = X[0], depth = 3 - X[2];
+    X[0] = s <= 6 ? s - 6 + depth * s / 6 : depth;
+    X[2] = s <= 6 ? -depth : s - 6 - depth * (12 - s) / 6;
+  }
+  const Top top{body_of(angle)};
+  ComplianceTables tables(top.body, kTop);
+  const double corner = top.space.knots(0).breaks()[3];
+  for (const int element : {2, 3}) {
+    const nurbs::Parameter<2> xi = {corner, 0.375};  // the middle of a side
+    const structure::FaceSurface surface(top.body, kTop[0]);
+    const Vector3 n = surface.frame(element + 5, xi).col(2);
+    const double c = n.dot(tables.direct(0, element + 5, xi) * n);
+    EXPECT_NEAR(top::value(tables, top.space, 0, element + 5, xi, ComplianceTable::normal).c, c, 1e-11 * c);
+  }
+}
+
 // About the axis of a cylinder that is a tube without a bore there is no normal; beside it there is.
 TEST(ComplianceAtBorders, BesideAnElementWithoutNormalIsThatElementsOwn) {
   const nurbs::Frame frame = nurbs::frame(Vector3::Zero(), Vector3::UnitZ());
