@@ -214,6 +214,7 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
       if (!now.is_setup)
         for (int m = 0; m < ShearBlock::kMemory; ++m) memory[m] = shear_.memory[m][lane];
     }
+    contact.follows = along;
     contact.force += contact.tangents * along;
   }
 }
