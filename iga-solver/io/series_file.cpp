@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <stdexcept>
 #include <system_error>
 
@@ -176,25 +177,33 @@ void SeriesFile::end_row(double value) {
 // to write is asked for before, and without it HDF5 may go on in memory, where nobody looks.
 void SeriesFile::expect_room() const {
   constexpr hsize_t kMargin = 1 << 16;  // [bytes] for what HDF5 adds while it writes, of its own
-  hsize_t size = 0;
-  void* handle = nullptr;
-  check(H5Fget_filesize(file_, &size), "tell its size");
-  check(H5Fget_vfd_handle(file_, H5P_DEFAULT, &handle), "tell its descriptor");
-  const int descriptor = *static_cast<int*>(handle);
-  const int problem = posix_fallocate(descriptor, 0, static_cast<off_t>(size + kMargin));
-  if (problem == 0) return;
+  const auto room = static_cast<off_t>(size() + kMargin);
+  if (fallocate(descriptor(), 0, 0, room) == 0 || errno == EOPNOTSUPP) return;
+  const std::string problem = std::generic_category().message(errno);
   if (const int memory = memfd_create("lost", MFD_CLOEXEC); memory >= 0) {
-    dup2(memory, descriptor);
+    dup2(memory, descriptor());
     close(memory);
   }
-  throw std::runtime_error(
-      fmt::format("{}: cannot write here: {}", path_, std::generic_category().message(problem)));
+  throw std::runtime_error(fmt::format("{}: cannot write here: {}", path_, problem));
 }
 
 void SeriesFile::flush() {
   const SilentErrors silent;
   expect_room();
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flush this file");
+  check(ftruncate(descriptor(), static_cast<off_t>(size())), "give back the room that is left");
+}
+
+hsize_t SeriesFile::size() const {
+  hsize_t size = 0;
+  check(H5Fget_filesize(file_, &size), "tell its size");
+  return size;
+}
+
+int SeriesFile::descriptor() const {
+  void* handle = nullptr;
+  check(H5Fget_vfd_handle(file_, H5P_DEFAULT, &handle), "tell its descriptor");
+  return *static_cast<int*>(handle);
 }
 
 }  // namespace io

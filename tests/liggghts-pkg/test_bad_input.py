@@ -310,7 +310,7 @@ DECKS = {
 
 def attempt(deck: str, files: dict[str, str], ranks: int) -> decks.Run:
     good_files = {"block.yaml": BLOCK, "flat.yaml": FLAT, "round.yaml": ROUND, "thread.yaml": THREAD, "soft.yaml": SOFT}
-    return decks.run(deck, files=good_files | files, ranks=ranks, timeout=60)
+    return decks.run(deck, files=good_files | files, ranks=ranks, timeout=120)
 
 
 class BadInput(unittest.TestCase):

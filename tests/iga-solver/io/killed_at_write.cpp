@@ -7,6 +7,7 @@
 #include <string>
 
 #include <dlfcn.h>
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace {
@@ -47,11 +48,14 @@ extern "C" ssize_t pwrite(int file, const void* bytes, size_t size, off_t offset
 extern "C" ssize_t pwrite64(int file, const void* bytes, size_t size, off64_t offset) {
   return write_there("pwrite64", file, bytes, size, offset);
 }
-extern "C" int posix_fallocate(int file, off_t offset, off_t size) {
-  if (has_no_room(file, offset + size)) return ENOSPC;
-  using Allocate = int (*)(int, off_t, off_t);
-  return reinterpret_cast<Allocate>(dlsym(RTLD_NEXT, "posix_fallocate"))(file, offset, size);
+extern "C" int fallocate(int file, int mode, off_t offset, off_t size) {
+  if (has_no_room(file, offset + size)) {
+    errno = ENOSPC;
+    return -1;
+  }
+  using Allocate = int (*)(int, int, off_t, off_t);
+  return reinterpret_cast<Allocate>(dlsym(RTLD_NEXT, "fallocate"))(file, mode, offset, size);
 }
-extern "C" int posix_fallocate64(int file, off64_t offset, off64_t size) {
-  return posix_fallocate(file, offset, size);
+extern "C" int fallocate64(int file, int mode, off64_t offset, off64_t size) {
+  return fallocate(file, mode, offset, size);
 }
