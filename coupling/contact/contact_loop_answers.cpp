@@ -106,21 +106,19 @@ void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step,
 // What acts on the particle has a moment about the foot if the law has its point of contact elsewhere, or
 // resists rolling: the body has the opposite one.  A rigid wall takes it from the contact's torque.
 inline void ContactLoop::turn_body(const Contact& contact, coupling::ContactForce& on_body) const {
-  const Vector3 turns_about_foot =
-      contact.has_tangents ? Vector3(contact.force - contact.tangents * contact.follows) : contact.force;
-  const Vector3 couple = -wall_.to_frame_direction(contact.torque + contact.delta.cross(turns_about_foot));
-  on_body.has_couple = true;
-  nurbs::Tangents::MapType forces(on_body.couple[0]);
-  if (!contact.has_tangents) {
-    const coupling::FootSlopes slopes(wall_.surface(), contact.foot);
-    forces = coupling::couple_forces(slopes.tangents(wall_.control_points()), couple);
-    return;
+  Vector3 force = contact.force;
+  nurbs::Tangents tangents, following = nurbs::Tangents::Zero();
+  if (contact.has_tangents) {
+    for (int j = 0; j < 2; ++j) tangents.col(j) = wall_.to_frame_direction(contact.tangents.col(j));
+    // What follows the foot does work where the surface turns below the centre (surface_directions.h).
+    force -= contact.tangents * contact.follows;
+    following = wall_.to_frame_direction(contact.delta) * contact.follows.transpose();
+  } else {
+    tangents = coupling::FootSlopes(wall_.surface(), contact.foot).tangents(wall_.control_points());
   }
-  nurbs::Tangents tangents;
-  for (int j = 0; j < 2; ++j) tangents.col(j) = wall_.to_frame_direction(contact.tangents.col(j));
-  // What follows the foot does work where the surface turns below the centre (surface_directions.h).
-  forces = coupling::couple_forces(tangents, couple) +
-           wall_.to_frame_direction(contact.delta) * contact.follows.transpose();
+  const Vector3 couple = -wall_.to_frame_direction(contact.torque + contact.delta.cross(force));
+  on_body.has_couple = true;
+  nurbs::Tangents::Map(on_body.couple[0]) = coupling::couple_forces(tangents, couple) + following;
 }
 
 namespace {

@@ -44,8 +44,8 @@ struct Contact {
                          ///< [length]
   bool has_tangents;
   nurbs::Tangents tangents;  ///< if so, S_j of the patch, in space [length]
-  Eigen::Vector2d follows;   ///< and those parts of the force, by S_j, that an energy has which changes with
-                             ///< the foot [force/length]
+  Eigen::Vector2d follows;   ///< and of the force what an energy has that changes with the foot: parts along
+                             ///< the S_j [force/length]
   double tangent;            ///< d(force)/d(overlap) [force/length]
   double dashpot;            ///< of damping, by the particle's speed alone [force time/length]
   double shear_tangent;      ///< along the surface [force/length]

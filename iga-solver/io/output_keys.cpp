@@ -70,10 +70,11 @@ HistoryOutput read_output(const YamlMap& output, const geometry_io::GeometryFile
 }
 
 void expect_series_name(const YamlMap& map, const std::string& key, const std::string& name) {
-  if (name == "." || name == ".." || name.find('/') != std::string::npos)
+  const std::string separators("/\0", 2);
+  if (name == "." || name == ".." || name.find_first_of(separators) != std::string::npos)
     map.fail(key, fmt::format("name '{}' cannot be that of a data set of histories, expected one without '/' "
                               "that is not '.' or '..'",
-                              name));
+                              geometry_io::shown(name)));
 }
 
 }  // namespace io

@@ -19,8 +19,6 @@ class HitElement {
              const FaceSurface& surface, int element);
 
   const BodyElement& volume() const { return volume_; }
-  const nurbs::Parameter<2>& low() const { return low_; }
-  const nurbs::Parameter<2>& high() const { return high_; }
   /// The foot that has the compliance asked for at xi: where the skin ends at a side, or the body stands up
   /// beyond it, no nearer to it than a quarter of the element.
   nurbs::Parameter<2> inside(nurbs::Parameter<2> xi) const;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "io/history.h"
+#include "io/series_file.h"
 
 namespace {
 
@@ -347,6 +348,19 @@ TEST_F(HistoryFile, NamesTheFileItCannotCreate) {
               }),
               testing::ThrowsMessage<std::runtime_error>(
                   testing::HasSubstr("_missing/history.h5: HDF5 cannot create this file")));
+}
+
+TEST_F(HistoryFile, LeavesNothingUnfinished) {
+  EXPECT_THAT(
+      [&] {
+        io::SeriesFile file(base() + ".h5");
+        file.add_series("time", 1, "s");
+        EXPECT_FALSE(fs::is_empty(folder_));
+        file.add_series("time", 1, "s");
+      },
+      testing::ThrowsMessage<std::runtime_error>(
+          testing::EndsWith("falling.h5: HDF5 cannot create the data set 'time'")));
+  EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 }  // namespace

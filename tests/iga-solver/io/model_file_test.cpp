@@ -175,6 +175,7 @@ TEST(ModelFile, RefusesBadInputInOneLineThatNamesFileLineGivenAndExpected) {
        7,
        {"name 'a' is given twice"}},
       {"{fix: [z],", "{name: a/b, fix: [z],", 7, {"name 'a/b' cannot be that of a data set", "without '/'"}},
+      {"{fix: [z],", "{name: \"a\\0b\", fix: [z],", 7, {"cannot be that of a data set"}},
       {"below: {face", "..: {face", 11, {"name '..' cannot be that of a data set"}},
       {"gravity: [0, 0, -9.81]", "gravity: -9.81", 14, {"gravity"}},
       {"face: eta+", "face: theta+", 17, {"theta+", "eta+"}},

@@ -16,19 +16,13 @@
 
 namespace {
 
+using namespace point_force;
 using models::Matrix3;
-using models::Vector3;
 using nurbs::KnotVector;
-using nurbs::Volume;
-using point_force::block_body;
-using point_force::body_of;
-using point_force::kNu;
-using point_force::kTop;
-using structure::ComplianceTable;
-using structure::ComplianceTables;
-using structure::ReferenceBody;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
+using top::ComplianceTable;
+using top::ComplianceTables;
 using top::Top;
 
 /// Largest change of a table's component over borders of elements of piece 0, of itself.
