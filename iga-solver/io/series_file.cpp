@@ -174,14 +174,22 @@ void SeriesFile::end_row(double value) {
 }
 
 // HDF5 does not survive a write that fails: it crashes when it is closed.  So the room for what it is about
-// to write is asked for before, and without it HDF5 may go on in memory, where nobody looks.
+// to write is asked for before (the file gets no longer by that, and file systems that cannot promise any are
+// trusted), and without it HDF5 may go on in memory, where nobody looks.
 void SeriesFile::expect_room() const {
-  constexpr hsize_t kMargin = 1 << 16;  // [bytes] for what HDF5 adds while it writes, of its own
-  const auto room = static_cast<off_t>(size() + kMargin);
-  if (fallocate(descriptor(), 0, 0, room) == 0 || errno == EOPNOTSUPP) return;
+  constexpr hsize_t kOfItsOwn = 1 << 16;  // [bytes] that HDF5 adds while it writes, beside new chunks
+  hsize_t size = 0, more = kOfItsOwn;
+  for (const Series& s : series_) more += kRowsPerChunk * s.width * sizeof(double);
+  void* handle = nullptr;
+  check(H5Fget_filesize(file_, &size), "tell its size");
+  check(H5Fget_vfd_handle(file_, H5P_DEFAULT, &handle), "tell its descriptor");
+  const int descriptor = *static_cast<int*>(handle);
+  if (fallocate(descriptor, FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(size + more)) == 0 ||
+      errno == EOPNOTSUPP)
+    return;
   const std::string problem = std::generic_category().message(errno);
   if (const int memory = memfd_create("lost", MFD_CLOEXEC); memory >= 0) {
-    dup2(memory, descriptor());
+    dup2(memory, descriptor);
     close(memory);
   }
   throw std::runtime_error(fmt::format("{}: cannot write here: {}", path_, problem));
@@ -191,19 +199,6 @@ void SeriesFile::flush() {
   const SilentErrors silent;
   expect_room();
   check(H5Fflush(file_, H5F_SCOPE_GLOBAL), "flush this file");
-  check(ftruncate(descriptor(), static_cast<off_t>(size())), "give back the room that is left");
-}
-
-hsize_t SeriesFile::size() const {
-  hsize_t size = 0;
-  check(H5Fget_filesize(file_, &size), "tell its size");
-  return size;
-}
-
-int SeriesFile::descriptor() const {
-  void* handle = nullptr;
-  check(H5Fget_vfd_handle(file_, H5P_DEFAULT, &handle), "tell its descriptor");
-  return *static_cast<int*>(handle);
 }
 
 }  // namespace io

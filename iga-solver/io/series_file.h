@@ -49,8 +49,6 @@ class SeriesFile {
   template <class Result>
   Result check(Result result, const char* action) const;
   void expect_room() const;
-  hsize_t size() const;
-  int descriptor() const;
   void flush();
   void write_attribute(hid_t object, const std::string& name, const std::string& value);
 

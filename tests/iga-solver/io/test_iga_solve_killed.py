@@ -73,13 +73,19 @@ class Full(IgaSolve):
         self.assertEqual(os.listdir(self.folder), ["block.yaml"])
 
     def test_what_was_recorded_before_can_be_read(self):
+        """At any size, also where new chunks begin."""
+        rows = []
         (self.folder / "block.yaml").write_text(changed(("every: 1e-3", "every: 1e-4"), ("end: 0.1", "end: 0.25, step: 1e-4")))
-        self.run_until_full(320_000)
-        found = histories(self.folder / "block.h5")
-        self.assertGreater(len(found["time"]), 1000)
-        self.assertTrue((numpy.diff(found["time"]) > 0).all())
-        for name, series in found.items():
-            self.assertGreaterEqual(len(series), len(found["time"]), name)
+        for size in range(380_000, 640_000, 20_000):
+            with self.subTest(size=size):
+                self.run_until_full(size)
+                found = histories(self.folder / "block.h5")
+                rows.append(len(found["time"]))
+                self.assertTrue((numpy.diff(found["time"]) > 0).all())
+                for name, series in found.items():
+                    self.assertGreaterEqual(len(series), rows[-1], name)
+        self.assertEqual(rows, sorted(rows))
+        self.assertGreater(rows[-1], 2000)
 
 
 if __name__ == "__main__":
