@@ -18,7 +18,7 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parents[2] / "liggghts-pkg"
 HEADERS, LISTS, LIBRARY = (Path(os.environ[name]) for name in ("LIGGGHTS_HEADERS", "MODEL_LISTS", "LIGGGHTS_LIBRARY"))
 PLUG_IN = {"register_styles.cpp", "register_styles.h", "liggghts_nurbs.cpp"}
-FLAGS = ["-O2", "-ffast-math", "-funroll-loops", "-std=c++17"]  # of LIGGGHTS' own build files
+FLAGS = ["-O0", "-ffast-math", "-std=c++17"]  # of LIGGGHTS' own build files, but for what makes it fast
 MAKEFILE_PACKAGE = """# edited by the packages
 PKG_INC =   -I../../lib/poems $(FFT_INC)
 PKG_PATH =  -L../../lib/poems

@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -62,7 +63,9 @@ void blend(const std::array<int, 2>& counts, const std::vector<Matrix3>& change,
 /// With the normal, as contacts over an edge are.
 Matrix3 turned(const Matrix3& tensor, const Vector3& from, const Vector3& to) {
   if (from == to) return tensor;
-  const Matrix3 turn = Eigen::Quaterniond::FromTwoVectors(from, to).toRotationMatrix();
+  const Vector3 axis = from.cross(to);
+  const Matrix3 turn =
+      Eigen::AngleAxisd(std::atan2(axis.norm(), from.dot(to)), axis.normalized()).toRotationMatrix();
   return turn * tensor * turn.transpose();
 }
 
