@@ -22,10 +22,11 @@ namespace {
   const int i = contact.particle;
   const Vector3 foot = particles.centre(i) - contact.delta;
   throw std::runtime_error(fmt::format(
-      "elements at ({:.6g}, {:.6g}, {:.6g}) are too small for the contact of particle {} at step {}: what "
-      "they give way is {:.2g} of what its law does, expected at most {:.2g}; use elements at least {:.2g} "
-      "times as large there, or 'compliance none'",
-      foot[0], foot[1], foot[2], particles.tag[i], step, s, ComplianceCorrection::kLargest, s / kSafe));
+      "elements at ({:.6g}, {:.6g}, {:.6g}) are too small for the contact of particle {} (radius {:.4g}, "
+      "overlap {:.4g}) at step {}: what they give way is {:.2g} of what its law does, expected at most "
+      "{:.2g}; use elements at least {:.2g} times as large there, or 'compliance none'",
+      foot[0], foot[1], foot[2], particles.tag[i], particles.radius[i], contact.overlap, step, s,
+      ComplianceCorrection::kLargest, s / kSafe));
 }
 
 double mass_of(const ParticleView& particles, int i) {

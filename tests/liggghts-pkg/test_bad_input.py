@@ -361,7 +361,7 @@ class BadInput(unittest.TestCase):
         self.check_table({
             "elements that are too small": (
                 fast + words + "4000\n", {"block.yaml": small},
-                ["id plate", r"elements at .* too small for the contact of particle 1 at step \d+", "expected at most 0.9", "'compliance none'"]),
+                ["id plate", r"elements at .* too small for the contact of particle 1 \(radius \S+, overlap \S+\) at step \d+", "expected at most 0.9", "'compliance none'"]),
             "a solid of one element": (
                 fast + words + "100\n", {"block.yaml": one}, ["id plate", "no local compliance of the element about", "too few of them"]),
             **{

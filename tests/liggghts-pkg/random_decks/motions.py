@@ -28,6 +28,10 @@ class Motion:
     def servo(self) -> bool:
         return bool(self.servo_words)
 
+    def changes(self, kind: str) -> float:
+        """By how much the variables change the speed in a step, at most: of `linear` [length/time], `rotate` [1/time]."""
+        return CHANGES[kind] if any(verb.startswith(f"{kind}/variable") for verb in self.verbs) else 0.0
+
 
 VARIABLES = [
     "variable rate_x equal 0.1*sin(step*0.02)",
@@ -35,6 +39,9 @@ VARIABLES = [
     "variable rate_z equal 0.2*cos(step*0.01)",
     "variable turn equal 20*cos(step*0.01)",
 ]
+
+
+CHANGES = {"linear": 0.1 * 0.02 + 0.2 * 0.01, "rotate": 20 * 0.01}
 
 
 def vector(v, scale: float = 1.0) -> str:
