@@ -6,6 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from random import Random
 
+import numpy as np
+
 from walls import Wall, direction
 
 
@@ -28,9 +30,18 @@ class Motion:
     def servo(self) -> bool:
         return bool(self.servo_words)
 
-    def changes(self, kind: str) -> float:
-        """By how much the variables change the speed in a step, at most: of `linear` [length/time], `rotate` [1/time]."""
-        return CHANGES[kind] if any(verb.startswith(f"{kind}/variable") for verb in self.verbs) else 0.0
+    def twist(self, step: np.ndarray) -> np.ndarray | None:
+        """(6, steps): velocity of the wall where the origin is, and angular velocity, in the steps that end with these; nothing if
+        no variable says them."""
+        verb = next((verb.split() for verb in self.verbs if "/variable" in verb), None)
+        if verb is None:
+            return None
+        rate = {text.split()[1]: eval(text.split(" equal ")[1], {"sin": np.sin, "cos": np.cos, "step": step}) for text in VARIABLES}
+        if verb[0] == "linear/variable":
+            return np.array([rate[f"rate_{c}"] + 0 * step for c in "xyz"] + [0 * step] * 3)
+        origin, axis = np.array(verb[2:5], dtype=float), np.array(verb[6:9], dtype=float)
+        axis /= np.linalg.norm(axis)
+        return np.outer(np.concatenate([np.cross(origin, axis), axis]), rate["turn"])
 
 
 VARIABLES = [
@@ -39,9 +50,6 @@ VARIABLES = [
     "variable rate_z equal 0.2*cos(step*0.01)",
     "variable turn equal 20*cos(step*0.01)",
 ]
-
-
-CHANGES = {"linear": 0.1 * 0.02 + 0.2 * 0.01, "rotate": 20 * 0.01}
 
 
 def vector(v, scale: float = 1.0) -> str:
