@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The package in a LIGGGHTS source tree: Install.sh puts it there and takes it away, its sources compile with that tree's
-flags, and the words it adds to Makefile.package link them.
+flags (not optimised: the build itself does that), and the words it adds to Makefile.package link them.
 
 LIGGGHTS' headers are the installed ones, and libliggghts stands for the tree's own objects.  From the environment: BUILD,
 this project's build tree; LIGGGHTS_HEADERS; MODEL_LISTS, the style_*_model.h, which a tree's Make.sh writes into src;
