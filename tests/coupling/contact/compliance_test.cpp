@@ -354,7 +354,8 @@ TEST(ComplianceCorrection, SaysWhereElementsAreTooSmall) {
   Scene scene(compliance, {0.3, 0.2, kRadius - 0.01}, {0, 0, 0}, 1e-5);
   EXPECT_THAT([&] { scene.begin(); },
               ThrowsMessage<std::runtime_error>(
-                  AllOf(HasSubstr("elements at (0.3, 0.2, 0)"), HasSubstr("particle 1 at step 1"),
+                  AllOf(HasSubstr("elements at (0.3, 0.2, 0)"),
+                        HasSubstr("particle 1 (radius 0.5, overlap 0.01) at step 1"),
                         HasSubstr("expected at most 0.9"), HasSubstr("or 'compliance none'"))));
 }
 
