@@ -33,7 +33,7 @@ void LiggghtsContactModel::evaluate(Contact* contacts, int count) {
 inline void LiggghtsContactModel::compute_with_spring(Contact& contact, LCM::SurfacesIntersectData& data) {
   if (!springs_.exist() || !contact.touches) return compute(contact, data);
   const double before = springs_.squared_stretch(contact.history);
-  if (constants_.are_known()) springs_.stretch_by(contact.further_slip, contact.history);
+  if (contact.correction) springs_.stretch_by(contact.correction->further_slip, contact.history);
   compute(contact, data);
   springs_.add(data.kt, before, springs_.squared_stretch(contact.history));
 }

@@ -85,7 +85,6 @@ void ComplianceCorrection::before(const ParticleView& particles, const Time& now
   if (elastic_count_ > 0) approach_kernel_.elastic(elastic_, step);
   if (damped_count_ > 0) approach_kernel_.damped(damped_, step);
   for (int k = 0; k < count; ++k) {
-    contacts[k].further_slip.setZero();  // of the last step, if somebody asks once more
     if (!before_[k].block) continue;
     see_overlap(particles, now, contacts[k], before_[k]);
     if (before_[k].block && before_[k].has_shear) enter_shear(particles, model, contacts[k], before_[k]);
@@ -183,7 +182,7 @@ void ComplianceCorrection::see_slip(const ParticleView& particles, const Time& n
   if (shear_.share[lane] >= kLargest) fail_as_too_fine(particles, now.step, contact, shear_.share[lane]);
   if (now.is_setup) return;
   contact.wall_velocity -= vector_of(shear_.more_rate, lane);
-  contact.further_slip = vector_of(shear_.more, lane);
+  contact.correction->further_slip = vector_of(shear_.more, lane);
 }
 
 void ComplianceCorrection::after(const ParticleView& particles, const Time& now, const ContactModel& model,
@@ -203,20 +202,21 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
     if (!before.block) continue;
     const double F = before.block->force[before.lane];
     Eigen::Vector2d along = -0.5 * F * F * before.directions.gradient(before.give.normal.change);
-    contact.has_tangents = true;
-    contact.tangents = before.directions.tangents;
-    contact.tangent = before.block->tangent[before.lane];
-    contact.dashpot = before.block->dashpot[before.lane];
+    ContactCorrection& by = *contact.correction;
+    by.acts = true;
+    by.tangents = before.directions.tangents;
+    by.tangent = before.block->tangent[before.lane];
+    by.dashpot = before.block->dashpot[before.lane];
     if (const int lane = before.shear_lane; lane >= 0) {
       along += Eigen::Vector2d(shear_.along[0][lane], shear_.along[1][lane]);
-      contact.shear_tangent = shear_.stiffness[lane] / (1.0 - shear_.share[lane]);
-      contact.shear_dashpot = shear_.dashpot[lane];
+      by.shear_tangent = shear_.stiffness[lane] / (1.0 - shear_.share[lane]);
+      by.shear_dashpot = shear_.dashpot[lane];
       double* const memory = shear_memory_of(particles, contact);
       if (!now.is_setup)
         for (int m = 0; m < ShearBlock::kMemory; ++m) memory[m] = shear_.memory[m][lane];
     }
-    contact.follows = along;
-    contact.force += contact.tangents * along;
+    by.follows = along;
+    contact.force += by.tangents * along;
   }
 }
 

@@ -326,7 +326,7 @@ inline Contact& ContactLoop::add_contact(const ParticleView& particles, int i,
   contact.delta = delta;
   contact.wall_velocity = v_wall;
   contact.missing = 0.0;
-  if (wall_.needs_forces()) contact.forget_stiffness();
+  contact.correction = nullptr;
   return contact;
 }
 

@@ -168,6 +168,7 @@ class ContactLoop {
   std::vector<int> used_slots_;  // per particle (ParticleSlots)
 
   std::vector<Contact> contacts_;
+  std::vector<ContactCorrection> corrections_;  // of the last of them, while they are answered
   mutable ContactRows rows_;
   std::vector<coupling::ContactForce> forces_on_body_;
   RunAlarm inside_, crossing_, stiff_, brief_;

@@ -37,6 +37,9 @@ void ContactLoop::answer(const ParticleView& particles, const StepInfo& step, Co
 void ContactLoop::evaluate_corrected(const ParticleView& particles, const ComplianceCorrection::Time& now,
                                      ContactModel& model, Contact* begin, Contact* end) {
   constexpr int kMost = ComplianceCorrection::kCapacity;
+  corrections_.assign(static_cast<std::size_t>(end - begin), ContactCorrection());
+  for (Contact* contact = begin; contact < end; ++contact)
+    contact->correction = &corrections_[contact - begin];
   for (Contact* piece = begin; piece < end; piece += kMost) {
     const int count = static_cast<int>(std::min<std::ptrdiff_t>(kMost, end - piece));
     correction_->before(particles, now, model, piece, count);
@@ -47,11 +50,18 @@ void ContactLoop::evaluate_corrected(const ParticleView& particles, const Compli
 
 double ContactLoop::ask_again(const ParticleView& particles, long step, ContactModel& model,
                               Contact& contact) const {
+  if (!correction_) {
+    model.evaluate(&contact, 1);
+    return contact.overlap;
+  }
   const ComplianceCorrection::Time now = {step, 0.0, true};
-  if (correction_) correction_->before(particles, now, model, &contact, 1);
+  ContactCorrection correction;
+  contact.correction = &correction;
+  correction_->before(particles, now, model, &contact, 1);
   model.evaluate(&contact, 1);
   const double overlap = contact.overlap;
-  if (correction_) correction_->after(particles, now, model, &contact, 1);
+  correction_->after(particles, now, model, &contact, 1);
+  contact.correction = nullptr;
   return overlap;
 }
 
@@ -99,7 +109,8 @@ void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step,
                              contact.foot.patch,
                              {contact.foot.xi[0], contact.foot.xi[1]},
                              {on_body[0], on_body[1], on_body[2]}});
-  if (wall_.deforms() && (contact.has_tangents || !contact.torque.isZero(0.0)))
+  const bool is_corrected = contact.correction && contact.correction->acts;
+  if (wall_.deforms() && (is_corrected || !contact.torque.isZero(0.0)))
     turn_body(contact, forces_on_body_.back());
 }
 
@@ -108,11 +119,11 @@ void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step,
 inline void ContactLoop::turn_body(const Contact& contact, coupling::ContactForce& on_body) const {
   Vector3 force = contact.force;
   nurbs::Tangents tangents, following = nurbs::Tangents::Zero();
-  if (contact.has_tangents) {
-    for (int j = 0; j < 2; ++j) tangents.col(j) = wall_.to_frame_direction(contact.tangents.col(j));
+  if (const ContactCorrection* const by = contact.correction; by && by->acts) {
+    for (int j = 0; j < 2; ++j) tangents.col(j) = wall_.to_frame_direction(by->tangents.col(j));
     // What follows the foot does work where the surface turns below the centre (surface_directions.h).
-    force -= contact.tangents * contact.follows;
-    following = wall_.to_frame_direction(contact.delta) * contact.follows.transpose();
+    force -= by->tangents * by->follows;
+    following = wall_.to_frame_direction(contact.delta) * by->follows.transpose();
   } else {
     tangents = coupling::FootSlopes(wall_.surface(), contact.foot).tangents(wall_.control_points());
   }
@@ -158,11 +169,12 @@ void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& s
   const int i = contact.particle;
   const Vector3 n = contact.delta / contact.distance, v = particles.velocity(i) - contact.wall_velocity;
   const double depth = std::max(contact.overlap, step.dt * std::abs(n.dot(v)));
-  const double stiffness = contact.tangent > 0.0 ? contact.tangent : n.dot(contact.force) / depth;
+  const ContactCorrection by = contact.correction ? *contact.correction : ContactCorrection();
+  const double stiffness = by.tangent > 0.0 ? by.tangent : n.dot(contact.force) / depth;
   const double of_particle = particles.mass ? 1.0 / particles.mass[i] : 0.0;
   expect_long(particles, step, contact, stiffness * of_particle, n.dot(v));
-  const ContactSprings springs = {std::max(stiffness, 0.0), contact.dashpot, contact.shear_tangent,
-                                  contact.shear_dashpot, of_particle};
+  const ContactSprings springs = {std::max(stiffness, 0.0), by.dashpot, by.shear_tangent, by.shear_dashpot,
+                                  of_particle};
   const auto is_stable = [&](ContactSprings::Frequency frequency, double of_body) {
     frequency.squared += of_body;
     return !(frequency.stable_step() < step.dt);

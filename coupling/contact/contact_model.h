@@ -11,20 +11,30 @@ namespace contact {
 
 using nurbs::Vector3;
 
-/// One contact in one step, in space.
+/// What a contact is corrected by (compliance.h), while it is answered.
+struct ContactCorrection {
+  Vector3 further_slip = Vector3::Zero();  ///< of this step, beside that of the velocities; springs add it to
+                                           ///< their stretch [length]
+  bool acts = false;                       ///< else none of the rest is known
+  nurbs::Tangents tangents = nurbs::Tangents::Zero();  ///< S_j of the patch, in space [length]
+  Eigen::Vector2d follows = Eigen::Vector2d::Zero();   ///< of the force what an energy has that changes with
+                                                       ///< the foot: parts along the S_j [force/length]
+  double tangent = 0.0;                                ///< d(force)/d(overlap) [force/length]
+  double dashpot = 0.0;        ///< of damping, by the particle's speed alone [force time/length]
+  double shear_tangent = 0.0;  ///< along the surface [force/length]
+  double shear_dashpot = 0.0;  ///< along the surface, of the particle's speed [force time/length]
+};
+
+/// One contact in one step, in space.  Those of a step are written and read once each: what few of them need
+/// is elsewhere.
 struct Contact {
-  Contact() {}  // not set to zero first
-  void forget_stiffness() {
-    further_slip.setZero();
-    has_tangents = false;
-    tangent = dashpot = shear_tangent = shear_dashpot = 0.0;
-  }
+  Contact() {}               // not set to zero first
   int particle;              ///< of this rank, in this step
   int tag;                   ///< of the particle
   int slot;                  ///< of the particle's memory
-  nurbs::SurfacePoint foot;  ///< on the wall
   bool touches;              ///< overlap >= 0; else a gap, within the reach of models with cohesion
   bool inside;               ///< the centre is inside the body
+  nurbs::SurfacePoint foot;  ///< on the wall
   double distance;           ///< from the foot to the centre; < 0: behind a skin that has one side [length]
   double overlap;            ///< the particle's radius less the distance [length]
   double effective_radius;   ///< of the pair; the particle's own unless the wall's curvature counts [length]
@@ -34,22 +44,11 @@ struct Contact {
   double* history;           ///< what the model keeps of this contact, in this step; null if it keeps nothing
   double missing;            ///< share of the force, as MeshEstimate has it; 0 where there is none [-]
 
+  ContactCorrection* correction;  ///< null: none; gone with the step
+
   // The model's answer:
   Vector3 force;   ///< on the particle [force]
   Vector3 torque;  ///< likewise, about its centre [force length]
-
-  // Of a wall that needs forces, else not set; 0: not known (last, so that other walls need not have it at
-  // hand):
-  Vector3 further_slip;  ///< of this step, beside that of the velocities; springs add it to their stretch
-                         ///< [length]
-  bool has_tangents;
-  nurbs::Tangents tangents;  ///< if so, S_j of the patch, in space [length]
-  Eigen::Vector2d follows;   ///< and of the force what an energy has that changes with the foot: parts along
-                             ///< the S_j [force/length]
-  double tangent;            ///< d(force)/d(overlap) [force/length]
-  double dashpot;            ///< of damping, by the particle's speed alone [force time/length]
-  double shear_tangent;      ///< along the surface [force/length]
-  double shear_dashpot;      ///< along the surface, of the particle's speed [force time/length]
 };
 
 /// A law of contact, normal and tangential: a DEM code's own, or a spring.

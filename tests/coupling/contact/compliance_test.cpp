@@ -272,7 +272,7 @@ class Mixed final : public contact::ContactModel {
       const double damping = hertz_damping(c->particle) * std::sqrt(root);
       const Vector3 along = slip - n.dot(slip) * n;
       Eigen::Map<Vector3> stretch(c->history);
-      stretch += dt_ * along + c->further_slip;
+      stretch += dt_ * along + c->correction->further_slip;
       c->force = (kConstant * root * x - damping * n.dot(slip)) * n;
       if (shear_constant(c->particle) > 0.0)
         c->force -= shear_constant(c->particle) * root * stretch + 0.5 * damping * along;
