@@ -171,20 +171,24 @@ void Substeps::initialise_forces(const NodalForces& forces) {
 }
 
 void Substeps::begin_step() {
+  is_within_step_ = true;
   if (particles_fast()) {
     kick_by_contact();
     for (const Eigen::Index A : surface_nodes_) du_.col(A) += dt_ * dv_.col(A);
     ++done_;
     return place_surface();
   }
+  x_ = body_->positions();
   body_->begin_step();
   for (int i = 1; i < count_; ++i) {
     body_->end_step(no_forces_);
     body_->begin_step();
   }
+  v_ = (body_->positions() - x_) / dt_;
 }
 
 void Substeps::end_step(const NodalForces& forces) {
+  is_within_step_ = false;
   F_ = forces;
   if (!particles_fast()) {
     set_impulse();
@@ -218,14 +222,15 @@ void Substeps::kick_by_contact() {
     dv_.col(A) += 0.5 * dt_ * solver_.inverse_mass().col(A).cwiseProduct(F_.values.col(A));
 }
 
-// Until the outer step ends the body stands where it began: velocities have had their half kick by internal
-// forces since, and those of contacts.
+// Until the outer step ends the body stands where it began: places have had the half kick of internal forces
+// since, and those of contacts.  Velocities have as much of both as the time since then gives.
 void Substeps::place_surface() {
-  const double half_step = done_ > 0 ? 0.5 * count_ * dt_ : 0.0, since = done_ * dt_;
+  const double half_step = done_ > 0 ? 0.5 * count_ * dt_ : 0.0, since = done_ * dt_,
+               pushed = is_within_step_ ? since - 0.5 * dt_ : since;
   for (const Eigen::Index A : surface_nodes_) {
-    const Vector3 v = solver_.velocities().col(A) + half_step * solver_.accelerations().col(A);
-    v_.col(A) = v + dv_.col(A);
-    x_.col(A) = solver_.positions().col(A) + since * v + du_.col(A);
+    const Vector3 v = solver_.velocities().col(A), a = solver_.accelerations().col(A);
+    v_.col(A) = v + pushed * a + dv_.col(A);
+    x_.col(A) = solver_.positions().col(A) + since * (v + half_step * a) + du_.col(A);
   }
 }
 

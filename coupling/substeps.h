@@ -35,7 +35,11 @@ class Substeps final : public StructureSolver {
   Eigen::Index owned_node_count() const override { return body_->owned_node_count(); }
   /// Of nodes that the surface does not hang on they are those at the end of the body's last own step.
   const NodalVectors& positions() const override { return particles_fast() ? x_ : body_->positions(); }
-  const NodalVectors& velocities() const override { return particles_fast() ? v_ : body_->velocities(); }
+  /// Within a step those of its middle, as a particle's are: what the surface goes through the step with, and
+  /// no half of an impulse of contacts without that of the body's own forces. A law that damps asks then.
+  const NodalVectors& velocities() const override {
+    return particles_fast() || (is_within_step_ && count_ > 1) ? v_ : body_->velocities();
+  }
 
   void initialise_forces(const NodalForces& forces) override;
   void begin_step() override;
@@ -106,7 +110,9 @@ class Substeps final : public StructureSolver {
   bool spreads_ = false;  // structure fast: impulses are spread
   SpreadImpulse spread_;
   NodalForces F_, no_forces_;
-  // Particles fast: the surface now, and what contacts have added since the outer step began.
+  bool is_within_step_ = false;  // of particles, which begins and ends
+  // Particles fast: the surface now, and what contacts have added since the outer step began.  Structure
+  // fast: where the step began, and how fast it is on the mean.
   NodalVectors x_, v_, du_, dv_;
 };
 
