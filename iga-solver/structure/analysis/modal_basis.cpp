@@ -25,7 +25,7 @@ std::vector<NodalVectors> follow_shapes(const ExplicitSolver& solver) {
   const Supports& supports = solver.supports();
   if (supports.motions().empty()) return {};
   const NodalVectors none = NodalVectors::Zero(3, solver.body().node_count());
-  if (solver.springs().empty() && !free_rigid_motions(solver.body().reference(), supports).empty())
+  if (!free_rigid_motions(solver.body().reference(), supports, solver.springs()).empty())
     throw std::runtime_error("supports move, but do not hold the body: it would not follow");
   const Tangent tangent(solver.body(), supports, none, 0.0, solver.springs());
   const auto preconditioner = make_preconditioner(tangent, PreconditionerKind::automatic);

@@ -129,6 +129,23 @@ class InverseProduct {
   int expected_ = 0;
 };
 
+/// The least quotient of the springs' stiffness and the mass, of rigid motions that springs alone hold.
+double least_on_springs(const NodalVectors& positions, const Supports& supports, const Springs& springs,
+                        const OrthonormalShapes& known) {
+  constexpr double kRest = 1e-6;  // below it, the motion is a known one
+  double least = std::numeric_limits<double>::infinity();
+  if (springs.empty()) return least;
+  for (const NodalVectors& motion : free_rigid_motions(positions, supports)) {
+    NodalVectors rest = motion, force = NodalVectors::Zero(3, motion.cols());
+    known.remove_from(rest);
+    const double mass = known.product(rest, rest);
+    if (mass < kRest * known.product(motion, motion)) continue;
+    springs.add_forces(rest, force);
+    least = std::min(least, rest.cwiseProduct(force).sum() / mass);
+  }
+  return least;
+}
+
 /// A shift where the body can move as a whole: about the least omega^2 of displacements that are quadratic in
 /// one coordinate, less what rigid motions have of them.
 double shift_of_free_body(const Tangent& tangent, const OrthonormalShapes& rigid) {
@@ -184,12 +201,13 @@ std::vector<Mode> lowest_modes(const Body& body, const Supports& supports, const
                     free.count()));
   const MassMatrix mass(body, options.mass);
   OrthonormalShapes known(mass);
-  if (springs.empty())
-    for (NodalVectors& motion : free_rigid_motions(body.reference() + u, supports))
-      known.add(std::move(motion));
+  const NodalVectors positions = body.reference() + u;
+  for (NodalVectors& motion : free_rigid_motions(positions, supports, springs)) known.add(std::move(motion));
   std::vector<Mode> modes;
   for (const NodalVectors& shape : known.all()) modes.push_back({0.0, shape});
-  const double shift = modes.empty() ? 0.0 : shift_of_free_body(Tangent(body, supports, u), known);
+  const double shift = modes.empty() ? 0.0
+                                     : std::min(shift_of_free_body(Tangent(body, supports, u), known),
+                                                least_on_springs(positions, supports, springs, known));
   const Tangent tangent(body, supports, u, shift, springs, &mass);
   InverseProduct inverse(tangent, free, known, options);
   MassProduct mass_product(mass, free, body.node_count());

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "structure/body.h"
+#include "structure/conditions/springs.h"
 #include "structure/conditions/supports.h"
 
 namespace structure {
@@ -14,7 +15,9 @@ namespace structure {
 /// node_count.
 std::array<NodalVectors, 6> rigid_motions(const NodalVectors& reference);
 
-/// Independent ones that the supports leave to a body whose nodes are at `positions`; none if they hold it.
-std::vector<NodalVectors> free_rigid_motions(const NodalVectors& positions, const Supports& supports);
+/// Independent ones that the supports leave to a body whose nodes are at `positions`, and that strain no
+/// spring; none if they hold it.
+std::vector<NodalVectors> free_rigid_motions(const NodalVectors& positions, const Supports& supports,
+                                             const Springs& springs = {});
 
 }  // namespace structure

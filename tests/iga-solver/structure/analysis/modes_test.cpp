@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "models.h"
@@ -68,6 +69,69 @@ TEST(Modes, OfAFreeBlockSixAreRigid) {
       for (int k = 0; k <= j; ++k)
         EXPECT_NEAR((modes[j].shape.cwiseProduct(modes[k].shape).colwise().sum() * m).value(),
                     j == k ? 1.0 : 0.0, 1e-8);
+  }
+}
+
+/// Springs along one direction at the corners of a block's base, of the same stiffness.
+structure::Springs at_corners(const Solid& solid, const Vector3& direction, double stiffness) {
+  const NodalVectors& X = solid.reference();
+  const Vector3 end = X.rowwise().maxCoeff();
+  std::vector<structure::Springs::Spring> group;
+  for (Eigen::Index A = 0; A < X.cols(); ++A) {
+    const bool is_corner = (X(0, A) == 0 || X(0, A) == end[0]) && (X(1, A) == 0 || X(1, A) == end[1]);
+    if (is_corner && X(2, A) == 0) group.push_back({A, stiffness * direction * direction.transpose()});
+  }
+  EXPECT_EQ(group.size(), 4U);
+  structure::Springs springs;
+  springs.add(std::move(group));
+  return springs;
+}
+
+int zeros(const std::vector<Mode>& modes) {
+  return static_cast<int>(
+      std::count_if(modes.begin(), modes.end(), [](const Mode& mode) { return mode.frequency() == 0.0; }));
+}
+
+// A rigid block a, b, c on upright springs, k each, at its corners: it slides along x and y and turns about z
+// freely, goes up with omega^2 = 4 k/m, and rocks with k a^2 / (m (a^2 + c^2)/12), or b for a.
+TEST(Modes, OfAStiffBlockOnSpringsAreThoseOfARigidBody) {
+  const double a = 3, b = 2, c = 1, k = 1e-6, m = a * b * c;
+  const Solid solid(models::block({a, b, c}, {3, 2, 1}, 2), models::elastic(1.0, 0.3));
+  const structure::Springs springs = at_corners(solid, {0, 0, 1}, k);
+  const double up = 4 * k / m, about_x = up * 3 * b * b / (b * b + c * c),
+               about_y = up * 3 * a * a / (a * a + c * c);
+  for (const structure::MassKind mass : {structure::MassKind::lumped, structure::MassKind::consistent})
+    for (const PreconditionerKind kind : {PreconditionerKind::automatic, PreconditionerKind::sparse,
+                                          PreconditionerKind::tensor, PreconditionerKind::nodes}) {
+      structure::ModeOptions options{8, 1e-9, kind, mass};
+      const std::vector<Mode> modes = structure::lowest_modes(solid, {}, undeformed(solid), options, springs);
+      ASSERT_EQ(modes.size(), 8U);
+      EXPECT_EQ(zeros(modes), 3);
+      EXPECT_NEAR(modes[3].eigenvalue, up, 1e-4 * up);
+      EXPECT_GT(modes[6].eigenvalue, 1e3 * up) << "elastic";
+      if (mass == structure::MassKind::lumped) continue;  // other moments of inertia
+      EXPECT_NEAR(modes[4].eigenvalue, about_x, 1e-4 * about_x);
+      EXPECT_NEAR(modes[5].eigenvalue, about_y, 1e-4 * about_y);
+    }
+}
+
+TEST(Modes, AreZeroForWhatSupportsAndSpringsTogetherLeaveFree) {
+  const Solid solid(models::block({3, 2, 1}, {3, 2, 1}, 2), models::elastic());
+  Supports in_plane, without_x;
+  in_plane.fix(structure::nodes_on(solid.space(), {Face::eta_minus}), {false, true, false});
+  without_x.fix(structure::nodes_on(solid.space(), {Face::xi_minus}), {true, false, false});
+  const Vector3 up(0, 0, 1), oblique = Vector3(2, 1, 2) / 3;
+  const auto zeros_of = [&](const Supports& supports, const Vector3& direction, double stiffness) {
+    return zeros(structure::lowest_modes(solid, supports, undeformed(solid), {7},
+                                         at_corners(solid, direction, stiffness)));
+  };
+  for (const double stiffness : {1e-8, 1e-3, 1e3}) {
+    EXPECT_EQ(zeros_of({}, oblique, stiffness), 3);
+    EXPECT_EQ(zeros_of(in_plane, up, stiffness), 1);          // along x
+    EXPECT_EQ(zeros_of(in_plane, oblique, stiffness), 1);     // across the springs
+    EXPECT_EQ(zeros_of(without_x, up, stiffness), 1);         // along y
+    EXPECT_EQ(zeros_of(without_x, {0, 1, 0}, stiffness), 2);  // along z, and about the springs' plane
+    EXPECT_EQ(zeros_of(without_x, {1, 0, 0}, stiffness), 3) << "they are where it is fixed, or beside it";
   }
 }
 
