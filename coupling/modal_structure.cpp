@@ -58,6 +58,7 @@ ModalStructure::ModalStructure(std::unique_ptr<IgaStructure> body, const ModalBa
       x_(body_->positions()),
       v_(body_->velocities()) {
   take_state();
+  motion_.set_support_rates(support_rates());
   measure_shapes(basis);
   place_surface(motion_.rates());
 }
@@ -143,6 +144,29 @@ void ModalStructure::take_state() {
     return rows_.project(times_mass(q, solver_), solver_.halo()).head(motion_.mode_count());
   };
   motion_.set_state(solver_.time(), modes(rest), modes(v));
+}
+
+// As the whole solid, supports begin with the velocity that the body is given there, until they take their
+// own; of others than motions have, what these have of it.
+VectorXd ModalStructure::support_rates() const {
+  const std::vector<structure::Motion>& motions = solver_.supports().motions();
+  const NodalVectors& v = solver_.velocities();
+  const Index own = 3 * solver_.halo().owned(v.cols());
+  std::vector<structure::ExactSum> sums(2 * motions.size());  // m size v, m size^2
+  for (std::size_t j = 0; j < motions.size(); ++j)
+    for (std::size_t i = 0; i < motions[j].dofs.size(); ++i) {
+      const Index dof = motions[j].dofs[i];
+      if (dof >= own) continue;
+      const double size = motions[j].size[i], momentum = solver_.mass().nodal_mass()[dof / 3] * size;
+      sums[2 * j].add(momentum * v.data()[dof]);
+      sums[2 * j + 1].add(momentum * size);
+    }
+  solver_.halo().sum(sums.data(), sums.size());
+  VectorXd rates = VectorXd::Zero(static_cast<Index>(motions.size()));
+  for (std::size_t j = 0; j < motions.size(); ++j)
+    if (const double inertia = sums[2 * j + 1].value(); inertia > 0.0)
+      rates[static_cast<Index>(j)] = sums[2 * j].value() / inertia;
+  return rates;
 }
 
 ModalForces ModalStructure::loads_at(double time) const {

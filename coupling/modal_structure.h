@@ -84,6 +84,8 @@ class ModalStructure final : public StructureSolver {
   void measure_shapes(const structure::ModalBasis& basis);
   /// What the modes have of the solver's displacements and velocities.
   void take_state();
+  /// ds/dt [1/time] of the supports' motions, of the solver's velocities where they act.  Collective.
+  Eigen::VectorXd support_rates() const;
   structure::ModalForces loads_at(double time) const;
   void place_surface(const Eigen::VectorXd& rates);
   /// Everywhere, in the solver.

@@ -49,6 +49,8 @@ class ModalMotion {
   int slowed() const { return slowed_; }
   /// q, and velocities phi_k . M du/dt of the modes, at a time.
   void set_state(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v);
+  /// ds/dt [1/time] of the supports' motions now; they are at rest unless told.
+  void set_support_rates(const Eigen::VectorXd& rates) { support_rates_ = rates; }
 
   /// Before the first step and whenever others have changed: work begins here.
   void initialise_forces(const ModalForces& contacts, const ModalForces& loads);
