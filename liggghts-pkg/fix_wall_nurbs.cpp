@@ -312,7 +312,7 @@ void FixWallNurbs::post_run() {
   messages_.print(contact::report(searches));
   if (searches.not_converged() > 0)
     messages_.warn(fmt::format("{} closest-point projections did not converge", searches.not_converged()));
-  for (const std::string& alarm : liggghts_pkg::alarms_of_run(loop_, world)) messages_.warn(alarm);
+  for (const std::string& alarm : liggghts_pkg::alarms_of_run(loop_, dt_, world)) messages_.warn(alarm);
   const std::string of_mesh = liggghts_pkg::alarm_of_mesh(loop_, world);
   if (!of_mesh.empty() && !warned_of_mesh_) messages_.warn(of_mesh);
   warned_of_mesh_ |= !of_mesh.empty();

@@ -158,7 +158,7 @@ std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::Str
       whose, sum[0] + 0.0, sum[1] + 0.0, sum[2] + 0.0, file);
 }
 
-std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, MPI_Comm world) {
+std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, double dt, MPI_Comm world) {
   const contact::RunAlarm inside = loop.inside().of_all_ranks(world),
                           crossing = loop.crossing().of_all_ranks(world),
                           stiff = loop.stiff().of_all_ranks(world), brief = loop.brief().of_all_ranks(world);
@@ -170,10 +170,13 @@ std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, MPI_Com
         inside.tag, inside.count));
   if (crossing.count > 0) {
     constexpr double kFraction = 0.1;  // of the radius, per step
+    const double slow_enough = kFraction * crossing.radius / crossing.speed;
     alarms.push_back(fmt::format(
         "the centre of particle {} would cross the wall within one step, at a speed of {:.6g} towards it ({} "
-        "cases of this kind in this run): use a timestep of at most {:.3g}",
-        crossing.tag, crossing.speed, crossing.count, kFraction * crossing.radius / crossing.speed));
+        "cases of this kind in this run): {}",
+        crossing.tag, crossing.speed, crossing.count,
+        slow_enough < dt ? fmt::format("use a timestep of at most {:.3g}", slow_enough)
+                         : "its contact does not hold it, use a stiffer one or less cohesion"));
   }
   if (stiff.count > 0)
     alarms.push_back(

@@ -42,8 +42,9 @@ void give_gravity(const LAMMPS_NS::Modify& modify, coupling::StructureSolver& st
 std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::StructureSolver& structure,
                             const std::string& file);
 
-/// What to tell the user of particles that came where they should not in this run.  Collective.
-std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, MPI_Comm world);
+/// What to tell the user of particles that came where they should not in this run of time steps `dt`.
+/// Collective.
+std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, double dt, MPI_Comm world);
 /// The same of contacts and the solid's mesh: its elements are too small for what is not corrected, or too
 /// large for a correction that is static.  Empty if all is well.
 std::string alarm_of_mesh(const contact::ContactLoop& loop, MPI_Comm world);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "explicit_run.h"
 #include "io/frequencies.h"
 #include "io/history.h"
 #include "io/unit_names.h"
@@ -122,12 +123,18 @@ void run(const io::StaticAnalysis& analysis, const io::ModelFile& model, Fields&
   if (prints(talk)) output.print_names();
 }
 
+double step_of_relaxation(const SolveOptions& options, const io::ModelFile& model, double stable) {
+  constexpr double kStepFactor = 0.9;  // of the stable step
+  const std::optional<double> wanted = wanted_step(options, model);
+  if (wanted && *wanted > stable)
+    throw std::runtime_error(
+        fmt::format("relax: time step {:.6g} is above the stable step {:.6g}", *wanted, stable));
+  return wanted.value_or(kStepFactor * stable);
+}
+
 void run(const io::RelaxAnalysis& analysis, const io::ModelFile& model, Fields& fields,
          ExplicitSolver& solver, Talk talk) {
   RestOutput output(model, fields);
-  constexpr double kStepFactor = 0.9;  // of the stable step
-  const double stable = solver.stable_time_step();
-  solver.set_time_step(model.time && model.time->step ? *model.time->step : kStepFactor * stable);
   if (prints(talk)) fmt::print("  relax        time step {:.6g}\n", solver.time_step());
   long peaks = 0;
   const auto tell = [&](const structure::RelaxPeak& peak) {
@@ -185,9 +192,13 @@ void expect_finite_conditions(const io::ModelFile& model, const ExplicitSolver& 
   if (!std::holds_alternative<io::ModeAnalysis>(*model.analysis)) solver.expect_finite_conditions(kFullTime);
 }
 
-void run_analysis(const io::ModelFile& model, Fields& fields, ExplicitSolver& solver, Talk talk) {
+void run_analysis(const SolveOptions& options, const io::ModelFile& model, Fields& fields,
+                  ExplicitSolver& solver) {
   expect_finite_conditions(model, solver);
-  std::visit([&](const auto& analysis) { run(analysis, model, fields, solver, talk); }, *model.analysis);
+  if (std::holds_alternative<io::RelaxAnalysis>(*model.analysis))
+    solver.set_time_step(step_of_relaxation(options, model, solver.stable_time_step()));
+  std::visit([&](const auto& analysis) { run(analysis, model, fields, solver, options.talk); },
+             *model.analysis);
 }
 
 }  // namespace app

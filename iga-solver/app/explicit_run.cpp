@@ -26,11 +26,6 @@ using Moment = io::SavedState::Moment;
 constexpr double kDefaultStepFactor = 0.9;  // of the stable step
 
 /// What the command line asks for, else the model.
-std::optional<double> wanted_step(const SolveOptions& options, const io::ModelFile& model) {
-  if (options.step) return options.step;
-  return model.time ? model.time->step : std::nullopt;
-}
-
 double longest_step(const std::optional<double>& wanted, const io::ModelFile& model, double stable) {
   if (wanted && *wanted > stable)
     throw std::runtime_error(
@@ -156,6 +151,11 @@ void make_steps(ExplicitSolver& solver, const Steps& steps, const io::ModelFile&
 std::optional<double> end_of(const SolveOptions& options, const io::ModelFile& model) {
   if (options.end) return options.end;
   return model.time ? std::optional(model.time->end) : std::nullopt;
+}
+
+std::optional<double> wanted_step(const SolveOptions& options, const io::ModelFile& model) {
+  if (options.step) return options.step;
+  return model.time ? model.time->step : std::nullopt;
 }
 
 Steps steps_to(double end, const SolveOptions& options, const io::ModelFile& model, double stable,

@@ -27,6 +27,9 @@ std::optional<double> end_of(const SolveOptions& options, const io::ModelFile& m
 Steps steps_to(double end, const SolveOptions& options, const io::ModelFile& model, double stable,
                const std::optional<io::SavedState::Moment>& continued);
 
+/// The time step that is asked for, if one is.
+std::optional<double> wanted_step(const SolveOptions& options, const io::ModelFile& model);
+
 /// The stable step, which takes 20 internal forces; printed.  Collective.
 double find_stable_step(const io::ModelFile& model, const structure::ExplicitSolver& solver, Talk talk);
 

@@ -34,7 +34,7 @@ void analyse(const SolveOptions& options, io::ModelFile& model) {
   structure::ExplicitSolver solver = io::build_solver(model);
   if (options.talk != Talk::errors_only) app::print_model(model, solver);
   if (options.talk == Talk::more) app::print_details(model);
-  app::with_name(model, [&] { app::run_analysis(model, fields, solver, options.talk); });
+  app::with_name(model, [&] { app::run_analysis(options, model, fields, solver); });
 }
 
 void run(const SolveOptions& options) {

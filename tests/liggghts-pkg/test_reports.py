@@ -29,6 +29,16 @@ class Reports(unittest.TestCase):
                         advised = float(re.search(r"timestep of at most ([\d.e+-]+)", found.group()).group(1))
                         self.assertAlmostEqual(advised, 0.1 * R / speed, delta=0.01 * advised)
 
+    def test_no_timestep_is_advised_where_the_contact_is_too_soft(self):
+        wall = model_file(quad((-L / 2, -L / 2, 0), (L, 0, 0), (0, L, 0)))
+        start = prelude((0, 0, 0.3 * R), (0, 0, -1.0), gravity=False, timestep=1e-7)
+        start = re.sub(r"(?m)^(fix .* youngsModulus peratomtype) .*", r"soft_particles yes\n\1 5e3 5e3", start)
+        text = run(start, nurbs(), wall, steps=12000).text
+        found = re.search(r"particle 1 would cross the wall within one step.*", text)
+        self.assertIsNotNone(found, text[-2000:])
+        self.assertIn("its contact does not hold it, use a stiffer one", found.group())
+        self.assertNotIn("timestep", found.group())
+
     def test_a_linear_solid_that_turns_is_named_once(self):
         """8 degrees; a ball that is far off."""
         turning = bob.block(fixed=()) + 'initial: {velocity: ["-1000*y", "1000*x", 0]}\n'

@@ -16,13 +16,13 @@ namespace structure {
 
 namespace {
 
-void expect_held(const Body& body, const Supports& supports) {
-  const std::size_t free = free_rigid_motions(body.reference(), supports).size();
+void expect_held(const Body& body, const Supports& supports, const Springs& springs) {
+  const std::size_t free = free_rigid_motions(body.reference(), supports, springs).size();
   if (free > 0)
     throw NoEquilibrium(
-        fmt::format("static: the supports leave the body free in {} of its 6 rigid motions, expected none: "
+        fmt::format("static: the supports{} leave the body free in {} of its 6 rigid motions, expected none: "
                     "fix more faces or directions in 'boundary'",
-                    free));
+                    springs.empty() ? "" : " and springs", free));
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ StaticEquilibrium::StaticEquilibrium(const Body& body, const Supports& supports,
       force_(u_),
       load_(u_),
       tangent_(body, supports, u_, 0.0, springs) {
-  if (springs.empty()) expect_held(body, supports);
+  expect_held(body, supports, springs);
   stiffness_ = mean_stiffness();
   preconditioner_ = make_preconditioner(tangent_, options.preconditioner);
 }

@@ -3,6 +3,7 @@
 starts from it and stays there; frequencies beside a bar's; what is refused."""
 
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -48,11 +49,13 @@ class Analyses(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = Path(folder.name)
 
-    def run_model(self, more: str, law: str = "linear_elastic", ranks: int = 1, text: str = MODEL, code: int = 0) -> str:
+    def run_model(
+        self, more: str, *words: str, law: str = "linear_elastic", ranks: int = 1, text: str = MODEL, code: int = 0
+    ) -> str:
         (self.folder / "model.yaml").write_text(text.format(law=law, more=more))
         launcher = [MPIEXEC, "-n", str(ranks)] if ranks > 1 else []
         done = subprocess.run(
-            [*launcher, PROGRAM, "model.yaml"], cwd=self.folder, capture_output=True, text=True, timeout=60, check=False
+            [*launcher, PROGRAM, "model.yaml", *words], cwd=self.folder, capture_output=True, text=True, timeout=60, check=False
         )
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout if code == 0 else done.stderr
@@ -92,6 +95,16 @@ class Analyses(unittest.TestCase):
         printed = self.run_model("analysis: {kind: relax, tolerance: 1e-7}", law="saint_venant_kirchhoff")
         self.assertIn("at rest after", printed)
         np.testing.assert_allclose(self.rows("probes/end")[-1], expected, rtol=1e-5, atol=1e-12)
+
+    def test_relax_takes_the_step_that_is_asked_for(self):
+        def step(*words: str) -> float:
+            printed = self.run_model("analysis: relax\ntime: {end: 1, step: 2e-6}", *words)
+            return float(re.search(r"relax +time step (\S+)", printed).group(1))
+
+        self.assertEqual(step(), 2e-6)
+        self.assertEqual(step("--step", "1e-6"), 1e-6)
+        above = self.run_model("analysis: relax", "--step", "1", code=1)
+        self.assertRegex(above, r"^ERROR: model.yaml: relax: time step 1 is above the stable step \S+$")
 
     def test_loads_and_supports_of_relax_are_those_of_time_1(self):
         """As of static: a load and a support that are 0 at time 0, a load that is at its peak at time 1, one that has passed it."""
@@ -229,6 +242,8 @@ output: {{{{file: out}}}}
                 self.assertIn(expected, self.run_model(more, text=text, code=1))
         free = MODEL.replace("boundary: [{{name: wall, fix: [x, y, z], faces: [xi-]}}, ", "boundary: [")
         self.assertIn("free in 1 of its 6 rigid motions", self.run_model("analysis: static", text=free, code=1))
+        standing = free.replace("boundary: [", "boundary: [{{spring: {{stiffness: 1e5, direction: [0, 0, 1]}}, faces: [zeta-]}}, ")
+        self.assertIn("and springs leave the body free in 1 of its 6", self.run_model("analysis: static", text=standing, code=1))
         self.assertIn("runs on one rank", self.run_model("analysis: static", ranks=2, code=1))
 
     def test_a_state_of_another_mesh_is_refused(self):
