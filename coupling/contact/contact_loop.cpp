@@ -123,10 +123,9 @@ inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo
   const int end = static_cast<int>(candidates_.candidates().size());
   SteadyFeet* const steady = tracker_->steady();
   const ParticleView p = particles;
-  const int most = steady ? SteadyFeet::kBlock - SteadyFeet::kMostFeet : FeetTracker::kBlock - 1;
   int seen = 0;
   if (steady) steady->begin_block(wall_.frame(), wall_.is_turned());
-  for (; candidate < end && seen <= most; ++candidate) {
+  for (; candidate < end && seen <= FeetTracker::kBlock - SteadyFeet::kMostFeet; ++candidate) {
     const std::ptrdiff_t i = candidates[candidate].particle;
     if (!p.meets_wall(static_cast<int>(i))) continue;
     const double touch_reach = this->touch_reach(particles, step, static_cast<int>(i));

@@ -40,7 +40,7 @@ struct FaceNumbers {
 
 /// Centres in the wall's frame and their feet, number by number.
 struct FaceBlock {
-  static constexpr int kCapacity = 32;
+  static constexpr int kCapacity = 64;
   using Lanes = double[kCapacity + 8];
 
   int count = 0;

@@ -10,7 +10,7 @@ namespace contact {
 
 /// Centres and their feet, number by number.  Lengths have one unit throughout; `xi` is the patch's.
 struct FeetBlock {
-  static constexpr int kCapacity = 32;  // they and their contacts are half of a first-level cache
+  static constexpr int kCapacity = 64;
   using Lanes = double[kCapacity + 8];
 
   int count = 0;

@@ -40,8 +40,6 @@ Vector3d get(const FeetBlock::Lanes (&lanes)[3], int k) { return {lanes[0][k], l
 void copy(const Vector3d& from, double (&to)[3]) { Vector3d::Map(to) = from; }
 
 // Not a whole number of words.
-constexpr int kNotWhole = FeetBlock::kCapacity - 3;  // words
-
 FeetBlock random_block(Random& random, int count) {
   FeetBlock block;
   block.count = count;
@@ -108,7 +106,7 @@ TEST(FeetKernel, FeetOverPlanes) {
   Random random;
   for (const SimdLevel level : levels_here()) {
     const contact::FeetKernel kernel = contact::feet_kernel(level);
-    FeetBlock block = random_block(random, kNotWhole);
+    FeetBlock block = random_block(random, 61);
     std::vector<contact::PlaneNumbers> planes(block.count);
     for (int k = 0; k < block.count; ++k) {
       const Eigen::Matrix3d axes = random.rotation();
@@ -156,7 +154,7 @@ TEST(FeetKernel, FeetOverACylinder) {
   Random random;
   for (const SimdLevel level : levels_here()) {
     const contact::FeetKernel kernel = contact::feet_kernel(level);
-    FeetBlock block = random_block(random, kNotWhole);
+    FeetBlock block = random_block(random, 61);
     const Eigen::Matrix3d axes = random.rotation();
     const Vector3d origin = 0.1 * random.vector();
     contact::CylinderNumbers cylinder{{}, {}, {}, {}, 0.7, 0.3};
@@ -187,7 +185,7 @@ TEST(FeetKernel, FeetOverACylinder) {
 TEST(FeetKernel, StepsThatNeedASecondLook) {
   Random random;
   for (const SimdLevel level : levels_here()) {
-    FeetBlock block = random_block(random, kNotWhole);
+    FeetBlock block = random_block(random, 61);
     for (int k = 0; k < block.count; ++k) {
       block.room[k] = 1.0;
       block.distance[k] = block.touch_reach[k] * random(0.3, 1.0);
@@ -202,15 +200,15 @@ TEST(FeetKernel, StepsThatNeedASecondLook) {
       EXPECT_EQ(block.room[k] > 0.0, is_there) << k;
       there += is_there;
     }
-    EXPECT_GT(there, 5);
-    EXPECT_LT(there, 24);
+    EXPECT_GT(there, 10);
+    EXPECT_LT(there, 50);
   }
 }
 
 // Runs give the same digits on all machines.
 TEST(FeetKernel, InstructionSetsAgreeInAllDigits) {
   Random random;
-  FeetBlock given = random_block(random, FeetBlock::kCapacity - 1);
+  FeetBlock given = random_block(random, 63);
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = random.rotation();
   const Vector3d origin = random.vector();
   const auto found_by = [&](SimdLevel level) {
