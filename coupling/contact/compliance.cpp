@@ -199,11 +199,13 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
     contact.touches = before.touches;
     contact.delta = before.delta;
     contact.wall_velocity = before.wall_velocity;
-    if (!before.block) continue;
+    if (!before.block) {
+      contact.correction = nullptr;
+      continue;
+    }
     const double F = before.block->force[before.lane];
     Eigen::Vector2d along = -0.5 * F * F * before.directions.gradient(before.give.normal.change);
     ContactCorrection& by = *contact.correction;
-    by.acts = true;
     by.tangents = before.directions.tangents;
     by.tangent = before.block->tangent[before.lane];
     by.dashpot = before.block->dashpot[before.lane];

@@ -109,8 +109,7 @@ void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step,
                              contact.foot.patch,
                              {contact.foot.xi[0], contact.foot.xi[1]},
                              {on_body[0], on_body[1], on_body[2]}});
-  const bool is_corrected = contact.correction && contact.correction->acts;
-  if (wall_.deforms() && (is_corrected || !contact.torque.isZero(0.0)))
+  if (wall_.deforms() && (contact.correction || !contact.torque.isZero(0.0)))
     turn_body(contact, forces_on_body_.back());
 }
 
@@ -119,7 +118,7 @@ void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step,
 inline void ContactLoop::turn_body(const Contact& contact, coupling::ContactForce& on_body) const {
   Vector3 force = contact.force;
   nurbs::Tangents tangents, following = nurbs::Tangents::Zero();
-  if (const ContactCorrection* const by = contact.correction; by && by->acts) {
+  if (const ContactCorrection* const by = contact.correction) {
     for (int j = 0; j < 2; ++j) tangents.col(j) = wall_.to_frame_direction(by->tangents.col(j));
     // What follows the foot does work where the surface turns below the centre (surface_directions.h).
     force -= by->tangents * by->follows;
@@ -169,7 +168,8 @@ void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& s
   const int i = contact.particle;
   const Vector3 n = contact.delta / contact.distance, v = particles.velocity(i) - contact.wall_velocity;
   const double depth = std::max(contact.overlap, step.dt * std::abs(n.dot(v)));
-  const ContactCorrection by = contact.correction ? *contact.correction : ContactCorrection();
+  static const ContactCorrection none;
+  const ContactCorrection& by = contact.correction ? *contact.correction : none;
   const double stiffness = by.tangent > 0.0 ? by.tangent : n.dot(contact.force) / depth;
   const double of_particle = particles.mass ? 1.0 / particles.mass[i] : 0.0;
   expect_long(particles, step, contact, stiffness * of_particle, n.dot(v));

@@ -13,13 +13,12 @@ using nurbs::Vector3;
 
 /// What a contact is corrected by (compliance.h), while it is answered.
 struct ContactCorrection {
-  Vector3 further_slip = Vector3::Zero();  ///< of this step, beside that of the velocities; springs add it to
-                                           ///< their stretch [length]
-  bool acts = false;                       ///< else none of the rest is known
+  /// Of this step, beside that of the velocities; springs add it to their stretch [length].
+  Vector3 further_slip = Vector3::Zero();
   nurbs::Tangents tangents = nurbs::Tangents::Zero();  ///< S_j of the patch, in space [length]
-  Eigen::Vector2d follows = Eigen::Vector2d::Zero();   ///< of the force what an energy has that changes with
-                                                       ///< the foot: parts along the S_j [force/length]
-  double tangent = 0.0;                                ///< d(force)/d(overlap) [force/length]
+  /// Of the force what an energy has that changes with the foot: parts along the S_j [force/length].
+  Eigen::Vector2d follows = Eigen::Vector2d::Zero();
+  double tangent = 0.0;        ///< d(force)/d(overlap) [force/length]
   double dashpot = 0.0;        ///< of damping, by the particle's speed alone [force time/length]
   double shear_tangent = 0.0;  ///< along the surface [force/length]
   double shear_dashpot = 0.0;  ///< along the surface, of the particle's speed [force time/length]
@@ -43,7 +42,6 @@ struct Contact {
   Vector3 wall_velocity;     ///< at the foot [length/time]
   double* history;           ///< what the model keeps of this contact, in this step; null if it keeps nothing
   double missing;            ///< share of the force, as MeshEstimate has it; 0 where there is none [-]
-
   ContactCorrection* correction;  ///< null: none; gone with the step
 
   // The model's answer:

@@ -123,15 +123,6 @@ void run(const io::StaticAnalysis& analysis, const io::ModelFile& model, Fields&
   if (prints(talk)) output.print_names();
 }
 
-double step_of_relaxation(const SolveOptions& options, const io::ModelFile& model, double stable) {
-  constexpr double kStepFactor = 0.9;  // of the stable step
-  const std::optional<double> wanted = wanted_step(options, model);
-  if (wanted && *wanted > stable)
-    throw std::runtime_error(
-        fmt::format("relax: time step {:.6g} is above the stable step {:.6g}", *wanted, stable));
-  return wanted.value_or(kStepFactor * stable);
-}
-
 void run(const io::RelaxAnalysis& analysis, const io::ModelFile& model, Fields& fields,
          ExplicitSolver& solver, Talk talk) {
   RestOutput output(model, fields);
@@ -196,7 +187,7 @@ void run_analysis(const SolveOptions& options, const io::ModelFile& model, Field
                   ExplicitSolver& solver) {
   expect_finite_conditions(model, solver);
   if (std::holds_alternative<io::RelaxAnalysis>(*model.analysis))
-    solver.set_time_step(step_of_relaxation(options, model, solver.stable_time_step()));
+    solver.set_time_step(longest_step(options, model, solver.stable_time_step()));
   std::visit([&](const auto& analysis) { run(analysis, model, fields, solver, options.talk); },
              *model.analysis);
 }

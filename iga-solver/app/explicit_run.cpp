@@ -25,14 +25,9 @@ using Moment = io::SavedState::Moment;
 
 constexpr double kDefaultStepFactor = 0.9;  // of the stable step
 
-/// What the command line asks for, else the model.
-double longest_step(const std::optional<double>& wanted, const io::ModelFile& model, double stable) {
-  if (wanted && *wanted > stable)
-    throw std::runtime_error(
-        fmt::format("{}: time step {:.6g} is above the stable step {:.6g}", model.file, *wanted, stable));
-  if (!wanted && std::isinf(stable))
-    throw std::runtime_error(fmt::format("{}: every node is fixed, expected at least one free", model.file));
-  return wanted.value_or(kDefaultStepFactor * stable);
+std::optional<double> wanted_step(const SolveOptions& options, const io::ModelFile& model) {
+  if (options.step) return options.step;
+  return model.time ? model.time->step : std::nullopt;
 }
 
 long step_count(double span, double longest, const io::ModelFile& model) {
@@ -153,23 +148,28 @@ std::optional<double> end_of(const SolveOptions& options, const io::ModelFile& m
   return model.time ? std::optional(model.time->end) : std::nullopt;
 }
 
-std::optional<double> wanted_step(const SolveOptions& options, const io::ModelFile& model) {
-  if (options.step) return options.step;
-  return model.time ? model.time->step : std::nullopt;
+double longest_step(const SolveOptions& options, const io::ModelFile& model, double stable) {
+  const std::optional<double> wanted = wanted_step(options, model);
+  if (wanted && *wanted > stable)
+    throw std::runtime_error(
+        fmt::format("time step {:.6g} is above the stable step {:.6g}", *wanted, stable));
+  if (!wanted && std::isinf(stable))
+    throw std::runtime_error("every node is fixed, expected at least one free");
+  return wanted.value_or(kDefaultStepFactor * stable);
 }
 
 Steps steps_to(double end, const SolveOptions& options, const io::ModelFile& model, double stable,
                const std::optional<Moment>& continued) {
   constexpr double kWhole = 0.01;  // of a step: what round-off may add up to
   const double begin = continued ? continued->time : 0.0;
-  const std::optional<double> wanted = wanted_step(options, model);
-  const double longest = longest_step(wanted, model, stable);
+  const double longest = with_name(model, [&] { return longest_step(options, model, stable); });
   if (continued) {
     const double rest = (end - begin) / continued->step;
     if (!(rest > kWhole))
       throw std::runtime_error(fmt::format(
           "{}: the saved state is at time {:.6g}, expected a later end than {:.6g}", model.file, begin, end));
-    if (std::abs(rest - std::round(rest)) <= kWhole && continued->step <= (wanted ? longest : stable))
+    if (std::abs(rest - std::round(rest)) <= kWhole &&
+        continued->step <= (wanted_step(options, model) ? longest : stable))
       return {std::lround(rest), continued->step};
   }
   const long count = step_count(end - begin, longest, model);

@@ -27,8 +27,9 @@ std::optional<double> end_of(const SolveOptions& options, const io::ModelFile& m
 Steps steps_to(double end, const SolveOptions& options, const io::ModelFile& model, double stable,
                const std::optional<io::SavedState::Moment>& continued);
 
-/// The time step that is asked for, if one is.
-std::optional<double> wanted_step(const SolveOptions& options, const io::ModelFile& model);
+/// The time step that the command line asks for, else the model, else 0.9 of the stable one.  Throws
+/// std::runtime_error, without the model's name, if that is above the stable one or no node can move.
+double longest_step(const SolveOptions& options, const io::ModelFile& model, double stable);
 
 /// The stable step, which takes 20 internal forces; printed.  Collective.
 double find_stable_step(const io::ModelFile& model, const structure::ExplicitSolver& solver, Talk talk);

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <variant>
 
+#include "io/boundary_keys.h"
 #include "model_report.h"
 #include "structure/analysis/rigid_motions.h"
 
@@ -70,15 +72,17 @@ bool is_moved(const io::ModelFile& model) {
 }
 
 std::size_t free_motions(const io::ModelFile& model) {
-  const bool has_springs =
-      std::any_of(model.boundary.begin(), model.boundary.end(), [](const auto& e) { return bool(e.spring); });
-  if (has_springs) return 0;  // which may hold it
-  NodalVectors X(3, model.nodes.node_count());
-  for (structure::Id node = 0; node < model.nodes.node_count(); ++node) {
+  const structure::Id count = model.nodes.node_count();
+  NodalVectors X(3, count);
+  for (structure::Id node = 0; node < count; ++node) {
     const auto place = model.nodes.place(node);
     X.col(node) = model.volume(place.patch).control_points.col(place.control_point);
   }
-  return structure::free_rigid_motions(X, io::supports_of(model.boundary)).size();
+  std::vector<structure::Id> columns(static_cast<std::size_t>(count));
+  std::iota(columns.begin(), columns.end(), 0);
+  return structure::free_rigid_motions(X, io::supports_of(model.boundary),
+                                       io::springs_of(model.boundary, model.geometry, model.nodes, columns))
+      .size();
 }
 
 void warn_of_conditions(const io::ModelFile& model, Warnings& warnings) {

@@ -104,7 +104,7 @@ class Analyses(unittest.TestCase):
         self.assertEqual(step(), 2e-6)
         self.assertEqual(step("--step", "1e-6"), 1e-6)
         above = self.run_model("analysis: relax", "--step", "1", code=1)
-        self.assertRegex(above, r"^ERROR: model.yaml: relax: time step 1 is above the stable step \S+$")
+        self.assertRegex(above, r"^ERROR: model.yaml: time step 1 is above the stable step \S+$")
 
     def test_loads_and_supports_of_relax_are_those_of_time_1(self):
         """As of static: a load and a support that are 0 at time 0, a load that is at its peak at time 1, one that has passed it."""

@@ -179,6 +179,10 @@ class Check(Sessions):
         for text, expected in (
             (bare, "nothing moves it"),
             (bare + "loads: {gravity: [0, 0, -9.81]}\n", "free in 6 of its 6 rigid motions: loads carry it away"),
+            (
+                bare + "boundary: [{spring: {stiffness: 1, direction: [0, 0, 1]}, faces: [zeta-]}]\nloads: {gravity: [0, 0, -9.81]}\n",
+                "free in 3 of its 6 rigid motions",
+            ),
             (thin, "patch 0 has elements 29 times as long as they are thin"),
             (plate.replace("every: 4e-7", "every: 1"), "output.every is 1, after the end 4e-06"),
             (re.sub("(?m)^output:.*\n", "", plate), "'probes' is not used"),
