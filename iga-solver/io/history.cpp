@@ -6,50 +6,33 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <set>
 #include <stdexcept>
 
+#include "geometry_io/file_lock.h"
 #include "geometry_io/regular_file.h"
 #include "io/series_file.h"
 #include "io/unit_names.h"
 
 namespace io {
 
-namespace {
-
-// The files of all histories of this process, each for as long as it is written.
-std::set<std::string>& open_files() {
-  static std::set<std::string> files;
-  return files;
-}
-
-// One name for every spelling, and for links, also to a file that is not there yet.
-std::string full_name(const std::string& path) {
-  return std::filesystem::weakly_canonical(std::filesystem::absolute(geometry_io::unfinished_name(path)))
-      .string();
-}
-
-}  // namespace
-
 std::string checked_path(const HistoryOutput& output) {
   const std::string path = output.file + ".h5";
-  for (const std::string& input : output.inputs)
-    for (const std::string& written : {path, geometry_io::unfinished_name(path)})
+  const auto fail = [&](const std::string& written, const std::string& problem) {
+    throw geometry_io::InputError(fmt::format("{}: output.file is {}: {} is {}, expected another name",
+                                              output.place, geometry_io::shown(output.file), written,
+                                              problem));
+  };
+  for (const std::string& written : {path, geometry_io::unfinished_name(path)}) {
+    for (const std::string& input : output.inputs)
       if (geometry_io::same_file(written, input))
-        throw geometry_io::InputError(
-            fmt::format("{}: output.file is {}: {} is the file {} that the model is read from and would be "
-                        "overwritten, expected another name",
-                        output.place, geometry_io::shown(output.file), written, input));
-  if (open_files().count(full_name(path)) > 0)
-    throw geometry_io::InputError(
-        fmt::format("{}: output.file is {}: {} is being written by another solid, expected another name",
-                    output.place, geometry_io::shown(output.file), path));
+        fail(written, fmt::format("the file {} that the model is read from and would be overwritten", input));
+    if (geometry_io::is_locked(written)) fail(path, "being written by another solid or run");
+  }
   return path;
 }
 
 struct History::Writer {
   SeriesFile file;
-  std::string full_path;  // since the current directory may change
   std::vector<structure::Probe> probes;
   std::vector<structure::NamedSupport> supports;
   int time, kinetic_energy, strain_energy, load_work, linear_momentum, angular_momentum, largest_displacement;
@@ -58,13 +41,7 @@ struct History::Writer {
 
   Writer(SeriesFile file_in, std::vector<structure::Probe> probes_in,
          std::vector<structure::NamedSupport> supports_in)
-      : file(std::move(file_in)),
-        full_path(full_name(file.path())),
-        probes(std::move(probes_in)),
-        supports(std::move(supports_in)) {
-    open_files().insert(full_path);
-  }
-  ~Writer() { open_files().erase(full_path); }
+      : file(std::move(file_in)), probes(std::move(probes_in)), supports(std::move(supports_in)) {}
   Writer(const Writer&) = delete;
 
   /// `series(name, width, unit)` gives a series' index.

@@ -50,7 +50,7 @@ class History {
  public:
   /// Creates `<output.file>.h5`, replacing an older one.  Throws std::runtime_error, naming the file, if that
   /// fails, and geometry_io::InputError if it is one of `output.inputs`, by whatever name or link, or the
-  /// file of another history that is there.
+  /// file of another history, of this process or another.
   History(const HistoryOutput& output, geometry_io::Units units, std::vector<structure::Probe> probes,
           std::vector<structure::NamedSupport> supports = {});
   /// Goes on with the file of an earlier run, from `time`: later rows are dropped, and come anew.  Without

@@ -22,16 +22,32 @@ constexpr hsize_t kRowsPerChunk = 1024;
 
 using SilentErrors = geometry_io::SilentHdf5Errors;
 
-hid_t create_file(const std::string& path) {
+// Of the unfinished file.  Another run's may have got its name since somebody looked.
+geometry_io::FileLock lock_new(const std::string& path) {
   const std::string problem = geometry_io::problem_as_output(path);
   if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
+  geometry_io::FileLock lock(geometry_io::unfinished_name(path));
+  if (!geometry_io::is_locked(path)) return lock;
+  geometry_io::discard_file(path);
+  throw std::runtime_error(geometry_io::in_use(path));
+}
+
+// HDF5 would lock a file itself, but only once it has emptied it.
+Hdf5Handle access_without_locks() {
+  Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+  H5Pset_file_locking(access, false, true);
+  return access;
+}
+
+hid_t create_file(const std::string& path) {
   const SilentErrors silent;
-  return H5Fcreate(geometry_io::unfinished_name(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  return H5Fcreate(geometry_io::unfinished_name(path).c_str(), H5F_ACC_TRUNC, H5P_DEFAULT,
+                   access_without_locks());
 }
 
 hid_t open_file(const std::string& path) {
   const SilentErrors silent;
-  return H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  return H5Fopen(path.c_str(), H5F_ACC_RDWR, access_without_locks());
 }
 
 }  // namespace
@@ -42,9 +58,10 @@ Result SeriesFile::check(Result result, const char* action) const {
   return result;
 }
 
-SeriesFile::SeriesFile(std::string path, hid_t file) : path_(std::move(path)), file_(file, H5Fclose) {}
+SeriesFile::SeriesFile(std::string path, geometry_io::FileLock lock, hid_t (*open)(const std::string& path))
+    : path_(std::move(path)), lock_(std::move(lock)), file_(open(path_), H5Fclose) {}
 
-SeriesFile::SeriesFile(const std::string& path) : SeriesFile(path, create_file(path)) {
+SeriesFile::SeriesFile(const std::string& path) : SeriesFile(path, lock_new(path), create_file) {
   check<hid_t>(file_, "create this file (does the folder exist, may it be written to?)");
   unfinished_ = true;
 }
@@ -54,8 +71,7 @@ SeriesFile::~SeriesFile() {
 }
 
 SeriesFile SeriesFile::open(const std::string& path) {
-  const hid_t opened = open_file(path);
-  SeriesFile file(path, opened);
+  SeriesFile file(path, geometry_io::FileLock(path), open_file);
   file.check<hid_t>(file.file_, "open this file to go on with it");
   return file;
 }

@@ -5,13 +5,15 @@
 #include <string>
 #include <vector>
 
+#include "geometry_io/file_lock.h"
 #include "geometry_io/hdf5_handle.h"
 
 namespace io {
 
 using geometry_io::Hdf5Handle;
 
-/// Every function throws std::runtime_error, naming the file, if HDF5 fails.
+/// Every function throws std::runtime_error, naming the file, if HDF5 fails.  Nobody else writes to it
+/// meanwhile.
 class SeriesFile {
  public:
   /// Creates the file; it is `path`.part, and an older file stays, until the first row is complete.
@@ -45,7 +47,7 @@ class SeriesFile {
     Hdf5Handle data_set;
     hsize_t rows, width;
   };
-  SeriesFile(std::string path, hid_t file);
+  SeriesFile(std::string path, geometry_io::FileLock lock, hid_t (*open)(const std::string& path));
   template <class Result>
   Result check(Result result, const char* action) const;
   void expect_room() const;
@@ -53,6 +55,7 @@ class SeriesFile {
   void write_attribute(hid_t object, const std::string& name, const std::string& value);
 
   std::string path_;
+  geometry_io::FileLock lock_;
   bool unfinished_ = false;  // has not its name yet
   Hdf5Handle file_;
   std::vector<Series> series_;

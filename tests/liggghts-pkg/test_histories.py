@@ -155,10 +155,19 @@ class Histories(unittest.TestCase):
             printed = self.liggghts(deck(second + "run 10\n", **FAR), ranks)
             self.assertNotEqual(self.code, 0)
             (error,) = [line for line in printed.splitlines() if line.startswith("ERROR")]
-            self.assertRegex(error, r"id again.*copy.yaml:\d+: .*block.h5 is being written by another solid.*another name")
+            self.assertRegex(error, r"id again.*copy.yaml:\d+: .*block.h5 is being written by another solid or run.*another name")
         one_after_the_other = bob.prelude(timestep=STEP, **FAR) + bob.wall() + "run 10\nunfix plate\n" + second + "run 10\n"
         for ending in ("", "clear\n" + one_after_the_other):
             self.good(one_after_the_other + ending)
+
+    def test_partitions_do_not_share_a_file(self):
+        """LIGGGHTS ends all of its partitions if one fails; each has a log of its own."""
+        self.write(model())
+        (self.folder / "in.deck").write_text(deck("run 200000\n", **FAR))
+        launcher = ["mpirun", "-n", "2", decks.NURBS, "-partition", "2x1"]
+        self.start([*launcher, "-in", "in.deck", "-log", "log"]).communicate(timeout=120)
+        logs = "".join(log.read_text(errors="replace") for log in self.folder.glob("log.*"))
+        self.assertRegex(logs, "block.h5 is being written by another solid or run")
 
     def test_a_killed_run_keeps_its_rows(self):
         self.write(model())

@@ -8,6 +8,7 @@ import re
 import subprocess
 import tempfile
 import termios
+import time
 import unittest
 from pathlib import Path
 
@@ -150,6 +151,59 @@ class Continued(Sessions):
         self.assertIn("time: {save: FILE}", self.solve(never, "--continue", code=1))
         self.assertIn("save_every is given without", self.solve(plate.replace(" save: saved.h5,", ""), code=1))
         self.assertIn("save is plate.yaml", self.solve(plate.replace("saved.h5", "plate.yaml"), code=1))
+
+
+class Together(Sessions):
+    """Two runs that write to one name: the second was the one whose history was left, and both said that all was well."""
+
+    PLATE = PLATE.replace("LAW", "linear_elastic")
+
+    def start(self) -> subprocess.Popen:
+        """A run that does not end, nor save."""
+        (self.folder / "plate.yaml").write_text(self.PLATE.replace(", save: saved.h5, save_every: 1.5e-6", ""))
+        words = [PROGRAM, "plate.yaml", "--end", "1"]
+        run = subprocess.Popen(words, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+        self.addCleanup(run.communicate)
+        self.addCleanup(run.kill)
+        return run
+
+    def wait(self, condition) -> None:
+        deadline = time.monotonic() + 60
+        while not condition():
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+
+    def test_the_second_run_is_refused_until_the_first_is_gone(self):
+        self.solve(self.PLATE.replace("end: 4e-6", "end: 4e-7"))
+        file = self.folder / "plate.h5"
+        older = file.stat().st_ino
+        first = self.start()
+        self.wait(lambda: file.stat().st_ino != older)
+        same = file.stat().st_ino
+        for words, ranks in (((), 1), ((), 2), (("--continue",), 1), (("--check",), 1)):
+            told = self.solve(self.PLATE, *words, ranks=ranks, code=1)
+            self.assertRegex(told, r"(?m)^ERROR: plate.yaml:\d+: output.file is plate: plate.h5 is being written by another solid or run")
+            self.assertEqual(told.count("ERROR"), 1)
+        self.assertEqual((file.stat().st_ino, first.poll()), (same, None))
+        first.kill()
+        first.wait()
+        self.solve(self.PLATE)
+
+    def test_of_several_at_once_one_goes_on(self):
+        runs = [self.start() for _ in range(4)]
+        self.wait(lambda: sum(run.poll() is None for run in runs) == 1)
+        self.assertEqual({run.returncode for run in runs}, {1, None})
+        (last,) = [run for run in runs if run.returncode is None]
+        self.wait((self.folder / "plate.h5").exists)
+        self.assertIsNone(last.poll())
+        last.kill()
+        last.wait()
+        self.assertEqual(self.written()["time"][0], 0)
+
+    def test_who_reads_an_older_file_is_not_in_the_way(self):
+        self.solve(self.PLATE)
+        with h5py.File(self.folder / "plate.h5"):
+            self.solve(self.PLATE)
 
 
 class Check(Sessions):
