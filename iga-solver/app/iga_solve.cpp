@@ -46,8 +46,9 @@ void run(const SolveOptions& options) {
     throw std::runtime_error(
         fmt::format("{}: --continue goes on with a motion in time, the model has an 'analysis'", model.file));
   if (options.check) return app::check_model(options, model);
-  if (const std::string modal = app::unused_modal_damping(model); !modal.empty() && app::is_first_rank())
-    fmt::print(stderr, "WARNING: {}: {}\n", model.file, modal);
+  if (app::is_first_rank())
+    for (const std::string& warning : app::warnings_of_run(model))
+      fmt::print(stderr, "WARNING: {}: {}\n", model.file, warning);
   app::check_save(model);  // a long run would be for nothing
   model.analysis ? analyse(options, model) : app::run_in_time(options, model);
 }

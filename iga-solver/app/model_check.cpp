@@ -12,6 +12,7 @@
 #include "explicit_run.h"
 #include "geometry_io/regular_file.h"
 #include "io/history.h"
+#include "loose_patches.h"
 #include "model_report.h"
 #include "nurbs/memory.h"
 #include "parallel/all_or_none.h"
@@ -34,8 +35,10 @@ double memory_taken() {
 void print_size(const io::ModelFile& model, const ExplicitSolver& solver) {
   long control_points = 0;
   for (int p = 0; p < model.patch_count(); ++p) control_points += model.volume(p).space.control_point_count();
-  print_on_first("  patches      {}, {} control points, {} nodes\n", model.patch_count(), control_points,
-                 static_cast<long>(model.nodes.node_count()));
+  const int pieces = pieces_of(model.nodes).count;
+  print_on_first("  patches      {}, {} control points, {} nodes{}\n", model.patch_count(), control_points,
+                 static_cast<long>(model.nodes.node_count()),
+                 pieces > 1 ? fmt::format(", {} pieces that are not welded to each other", pieces) : "");
   print_on_first("  memory       {} so far{}\n", nurbs::size_text(solver.halo().sum(memory_taken())),
                  model.analysis ? "; an analysis takes more" : "");
 }

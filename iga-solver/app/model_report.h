@@ -22,7 +22,7 @@ void print_warning(const io::ModelFile& model, structure::ExplicitSolver& solver
 /// `end`: of a motion in time, if it is known [time].
 std::vector<std::string> warnings_of(const io::ModelFile& model, std::optional<double> end);
 
-/// That modal damping does nothing here; empty without it.
-std::string unused_modal_damping(const io::ModelFile& model);
+/// Those of them that a run tells, too.
+std::vector<std::string> warnings_of_run(const io::ModelFile& model);
 
 }  // namespace app

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <variant>
 
 #include "io/boundary_keys.h"
+#include "loose_patches.h"
 #include "model_report.h"
 #include "structure/analysis/rigid_motions.h"
 
@@ -71,18 +71,38 @@ bool is_moved(const io::ModelFile& model) {
   return std::any_of(model.boundary.begin(), model.boundary.end(), [](const auto& e) { return e.moves; });
 }
 
-std::size_t free_motions(const io::ModelFile& model) {
-  const structure::Id count = model.nodes.node_count();
-  NodalVectors X(3, count);
-  for (structure::Id node = 0; node < count; ++node) {
-    const auto place = model.nodes.place(node);
-    X.col(node) = model.volume(place.patch).control_points.col(place.control_point);
+/// Of the nodes of a piece, which rise.
+std::size_t free_motions(const io::ModelFile& model, const std::vector<structure::Id>& nodes) {
+  NodalVectors X(3, nodes.size());
+  for (std::size_t column = 0; column < nodes.size(); ++column) {
+    const auto place = model.nodes.place(nodes[column]);
+    X.col(static_cast<Eigen::Index>(column)) =
+        model.volume(place.patch).control_points.col(place.control_point);
   }
-  std::vector<structure::Id> columns(static_cast<std::size_t>(count));
-  std::iota(columns.begin(), columns.end(), 0);
-  return structure::free_rigid_motions(X, io::supports_of(model.boundary),
-                                       io::springs_of(model.boundary, model.geometry, model.nodes, columns))
+  return structure::free_rigid_motions(X, io::supports_of(model.boundary).on(nodes),
+                                       io::springs_of(model.boundary, model.geometry, model.nodes, nodes))
       .size();
+}
+
+/// How often pieces of the body are free, and of which: "it", or the first patch of the first such piece.
+struct FreeMotions {
+  std::size_t count = 0;
+  std::string whose = {};
+};
+
+FreeMotions free_motions(const io::ModelFile& model) {
+  const Pieces pieces = pieces_of(model.nodes);
+  std::vector<std::vector<structure::Id>> nodes(pieces.count);
+  for (structure::Id node = 0; node < model.nodes.node_count(); ++node)
+    nodes[pieces.of_patch[model.nodes.place(node).patch]].push_back(node);
+  for (int piece = 0; piece < pieces.count; ++piece)
+    if (const std::size_t count = free_motions(model, nodes[piece]); count > 0) {
+      const auto first = std::find(pieces.of_patch.begin(), pieces.of_patch.end(), piece);
+      return {count, pieces.count == 1
+                         ? "it"
+                         : fmt::format("patch {} and what is welded to it", first - pieces.of_patch.begin())};
+    }
+  return {};
 }
 
 void warn_of_conditions(const io::ModelFile& model, Warnings& warnings) {
@@ -92,14 +112,11 @@ void warn_of_conditions(const io::ModelFile& model, Warnings& warnings) {
     warnings.push_back(
         model.analysis ? "nothing deforms it: no 'loads' and no support that moves"
                        : "nothing moves it: no 'loads', 'initial' velocity, 'state' or support that moves");
-  const std::size_t free = is_of(model, kModes) ? 0 : free_motions(model);
-  if (free == 0) return;
-  if (model.analysis)
-    warnings.push_back(fmt::format(
-        "'boundary' leaves it free in {} of its 6 rigid motions: there is no equilibrium to be found", free));
-  else if (loaded)
+  const FreeMotions free = is_of(model, kModes) ? FreeMotions() : free_motions(model);
+  if (free.count > 0 && (model.analysis || loaded))
     warnings.push_back(
-        fmt::format("'boundary' leaves it free in {} of its 6 rigid motions: loads carry it away", free));
+        fmt::format("'boundary' leaves {} free in {} of its 6 rigid motions: {}", free.whose, free.count,
+                    model.analysis ? "there is no equilibrium to be found" : "loads carry it away"));
 }
 
 /// Keys that are read and do nothing.
@@ -110,7 +127,6 @@ void warn_of_unused(const io::ModelFile& model, Warnings& warnings) {
   unused(!model.output && !model.analysis && !model.probes.empty(), "probes", "there is no 'output'");
   unused(!model.output && !model.analysis && !model.named_supports().empty(), "name of boundary",
          "reactions are recorded by 'output'");
-  if (const std::string modal = unused_modal_damping(model); !modal.empty()) warnings.push_back(modal);
   if (!model.analysis) return;
   const char* const why = "an 'analysis' has no motion in time";
   unused(model.time.has_value() && !(is_of(model, kRelax) && model.time->step), "time", why);
@@ -135,12 +151,16 @@ void warn_of_output(const io::ModelFile& model, std::optional<double> end, Warni
 
 }  // namespace
 
-std::string unused_modal_damping(const io::ModelFile& model) {
-  return model.modal_damping.empty() ? "" : "'damping.modal' is not used: it is of 'body modal N' in a deck";
+Warnings warnings_of_run(const io::ModelFile& model) {
+  Warnings warnings;
+  if (!model.modal_damping.empty())
+    warnings.emplace_back("'damping.modal' is not used: it is of 'body modal N' in a deck");
+  if (std::string gap = almost_welded(model); !gap.empty()) warnings.push_back(std::move(gap));
+  return warnings;
 }
 
 Warnings warnings_of(const io::ModelFile& model, std::optional<double> end) {
-  Warnings warnings;
+  Warnings warnings = warnings_of_run(model);
   warn_of_conditions(model, warnings);
   warn_of_thin_elements(model, warnings);
   warn_of_unused(model, warnings);

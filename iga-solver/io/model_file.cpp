@@ -57,6 +57,10 @@ structure::Integration read_integration(const YamlMap& map) {
   return integration;
 }
 
+bool wants_welds(const YamlMap& document) {
+  return !document.has("weld") || document.word_of("weld", {"yes", "no"}) == "yes";
+}
+
 /// Volumes alone, and what of them is welded.
 structure::NodeNumbering read_welds(const YamlMap& document, const geometry_io::GeometryFile& geometry) {
   std::vector<nurbs::Volume> volumes;
@@ -66,8 +70,7 @@ structure::NodeNumbering read_welds(const YamlMap& document, const geometry_io::
                     "geometry is a surface, expected a volume: a solid with a material needs one");
     volumes.push_back(std::get<nurbs::Volume>(patch));
   }
-  if (document.has("weld") && document.word_of("weld", {"yes", "no"}) == "no")
-    return structure::without_welds(volumes);
+  if (!wants_welds(document)) return structure::without_welds(volumes);
   try {
     return structure::weld(volumes);
   } catch (const std::invalid_argument& error) {
@@ -84,8 +87,8 @@ ModelFile read_required(const YamlMap& document, const geometry_io::ReadFile& re
       geometry_io::read_geometry(document, geometry_io::geometry_opener(read));
   structure::NodeNumbering nodes = read_welds(document, geometry);
   const int patches = static_cast<int>(geometry.patches.size());
-  return {document.file(), document.line_of("geometry"), std::move(geometry), std::move(nodes),
-          read_materials(document, patches)};
+  return {document.file(),  document.line_of("geometry"),      std::move(geometry),
+          std::move(nodes), read_materials(document, patches), wants_welds(document)};
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ struct ModelFile {
   geometry_io::GeometryFile geometry;                                 ///< holds Volumes alone
   structure::NodeNumbering nodes;                                     ///< of their control points
   std::vector<std::shared_ptr<const structure::Material>> materials;  ///< of each patch
+  bool welds = true;                                                  ///< unless `weld: no`
   structure::Integration integration = {};
   std::vector<BoundaryEntry> boundary = {};
   std::vector<structure::Probe> probes = {};  ///< in the order of the file

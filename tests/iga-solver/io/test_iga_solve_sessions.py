@@ -33,6 +33,18 @@ initial: {velocity: [1, 0, -10]}
 time: {end: 4e-6, save: saved.h5, save_every: 1.5e-6}
 """
 
+# elements 0.025 wide
+TWO_BOXES = """units: si
+geometry:
+  shapes:
+    - box: {origin: [0, 0, 0], size: [0.1, 0.1, 0.1], elements: [4, 4, 4], degree: 2}
+    - box: {origin: [GAP, 0, 0], size: [0.1, 0.1, 0.1], elements: [4, 4, 4], degree: 2}
+material: {law: linear_elastic, youngs_modulus: 7.4e10, poissons_ratio: 0.23, density: 2480}
+boundary: [{fix: [x, y, z], faces: [xi-], patch: 0}]
+loads: {gravity: [0, 0, -9.81]}
+time: {end: 1e-6}
+"""
+
 
 class Sessions(unittest.TestCase):
     def setUp(self):
@@ -245,6 +257,30 @@ class Check(Sessions):
         ):
             with self.subTest(expected):
                 self.assertRegex(self.solve(text, "--check"), f"(?m)^WARNING: plate.yaml: .*{expected}")
+
+    def test_patches_that_a_gap_keeps_apart(self):
+        def told(gap: float, *words: str, more: str = "") -> tuple:
+            (self.folder / "two.yaml").write_text(TWO_BOXES.replace("GAP", repr(0.1 + gap)) + more)
+            command = [PROGRAM, "two.yaml", *words]
+            done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=60, check=True)
+            pieces = re.search("(?m)^  patches .*nodes(.*)", done.stdout)
+            return pieces and pieces[1], [line for line in (done.stdout + done.stderr).splitlines() if "falls into" in line]
+
+        for gap, shown in ((1e-7, "is 1e-07 from"), (1e-3, "is 0.001 from"), (-1e-3, "touches")):
+            for words in (("--check",), ()):
+                pieces, (warning,) = told(gap, *words)
+                self.assertRegex(warning, f"^WARNING: two.yaml: the body falls into 2 pieces: face '. [a-z]+.' {shown} face '. xi.'")
+        self.assertEqual(told(0.0, "--check"), ("", []))
+        for gap in (5e-3, 10.0):
+            self.assertEqual(told(gap, "--check"), (", 2 pieces that are not welded to each other", []))
+        self.assertEqual(told(0.0, "--check", more="weld: no\n")[1], [])
+
+    def test_a_piece_that_nothing_holds(self):
+        (self.folder / "two.yaml").write_text(TWO_BOXES.replace("GAP", "1"))
+        self.assertIn(
+            "WARNING: two.yaml: 'boundary' leaves patch 1 and what is welded to it free in 6 of its 6 rigid motions: loads carry it away",
+            subprocess.check_output([PROGRAM, "two.yaml", "--check"], cwd=self.folder, text=True, timeout=60),
+        )
 
     def test_errors_are_those_of_a_run(self):
         plate = PLATE.replace("LAW", "linear_elastic")
