@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "structure/analysis/held.h"
+
 namespace structure {
 
 namespace {
@@ -25,6 +27,7 @@ double relative_residual(const ExplicitSolver& solver, double conditions_time, N
 
 RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
                 const std::function<void(const RelaxPeak&)>& on_peak) {
+  expect_held("relax", solver.body(), solver.supports(), solver.springs());
   const NodalVectors none = NodalVectors::Zero(3, solver.body().node_count());
   NodalVectors f = none;
   double kinetic = 0.0;

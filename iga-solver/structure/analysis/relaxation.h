@@ -25,7 +25,8 @@ struct RelaxPeak {
 };
 
 /// From the solver's state to rest under its loads, with its time step, which is set.  Gives the last peak.
-/// Throws std::runtime_error if it takes more steps, Diverged as the solver.
+/// Throws NoEquilibrium if the supports leave the body a rigid motion, std::runtime_error if it takes more
+/// steps, Diverged as the solver.
 RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
                 const std::function<void(const RelaxPeak&)>& on_peak = {});
 

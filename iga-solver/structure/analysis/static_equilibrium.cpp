@@ -10,22 +10,8 @@
 #include <utility>
 
 #include "structure/analysis/conjugate_gradients.h"
-#include "structure/analysis/rigid_motions.h"
 
 namespace structure {
-
-namespace {
-
-void expect_held(const Body& body, const Supports& supports, const Springs& springs) {
-  const std::size_t free = free_rigid_motions(body.reference(), supports, springs).size();
-  if (free > 0)
-    throw NoEquilibrium(
-        fmt::format("static: the supports{} leave the body free in {} of its 6 rigid motions, expected none: "
-                    "fix more faces or directions in 'boundary'",
-                    springs.empty() ? "" : " and springs", free));
-}
-
-}  // namespace
 
 StaticEquilibrium::StaticEquilibrium(const Body& body, const Supports& supports, Loads loads,
                                      const StaticOptions& options, const Springs& springs)
@@ -39,7 +25,7 @@ StaticEquilibrium::StaticEquilibrium(const Body& body, const Supports& supports,
       force_(u_),
       load_(u_),
       tangent_(body, supports, u_, 0.0, springs) {
-  expect_held(body, supports, springs);
+  expect_held("static", body, supports, springs);
   stiffness_ = mean_stiffness();
   preconditioner_ = make_preconditioner(tangent_, options.preconditioner);
 }

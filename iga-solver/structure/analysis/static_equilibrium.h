@@ -13,6 +13,7 @@
 #include <string>
 
 #include "structure/analysis/choose_preconditioner.h"
+#include "structure/analysis/held.h"
 
 namespace structure {
 
@@ -30,11 +31,6 @@ struct NewtonIteration {
   double residual;     ///< forces out of balance, relative
   int products;        ///< of the tangent
   double step_length;  ///< of the line search, 1: Newton's own
-};
-
-/// No equilibrium was found, or there is none; what() says where, how far off, and what to try.
-struct NoEquilibrium : std::runtime_error {
-  using std::runtime_error::runtime_error;
 };
 
 class StaticEquilibrium {

@@ -241,9 +241,13 @@ output: {{{{file: out}}}}
                 text = MODEL.replace("[1e6, 0, 0]", "[1/(t-1), 0, 0]") if "finite" in expected else MODEL
                 self.assertIn(expected, self.run_model(more, text=text, code=1))
         free = MODEL.replace("boundary: [{{name: wall, fix: [x, y, z], faces: [xi-]}}, ", "boundary: [")
-        self.assertIn("free in 1 of its 6 rigid motions", self.run_model("analysis: static", text=free, code=1))
+        for kind in ("static", "relax"):
+            told = self.run_model(f"analysis: {kind}", text=free, code=1)
+            self.assertIn(f"{kind}: the supports leave the body free in 1 of its 6 rigid motions", told)
         standing = free.replace("boundary: [", "boundary: [{{spring: {{stiffness: 1e5, direction: [0, 0, 1]}}, faces: [zeta-]}}, ")
-        self.assertIn("and springs leave the body free in 1 of its 6", self.run_model("analysis: static", text=standing, code=1))
+        for kind in ("static", "relax"):
+            told = self.run_model(f"analysis: {kind}", text=standing, code=1)
+            self.assertIn(f"{kind}: the supports and springs leave the body free in 1 of its 6", told)
         self.assertIn("runs on one rank", self.run_model("analysis: static", ranks=2, code=1))
 
     def test_a_state_of_another_mesh_is_refused(self):
