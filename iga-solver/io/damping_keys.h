@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "geometry_io/yaml_map.h"
+#include "geometry_io/geometry_file.h"
 
 namespace io {
 
@@ -14,7 +14,7 @@ struct DampingKeys {
   std::vector<double> modal = {};  ///< of critical damping, of the first modes; the last of all others
 };
 
-/// Throws geometry_io::InputError.
-DampingKeys read_damping(const geometry_io::YamlMap& map);
+/// Of volumes.  Throws geometry_io::InputError.
+DampingKeys read_damping(const geometry_io::YamlMap& map, const geometry_io::GeometryFile& geometry);
 
 }  // namespace io

@@ -121,7 +121,7 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   if (document.has("initial"))
     model.initial_velocity = read_initial_velocity(document.map("initial", "{velocity: [0, 0, 0]}"));
   if (document.has("damping")) {
-    const DampingKeys damping = read_damping(document.map("damping"));
+    const DampingKeys damping = read_damping(document.map("damping"), model.geometry);
     model.mass_damping = damping.mass;
     model.modal_damping = damping.modal;
     if (damping.stiffness > 0.0) add_viscosity(damping.stiffness, model.materials);

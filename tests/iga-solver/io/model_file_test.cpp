@@ -206,6 +206,25 @@ TEST(ModelFile, RefusesBadInputInOneLineThatNamesFileLineGivenAndExpected) {
   }
 }
 
+/// A viscous law is the key's own doing, not the geometry's.
+TEST(ModelFile, TellsWhereDampingByTheStiffnessNeedsOneDegree) {
+  const std::string text = R"(units: si
+geometry:
+  shapes:
+    - box: {origin: [0, 0, 0], size: [1, 1, 1], elements: [1, 1, 1], degree: 2}
+    - box: {origin: [5, 0, 0], size: [1, 1, 1], elements: [1, 1, 1], degree: 3}
+material: {law: linear_elastic, youngs_modulus: 1, poissons_ratio: 0.3, density: 1}
+damping:
+  mass: 1
+  stiffness: 1e-3
+)";
+  EXPECT_THAT(
+      [&] { io::build_solver(io::parse_model_file(text, "two.yaml")); },
+      testing::ThrowsMessage<geometry_io::InputError>(testing::AllOf(
+          testing::StartsWith("two.yaml:9: damping.stiffness is given where patches 0 and 1 have degrees"),
+          HasSubstr("2 2 2 and 3 3 3"))));
+}
+
 std::string with_material(const std::string& material) {
   const std::size_t begin = kPlate.find("material:"), end = kPlate.find("boundary:");
   return std::string(kPlate).replace(begin, end - begin, "material: {" + material + "}\n");
