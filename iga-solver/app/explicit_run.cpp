@@ -74,6 +74,8 @@ class RunOutput {
                      model.named_supports());
     if (model.output->fields) fields_.emplace(MPI_COMM_WORLD, model);
   }
+  /// Of a run that goes on from what this one saves.
+  void set_next_step(double size) { next_step_ = size; }
   /// Goes on with what an earlier run has written.
   void resume() {
     if (history_) history_->resume();
@@ -99,12 +101,14 @@ class RunOutput {
  private:
   void save(const ExplicitSolver& solver) {
     io::SavedState state = io::moment_of(solver);
+    state.moment->step = next_step_;
     state.settings = model_.settings;
     parallel::on_first_rank(MPI_COMM_WORLD,
                             [&] { io::write_state(*model_.time->save, model_.geometry.units, state); });
   }
 
   const io::ModelFile& model_;
+  double next_step_ = 0.0;
   std::optional<parallel::SharedHistory> history_;
   std::optional<parallel::SharedFields> fields_;
   std::optional<io::OutputTimes> saves_;
@@ -170,10 +174,11 @@ Steps steps_to(double end, const SolveOptions& options, const io::ModelFile& mod
           "{}: the saved state is at time {:.6g}, expected a later end than {:.6g}", model.file, begin, end));
     if (std::abs(rest - std::round(rest)) <= kWhole &&
         continued->step <= (wanted_step(options, model) ? longest : stable))
-      return {std::lround(rest), continued->step};
+      return {std::lround(rest), continued->step, continued->step};
   }
   const long count = step_count(end - begin, longest, model);
-  return {count, (end - begin) / static_cast<double>(count)};
+  const double size = (end - begin) / static_cast<double>(count);
+  return {count, size, count == 1 ? longest : size};
 }
 
 double find_stable_step(const io::ModelFile& model, const ExplicitSolver& solver, Talk talk) {
@@ -216,6 +221,7 @@ void run_in_time(const SolveOptions& options, io::ModelFile& model) {
     solver.expect_finite_conditions(*end);
   });
   solver.set_time_step(steps.size);
+  output.set_next_step(steps.next_size);
   if (prints) print_on_first("  time step    {:.6g}, {} steps\n", steps.size, steps.count);
   begin(solver, continued, model);
   make_steps(solver, steps, model, options.talk, output);

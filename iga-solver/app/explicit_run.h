@@ -15,7 +15,8 @@ namespace app {
 /// Time steps from the solver's time to the end.
 struct Steps {
   long count;
-  double size;  ///< [time]
+  double size;       ///< [time]
+  double next_size;  ///< of a run that goes on from the end: longer, if there was no room for a whole step
 };
 
 /// The model's, or the command line's; nothing if neither has one.

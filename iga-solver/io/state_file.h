@@ -24,8 +24,8 @@ struct SavedState {
   std::string file;  ///< for messages
   nurbs::NodalVectors reference, displacement, velocity;
   std::vector<double> memory;
-  /// Of a motion: when it was saved, its time step [time], and what forces had done (ExplicitSolver's
-  /// save_work_done).
+  /// Of a motion: when it was saved, the time step to go on with [time], and what forces had done
+  /// (ExplicitSolver's save_work_done).
   struct Moment {
     double time, step;
     std::vector<double> work;

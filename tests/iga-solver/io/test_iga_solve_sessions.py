@@ -107,6 +107,18 @@ class Continued(Sessions):
         with h5py.File(self.folder / "plate.h5") as file:
             np.testing.assert_allclose(file["time"], 4e-7 * np.arange(16), atol=8e-8)
 
+    def test_after_less_than_a_step_steps_are_those_of_a_new_run(self):
+        def step(*words: str) -> float:
+            return float(re.search(r"time step +(\S+),", self.solve(PLATE.replace("LAW", "linear_elastic"), *words))[1])
+
+        new = step("--end", "4e-6")
+        self.assertEqual(step("--end", "1e-12"), 1e-12)
+        self.assertAlmostEqual(step("--continue", "--end", "4e-6"), new, delta=1e-5 * new)
+        self.assertAlmostEqual(step("--continue", "--end", "4.01e-6"), 1e-8, delta=1e-12)  # no room for more
+        self.assertGreater(step("--continue", "--end", "8e-6"), 0.9 * new)
+        self.assertEqual(step("--step", "1e-8", "--end", "1e-8"), 1e-8)  # asked for, and whole
+        self.assertEqual(step("--continue", "--end", "1e-7"), 1e-8)
+
     def test_a_changed_model_is_told(self):
         plate = PLATE.replace("LAW", "linear_elastic").replace("end: 4e-6", "end: 1.5e-6")
         self.solve(plate)
