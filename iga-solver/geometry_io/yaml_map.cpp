@@ -188,6 +188,12 @@ std::vector<std::string> YamlMap::words(const std::string& key) const {
   return words;
 }
 
+std::vector<std::string> YamlMap::some_words(const std::string& key, const std::string& known) const {
+  std::vector<std::string> words = this->words(key);
+  if (words.empty()) fail(key, fmt::format("{} is empty, expected some of: {}", name_of(key), known));
+  return words;
+}
+
 double YamlMap::number(const std::string& key, Range range) const {
   return read_number(value(key), name_of(key), range);
 }
@@ -253,6 +259,9 @@ double YamlMap::read_number(const YamlNode& node, const std::string& name, Range
   if (!nurbs::is_usable(x))
     fail_at(node, fmt::format("{} is {}, expected a number of at most {} in size", name, described(node),
                               nurbs::kLargestNumber));
+  if (range.low == 0.0 && 0.0 < x && x < nurbs::kSmallestNumber)
+    fail_at(node, fmt::format("{} is {}, expected a number of at least {}", name, described(node),
+                              nurbs::kSmallestNumber));
   return x;
 }
 

@@ -49,6 +49,8 @@ class YamlMap {
   std::string word(const std::string& key) const;
   std::string word_of(const std::string& key, std::initializer_list<const char*> allowed) const;
   std::vector<std::string> words(const std::string& key) const;
+  /// Not none; `known`: for the message.
+  std::vector<std::string> some_words(const std::string& key, const std::string& known) const;
   double number(const std::string& key, Range range = {}) const;
   int integer(const std::string& key, int low, int high) const;
   nurbs::Vector3 vector3(const std::string& key) const;

@@ -23,7 +23,7 @@ constexpr const char* kAxes[] = {"x", "y", "z"};
 structure::Directions read_directions(const YamlMap& map) {
   structure::Directions directions{false, false, false};
   if (!map.is_list("fix")) map.fail("fix", "fix is not a list, expected some of x, y, z: [x, y, z]");
-  for (const std::string& word : map.words("fix")) {
+  for (const std::string& word : map.some_words("fix", "x, y, z")) {
     if (word != "x" && word != "y" && word != "z")
       map.fail("fix", fmt::format("fix has '{}', expected a list of x, y, z", word));
     directions[word[0] - 'x'] = true;
@@ -49,6 +49,7 @@ structure::Directions read_symmetry(const YamlMap& map, const nurbs::Volume& pat
 void read_motion(const YamlMap& entry, BoundaryEntry& support) {
   const YamlMap map = entry.map("move", "{z: 1e-3}");
   map.allow_only({"x", "y", "z"});
+  if (map.keys().empty()) entry.fail("move", "move is empty, expected some of x, y, z: {z: 1e-3}");
   support.moves = true;
   for (int i = 0; i < 3; ++i) {
     support.directions[i] = map.has(kAxes[i]);

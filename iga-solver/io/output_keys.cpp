@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 
+#include "geometry_io/regular_file.h"
 #include "io/field_places.h"
 #include "io/solid_fields.h"
 
@@ -18,9 +21,7 @@ namespace {
 /// Words that are each one of `known`, none twice.
 std::vector<std::string> words_of(const YamlMap& map, const std::string& key,
                                   const std::vector<std::string>& known) {
-  std::vector<std::string> words = map.words(key);
-  if (words.empty())
-    map.fail(key, fmt::format("{} is empty, expected some of: {}", key, fmt::join(known, ", ")));
+  std::vector<std::string> words = map.some_words(key, fmt::format("{}", fmt::join(known, ", ")));
   for (auto word = words.begin(); word != words.end(); ++word) {
     if (std::find(known.begin(), known.end(), *word) == known.end()) {
       const std::string nearest = geometry_io::nearest_word(*word, known);
@@ -58,6 +59,29 @@ FieldOutput read_fields(const YamlMap& output, const geometry_io::GeometryFile& 
   return fields;
 }
 
+/// Of files whose names begin so: a file system takes some 255 bytes, with what is put behind it.
+void expect_stem(const YamlMap& map, const HistoryOutput& output) {
+  const std::string last = std::filesystem::path(output.file).filename().string();
+  if (last.empty() || last == "." || last == "..")
+    map.fail(
+        "file",
+        fmt::format("output.file is '{}', which ends with no name, expected that of a file to begin with",
+                    geometry_io::shown(output.file)));
+  std::vector<std::string> ends{".h5"};
+  if (output.fields)
+    for (const std::string& place : output.fields->on)
+      ends.push_back(fmt::format("_{}_{}.vtu", place, std::numeric_limits<long>::max()));
+  for (const std::string& end : ends) {
+    std::error_code problem;
+    static_cast<void>(std::filesystem::status(geometry_io::unfinished_name(output.file + end), problem));
+    if (problem == std::errc::filename_too_long)
+      map.fail("file",
+               fmt::format("output.file has a name of {} bytes in a path of {}, expected one that is short "
+                           "enough for the file system with '{}' and '.part' behind it",
+                           last.size(), output.file.size(), end));
+  }
+}
+
 }  // namespace
 
 HistoryOutput read_output(const YamlMap& output, const geometry_io::GeometryFile& geometry,
@@ -66,6 +90,7 @@ HistoryOutput read_output(const YamlMap& output, const geometry_io::GeometryFile
   HistoryOutput result{interval(output, without_time), output.word("file"),
                        fmt::format("{}:{}", output.file(), output.line_of("file")), inputs};
   if (output.has("fields")) result.fields = read_fields(output, geometry, without_time);
+  expect_stem(output, result);
   return result;
 }
 

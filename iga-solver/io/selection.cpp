@@ -27,7 +27,8 @@ nurbs::Face face_of(const YamlMap& map, const std::string& key, const std::strin
 
 std::vector<nurbs::Face> read_faces(const YamlMap& map, const std::string& key) {
   std::vector<nurbs::Face> faces;
-  for (const std::string& name : map.words(key)) faces.push_back(face_of(map, key, name));
+  for (const std::string& name : map.some_words(key, "xi-, xi+, eta-, eta+, zeta-, zeta+"))
+    faces.push_back(face_of(map, key, name));
   return faces;
 }
 
@@ -64,7 +65,11 @@ void expect_faces(const YamlMap& map, const std::string& key, const std::vector<
 
 std::vector<int> read_patches(const YamlMap& map, const GeometryFile& geometry) {
   const int patches = static_cast<int>(geometry.patches.size());
-  if (map.has("patch") && map.is_list("patch")) return map.integers("patch", 0, patches - 1);
+  if (map.has("patch") && map.is_list("patch")) {
+    std::vector<int> some = map.integers("patch", 0, patches - 1);
+    if (some.empty()) map.fail("patch", fmt::format("patch is empty, expected some of 0 to {}", patches - 1));
+    return some;
+  }
   if (map.has("patch") || !map.has("box")) return {read_patch(map, geometry)};
   std::vector<int> all(patches);
   std::iota(all.begin(), all.end(), 0);

@@ -119,6 +119,7 @@ struct BadInput {
 };
 
 TEST(ModelFile, RefusesBadInputInOneLineThatNamesFileLineGivenAndExpected) {
+  const std::string long_name = "file: " + std::string(300, 'a');
   const BadInput table[] = {
       {"density: 7850", "density: -7850", 4, {"density", "-7850", "> 0"}},
       {"density: 7850", "density: heavy", 4, {"density", "heavy", "number"}},
@@ -156,6 +157,15 @@ TEST(ModelFile, RefusesBadInputInOneLineThatNamesFileLineGivenAndExpected) {
        {"jelly", "linear_elastic", "saint_venant_kirchhoff", "neo_hooke", "orthotropic_elastic"}},
       {"units: si", "units: imperial", 1, {"imperial", "si", "cgs", "mm-g-ms", "mm-t-s"}},
       {"fix: [z]", "fix: [w]", 7, {"'w'", "x, y, z"}},
+      {"fix: [z]", "fix: []", 7, {"fix is empty", "expected some of: x, y, z"}},
+      {"{fix: [z],", "{move: {},", 7, {"move is empty", "expected some of x, y, z"}},
+      {"faces: [zeta-]", "faces: []", 7, {"faces is empty", "expected some of: xi-, xi+"}},
+      {"faces: [zeta-]", "faces: [zeta-], patch: []", 7, {"patch is empty", "expected some of 0 to 0"}},
+      {"density: 7850", "density: 1e-320", 4, {"density", "1e-320", "at least 1e-100"}},
+      {"file: plate", "file: /", 12, {"file is '/'", "ends with no name"}},
+      {"file: plate", "file: out/", 12, {"file is 'out/'", "ends with no name"}},
+      {"file: plate", "file: out/..", 12, {"file is 'out/..'", "ends with no name"}},
+      {"file: plate", long_name.c_str(), 12, {"file has a name of 300 bytes", "'.h5' and '.part'"}},
       {"faces: [zeta-]", "faces: [bottom]", 7, {"bottom", "zeta-"}},
       {"faces: [zeta-]", "face: [zeta-]", 7, {"face", "did you mean", "faces"}},
       {"face: zeta-", "face: lower", 11, {"lower", "zeta-"}},
