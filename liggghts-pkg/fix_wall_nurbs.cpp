@@ -195,6 +195,10 @@ void FixWallNurbs::createMulticontactData() {
 ------------------------------------------------------------------------- */
 
 void FixWallNurbs::setup(int vflag) {
+  or_fail([&] {
+    if (output_) output_->begin_run(update->ntimestep);
+    if (stl_) stl_->begin_run(update->ntimestep);
+  });
   structure_.begin_run();  // not in init: LIGGGHTS knows only now which computes its variables need
   loop_.wall().import();
   is_read_locally_ = may_be_read_locally();

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "output_words.h"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
+
 #include "keyword_table.h"
 
 namespace liggghts_pkg {
@@ -30,6 +34,15 @@ Selection read_fields(WordReader& words) {
 }
 
 }  // namespace
+
+void expect_no_way_back(const std::string& keyword, const std::string& file, std::optional<long> written,
+                        long step) {
+  if (!written || step >= *written) return;
+  throw std::runtime_error(fmt::format(
+      "'{} {}' has written step {}, a run begins at {} and would write over its files: expected no "
+      "reset_timestep back, or the fix defined anew, after unfix, with another name",
+      keyword, file, *written, step));
+}
 
 std::vector<std::string> output_fields() { return words_of(kOutputFields); }
 

@@ -30,6 +30,11 @@ struct StlOptions {
 /// Reads what stands after `stl`.  Throws as above.
 StlOptions read_stl(WordReader& words);
 
+/// Files are named by their steps: where a run begins before the last one that `keyword` has `written` to
+/// `file`, it would write over some.  Throws std::runtime_error.
+void expect_no_way_back(const std::string& keyword, const std::string& file, std::optional<long> written,
+                        long step);
+
 /// The words after `fields`.
 std::vector<std::string> output_fields();
 

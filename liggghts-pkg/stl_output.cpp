@@ -25,7 +25,7 @@ void StlOutput::write(long step) {
     vtk::write_stl(fmt::format("{}_{}.stl", options_.file, step),
                    std::filesystem::path(options_.file).filename().string(), triangles_.in_space());
   });
-  at_beginning_ = false;
+  written_ = step;
 }
 
 }  // namespace liggghts_pkg

@@ -5,6 +5,7 @@
 
 #include <mpi.h>
 
+#include <optional>
 #include <string>
 
 #include "output_words.h"
@@ -20,7 +21,9 @@ class StlOutput {
 
   bool is_due(long step) const { return step % options_.every == 0; }
   /// Nothing has been written yet.
-  bool at_beginning() const { return at_beginning_; }
+  bool at_beginning() const { return !written_; }
+  /// Throws std::runtime_error if a run that begins at `step` would write over files.
+  void begin_run(long step) const { expect_no_way_back("stl", options_.file, written_, step); }
   /// Collective.  Throws std::runtime_error on every rank if rank 0 cannot write.
   void write(long step);
 
@@ -28,7 +31,7 @@ class StlOutput {
   MPI_Comm comm_;
   StlOptions options_;
   WallTriangles triangles_;
-  bool at_beginning_ = true;
+  std::optional<long> written_;  // the last step
 };
 
 }  // namespace liggghts_pkg

@@ -18,7 +18,7 @@ void WallOutput::begin_step(bool setup, double time) {
   if (saved_time_) earlier_ = *saved_time_ - time;
   saved_time_.reset();
   setup_ = setup;
-  sampling_ = !setup || at_beginning_;
+  sampling_ = !setup || at_beginning();
   if (!sampling_) return;
   if (!options_.average) fields_->begin_interval();
   fields_->begin_sample();
@@ -38,7 +38,7 @@ void WallOutput::write(long step, double time, const coupling::NodalVectors& con
     std::visit([&](const auto& fields) { series_.write(step, earlier_ + time, fields); }, state);
   });
   fields_->begin_interval();
-  at_beginning_ = false;
+  written_ = step;
 }
 
 std::vector<double> WallOutput::save(double time) const {
@@ -55,7 +55,7 @@ void WallOutput::load(std::vector<double> state, long step) {
   }
   fields_->load(state);
   on_first_rank(comm_, [&] { series_.resume(step); });
-  at_beginning_ = false;
+  written_ = step;
 }
 
 std::unique_ptr<coupling::ContactFields> fields_on(MPI_Comm comm, const coupling::ContactSurface& surface,

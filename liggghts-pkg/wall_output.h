@@ -26,7 +26,9 @@ class WallOutput {
   void begin_step(bool setup, double time);
   void add(const coupling::SurfaceContact& contact);
   /// The first state is still to be written, at the end of setup.
-  bool at_beginning() const { return at_beginning_; }
+  bool at_beginning() const { return !written_; }
+  /// Throws std::runtime_error if a run that begins at `step` would write over states of the series.
+  void begin_run(long step) const { expect_no_way_back("output", options_.file, written_, step); }
 
   /// Collective, as all that follows.  Writes the state and begins the next interval; arguments as in
   /// ContactFields::state.  Throws std::runtime_error on every rank if rank 0 cannot write.
@@ -45,7 +47,8 @@ class WallOutput {
   vtk::Series series_;
   double earlier_ = 0.0;              // time of the runs before the restart file
   std::optional<double> saved_time_;  // of that file, until the next run begins
-  bool at_beginning_ = true, sampling_ = false, setup_ = false;
+  std::optional<long> written_;       // the last step
+  bool sampling_ = false, setup_ = false;
 };
 
 /// Of patches or of triangles.  Every rank, from the undeformed surface (3 x n control points of patches).

@@ -2,6 +2,7 @@
 """`output` of fix wall/nurbs: the fields' integrals are the wall's forces, wear is that of LIGGGHTS' own mesh wall, and
 the series survives restarts and does not depend on the number of ranks."""
 
+import re
 import tempfile
 import unittest
 from pathlib import Path
@@ -119,6 +120,20 @@ class WallOutput(unittest.TestCase):
         self.assertEqual([path.name for path in listed.values()], ["floor_0.vtu", "floor_50.vtu", "floor_100.vtu"])
         np.testing.assert_allclose(list(listed), [0.0, 5e-5, 1e-4], rtol=1e-12)
         self.assertEqual(len(list(Path(self.folder).iterdir())), 4, "no unfinished file")
+
+    def test_a_step_that_is_set_back_writes_over_nothing(self):
+        series, first = Path(self.folder) / "floor.pvd", BALLS + wall(self.folder, 50, f"stl {self.folder}/floor every 50") + "run 100\n"
+        for words, file in (("", "output"), (f"stl {self.folder}/other every 50", "stl")):
+            line = wall(self.folder, 50, words)
+            if file == "stl":
+                line = re.sub("output .*every 50 stl", "stl", line)
+            for ranks in (1, 2):
+                run = decks.run(BALLS + line + "run 100\nreset_timestep 0\nrun 100\n", files={"floor.yaml": FLOOR}, ranks=ranks)
+                self.assertNotEqual(run.code, 0)
+                (error,) = run.errors
+                self.assertRegex(error, rf"'{file} .*/\w+' has written step 100, a run begins at 0 .*reset_timestep")
+        self.run_deck(first + "reset_timestep 100\nrun 50\nreset_timestep 1000\nrun 50\n")
+        self.assertEqual([path.name for path in vtu.series(series).values()], [f"floor_{s}.vtu" for s in (0, 50, 100, 150, 1050)])
 
     def test_two_walls_do_not_share_a_series(self):
         for name, ranks in (("floor", 1), ("./floor", 1), ("floor", 2)):
