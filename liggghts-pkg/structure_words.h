@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The words after `structure`: the file, and what is to be done with the solid in it; or a plug-in.
+// What is to be done with the solid of `structure`, and the plug-in that may stand in its place.
 #pragma once
 
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "coupling/solid_options.h"
 #include "word_reader.h"
 
 namespace liggghts_pkg {
 
-/// Reads as many as are ours.  Throws std::invalid_argument: what was given, what was expected.
-coupling::SolidOptions read_solid(WordReader& words);
+/// What stands after `state` and after `body`.  Throws std::invalid_argument: what was given, what was
+/// expected.
+void read_state(WordReader& words, coupling::SolidOptions& solid);
+void read_modes(WordReader& words, coupling::SolidOptions& solid);
 
 /// What `structure plugin LIBRARY MODEL` names, in place of a file.
 struct PluginWords {
@@ -20,8 +21,5 @@ struct PluginWords {
 };
 /// Nothing if the next word is not `plugin`.  Throws as above.
 std::optional<PluginWords> read_plugin(WordReader& words);
-
-/// As the manual shows them: "state STATE", "plugin LIBRARY MODEL".
-std::vector<std::string> solid_syntax();
 
 }  // namespace liggghts_pkg

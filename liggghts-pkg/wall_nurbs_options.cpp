@@ -48,7 +48,6 @@ void read_body(const Reading& in, WallNurbsOptions::Body body) {
     }
   }
   in.options.file = in.words.value("a file");
-  if (body == WallNurbsOptions::Body::iga) in.options.solid = read_solid(in.words);
 }
 
 void read_search(const Reading& in) {
@@ -112,6 +111,8 @@ constexpr Keyword<void(const Reading&)> kWallKeywords[] = {
      }},
     {"structure", "structure FILE", [](const Reading& in) { read_body(in, WallNurbsOptions::Body::iga); }},
     {"geometry", "geometry FILE", [](const Reading& in) { read_body(in, WallNurbsOptions::Body::rigid); }},
+    {"state", "state STATE", [](const Reading& in) { read_state(in.words, in.options.solid); }},
+    {"body", "body modal N", [](const Reading& in) { read_modes(in.words, in.options.solid); }},
     {"keep", "keep KEPT.h5", read_kept},
     {"surface", "surface NAME",
      [](const Reading& in) { in.options.surface = in.words.value("the name of a surface in the file"); }},
@@ -180,6 +181,15 @@ void check_kept(const WallNurbsOptions& options) {
         rigid ? "geometry" : "structure", options.file));
 }
 
+void check_solid(const WallNurbsOptions& options) {
+  if (options.body == WallNurbsOptions::Body::iga) return;
+  const char* const given = options.body == WallNurbsOptions::Body::rigid ? "geometry" : "structure plugin";
+  for (const auto& [is_given, words] : {std::pair{!options.solid.state.empty(), "state"},
+                                        std::pair{options.solid.modes.has_value(), "body modal"}})
+    if (is_given)
+      fail(fmt::format("'{}' is for a solid of ours, given '{}', expected 'structure FILE'", words, given));
+}
+
 // Said at once: what is not shown to be right is refused.
 void check_compliance(const WallNurbsOptions& options) {
   if (!options.solid.corrects_contacts) return;
@@ -231,6 +241,7 @@ void check_complete(const WallNurbsOptions& options) {
         "'substeps' are those of a solid with a stable step, given 'body modal', expected one of them: modes "
         "take any timestep");
   check_kept(options);
+  check_solid(options);
   check_compliance(options);
   const std::string drive = drive_name(options.drive);
   if (!drive.empty() && options.body != WallNurbsOptions::Body::rigid)
@@ -241,7 +252,7 @@ void check_complete(const WallNurbsOptions& options) {
 
 std::vector<std::string> wall_nurbs_syntax() {
   std::vector<std::string> lines = syntax_of(kWallKeywords);
-  for (const std::string& line : solid_syntax()) lines.push_back(line);
+  lines.emplace_back("structure plugin LIBRARY MODEL");
   return lines;
 }
 

@@ -253,6 +253,11 @@ DECK_WORDS = {
             [f"without cohesion, given 'cohesion {cohesion}', expected 'compliance none'"])
         for cohesion in COHESIONS
     },
+    "compliance before the body": (
+        f"{MODELS.replace('hertz', 'penalty/linear')} type 2{CORRECTED} structure block.yaml surface top",
+        ["laws hertz and penalty/hertz, given 'model penalty/linear'"]),
+    "modes of a rigid wall": (RIGID + " body modal 4", ["'body modal' is for a solid of ours, given 'geometry'"]),
+    "state of a plug-in": (PLUGIN + " state rest.h5", ["'state' is for a solid of ours, given 'structure plugin'"]),
     "compliance of modes": (GOOD.replace("block.yaml", "block.yaml body modal 4") + CORRECTED, ["given 'body modal'"]),
     "compliance with sub-steps": (GOOD + " substeps auto" + CORRECTED, ["not for 'substeps'"]),
     "contact area without heat": (RIGID + " contact_area projection", ["'contact_area'", "'temperature T'"]),

@@ -218,6 +218,8 @@ class AsAnyBody(unittest.TestCase):
             (bob.block(), MODAL + " substeps auto", "'substeps' are those of a solid with a stable step"),
             (bob.block(), MODAL.replace("12", "0"), "body modal is '0', expected how many modes"),
             (bob.block(), MODAL.replace("12", "900"), "expected less than the"),
+            (bob.block(), "structure block.yaml surface top body modal 900", "expected less than the"),
+            (bob.block(), "body modal 900 structure block.yaml surface top", "expected less than the"),
             (bob.block(), MODAL.replace("modal", "model"), "body is 'model', expected 'modal'"),
             (bob.block() + "damping: {modal: 0.01}\n", "structure block.yaml surface top", "damping.modal is of modes"),
             (bob.block() + "damping: {modal: [0.01, -1]}\n", MODAL, "modal has -1"),

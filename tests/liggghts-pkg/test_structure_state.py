@@ -107,7 +107,7 @@ class State(unittest.TestCase):
             (START, finer, "mesh and geometry are others"),
             (START + " state rest.h5", bob.block(), "'state'"),
             (START.replace("state rest.h5", "state rest.h5 state rest.h5"), bob.block(), "'state' is given twice"),
-            ("geometry block.yaml state rest.h5 surface top", bob.block(), "unknown keyword 'state'"),
+            ("geometry block.yaml state rest.h5 surface top", bob.block(), "'state' is for a solid of ours, given 'geometry'"),
         ):
             with self.subTest(words):
                 run = decks.run(bob.prelude() + bob.wall(rest=words) + "run 1\n", files={"block.yaml": model, "rest.h5": state})
