@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
+
+#include "brep/disjoint_sets.h"
 
 namespace brep {
 namespace {
@@ -80,6 +83,71 @@ bool turned_alike(const Surface& surface, const Edge& edge) {
   return edge.use_count == 2 && use[0].side == -use[1].side;
 }
 
+/// Which faces hang together.
+int number_shells(const Surface& surface, std::vector<int>& of_face) {
+  DisjointSets sets(static_cast<int>(surface.faces.size()));
+  for (const Edge& edge : surface.edges)
+    for (int k = 1; k < edge.use_count; ++k)
+      sets.join(surface.uses[edge.first_use].face, surface.uses[edge.first_use + k].face);
+  return sets.number(of_face);
+}
+
+struct Corners {
+  const Vector3 &a, &b, &c;
+  Corners(const Surface& surface, const Piece& piece)
+      : a(surface.vertices[piece.vertex[0]].point),
+        b(surface.vertices[piece.vertex[1]].point),
+        c(surface.vertices[piece.vertex[2]].point) {}
+  Vector3 middle() const { return (a + b + c) / 3.0; }
+};
+
+// Of a triangle, as seen from a point.  Source: van Oosterom & Strackee (1983), IEEE Trans. Biomed. Eng. 30,
+// 125-126.
+double solid_angle(const Corners& triangle, const Vector3& from) {
+  const Vector3 a = triangle.a - from, b = triangle.b - from, c = triangle.c - from;
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+}
+
+struct ShellPieces {
+  Shell shell{Vector3::Constant(HUGE_VAL), Vector3::Constant(-HUGE_VAL)};
+  std::vector<const Piece*> pieces = {};
+
+  bool encloses(const Surface& surface, const Vector3& point) const {
+    if ((point.array() < shell.low.array()).any() || (point.array() > shell.high.array()).any()) return false;
+    double angle = 0.0;
+    for (const Piece* piece : pieces) angle += solid_angle(Corners(surface, *piece), point);
+    return std::abs(angle) > 2.0 * nurbs::kPi;
+  }
+};
+
+/// Normals point away from what is enclosed: inwards on a shell in an odd number of others, a cavity.
+std::vector<Shell> shells_of(const Surface& surface) {
+  std::vector<int> of_face;
+  std::vector<ShellPieces> all(number_shells(surface, of_face));
+  for (const Piece& piece : surface.pieces) {
+    if (!piece.triangle()) return {};
+    ShellPieces& own = all[of_face[piece.face]];
+    own.pieces.push_back(&piece);
+    for (const int vertex : piece.vertex) {
+      own.shell.low = own.shell.low.cwiseMin(surface.vertices[vertex].point);
+      own.shell.high = own.shell.high.cwiseMax(surface.vertices[vertex].point);
+    }
+  }
+  std::vector<Shell> shells;
+  for (const ShellPieces& own : all) {
+    Shell shell = own.shell;
+    for (const Piece* piece : own.pieces) shell.volume += content_of(surface, *piece, shell.low).flux;
+    const Vector3 point = Corners(surface, *own.pieces.front()).middle();
+    const auto around = std::count_if(all.begin(), all.end(), [&](const ShellPieces& other) {
+      return &other != &own && other.encloses(surface, point);
+    });
+    shell.inside_out = (around % 2 == 1) != (shell.volume < 0.0);
+    shells.push_back(shell);
+  }
+  return shells;
+}
+
 }  // namespace
 
 Summary summary_of(const Surface& surface) {
@@ -102,7 +170,9 @@ Summary summary_of(const Surface& surface) {
     summary.area += content.area;
     volume += content.flux;
   }
-  if (summary.closed && alike) summary.volume = volume;
+  if (!summary.closed || !alike) return summary;
+  summary.volume = volume;
+  if (!surface.trimmed()) summary.shells = shells_of(surface);
   return summary;
 }
 

@@ -2,9 +2,18 @@
 // What a wall consists of, in numbers for its user.
 #pragma once
 
+#include <vector>
+
 #include "brep/surface.h"
 
 namespace brep {
+
+/// Faces that hang together over edges and enclose a volume.
+struct Shell {
+  Vector3 low, high;        ///< box around it
+  double volume = 0.0;      ///< < 0: normals point inwards [length^3]
+  bool inside_out = false;  ///< they should, as it is in the space that others enclose, or should not
+};
 
 struct Summary {
   int faces[6] = {0, 0, 0, 0, 0, 0};  ///< by Kind
@@ -16,6 +25,7 @@ struct Summary {
   bool closed = false;              ///< no free edges: it encloses a volume
   double volume = 0.0;              ///< if closed, with the faces turned alike, else 0 [length^3]
   double free_length = 0.0;         ///< of free edges [length]
+  std::vector<Shell> shells = {};   ///< if there is a volume, of triangles
 };
 
 Summary summary_of(const Surface& surface);

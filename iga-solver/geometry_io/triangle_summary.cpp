@@ -13,7 +13,7 @@
 namespace geometry_io {
 namespace {
 
-constexpr size_t kGapsShown = 5;
+constexpr size_t kGapsShown = 5, kShellsShown = 5;
 
 // "line 12 of patch 0": where a triangle stands in its file.
 std::string place_text(const GeometryFile& geometry, const JoinedMesh& all, int triangle) {
@@ -21,6 +21,23 @@ std::string place_text(const GeometryFile& geometry, const JoinedMesh& all, int 
   return fmt::format("{} {} of patch {}",
                      std::get<TriangleMesh>(geometry.patches[patch]).binary ? "triangle" : "line",
                      all.mesh.place[triangle], patch);
+}
+
+// Volumes of shells that point the wrong way are taken off, not added.
+std::string shells_text(const std::vector<brep::Shell>& shells) {
+  if (shells.size() < 2) return "";
+  std::string text;
+  size_t turned = 0;
+  for (const brep::Shell& shell : shells) {
+    if (!shell.inside_out || ++turned > kShellsShown) continue;
+    text += fmt::format("    from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g}), volume {:.6g}\n",
+                        shell.low[0], shell.low[1], shell.low[2], shell.high[0], shell.high[1], shell.high[2],
+                        std::abs(shell.volume));
+  }
+  if (turned > kShellsShown) text += fmt::format("    and {} more\n", turned - kShellsShown);
+  if (turned == 0 || turned == shells.size()) return fmt::format("  shells: {}\n", shells.size());
+  return fmt::format("  shells: {}; {} inside out, whose volume counts with the wrong sign:\n{}",
+                     shells.size(), turned, text);
 }
 
 // Faces, edges, area and volume, as a wall has them.
@@ -43,6 +60,7 @@ std::string wall_text(const GeometryFile& geometry, const JoinedMesh& all, doubl
   else
     text += fmt::format("closed, volume {:.6g}{}\n", std::abs(wall.volume),
                         wall.volume < 0.0 ? ", normals inwards" : "");
+  text += shells_text(wall.shells);
   text += fmt::format("  worst triangle: {}, height {:.3g}", place_text(geometry, all, report.worst_triangle),
                       report.least_height);
   text += fmt::format("; {} are thinner than 1e-6 of the whole\n", report.thin + report.collapsed);

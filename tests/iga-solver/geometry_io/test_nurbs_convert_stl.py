@@ -52,6 +52,21 @@ class Stl(ConvertCase):
         self.assertIn("  area 6, closed, volume 1, normals inwards\n", alone)
         self.assertNotIn("shell", alone)
 
+    def test_shells(self):
+        """A cavity points inwards, what floats in it outwards; else the volume is a difference without a meaning."""
+        turned = [t[::-1] for t in box(4, 5)]
+        self.assertIn("volume 9\n  shells: 2\n", self.printed(one=box(0, 2), other=box(4, 5)))
+        self.assertIn(
+            "volume 7\n  shells: 2; 1 inside out, whose volume counts with the wrong sign:\n    from (4, 4, 4) to (5, 5, 5), volume 1\n",
+            self.printed(one=box(0, 2), other=turned),
+        )
+        cavity = [t[::-1] for t in box(1, 3)]
+        self.assertIn("volume 56.125\n  shells: 3\n", self.printed(outer=box(0, 4), cavity=cavity, core=box(1.5, 2)))
+        self.assertIn("volume 72\n  shells: 2; 1 inside out", self.printed(outer=box(0, 4), cavity=box(1, 3)))
+        inwards = self.printed(one=[t[::-1] for t in box(0, 2)], other=turned)
+        self.assertIn("volume 9, normals inwards\n  shells: 2\n", inwards)
+        self.assertNotIn("shells", self.printed(one=box(0, 2)))
+
     def test_triangles_that_are_turned_over(self):
         cube = box(0, 2)
         self.assertIn("  area 24, closed, volume 8, normals inwards\n", self.printed(cube=[t[::-1] for t in cube]))
