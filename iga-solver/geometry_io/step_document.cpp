@@ -128,9 +128,11 @@ class Collector {
     const size_t before = out_.bodies.size();
     for (TopExp_Explorer it(shape, TopAbs_SOLID); it.More(); it.Next()) {
       StepBody body{it.Current().Moved(place), path, colour, true};
-      if (const StepLabel* own = solids_.Seek(it.Current().Located(TopLoc_Location()))) {
+      const TopoDS_Shape free = it.Current().Located(TopLoc_Location());
+      for (const StepLabel* own : {solids_.Seek(free), out_.labels.Seek(free)}) {  // the same name as a rule
+        if (own == nullptr) continue;
         if (own->colour >= 0) body.colour = own->colour;
-        if (says_something(own->name) && path.substr(path.rfind('/') + 1) != own->name)
+        if (body.name == path && says_something(own->name) && path.substr(path.rfind('/') + 1) != own->name)
           body.name += (path.empty() ? "" : "/") + own->name;
       }
       out_.bodies.push_back(std::move(body));

@@ -20,7 +20,7 @@ struct StepBody {
 
 struct StepDocument {
   std::vector<StepBody> bodies;
-  StepLabels labels;  ///< of faces, without their places
+  StepLabels labels;  ///< of faces and solids, without their places
   std::string unit;   ///< of length
   bool iges = false;
   std::vector<std::string> healed;

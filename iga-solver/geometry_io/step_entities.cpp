@@ -10,6 +10,7 @@
 #include <StepGeom_CartesianPoint.hxx>
 #include <StepGeom_CartesianTransformationOperator3d.hxx>
 #include <StepGeom_Direction.hxx>
+#include <StepRepr_RepresentationItem.hxx>
 #include <StepShape_EdgeCurve.hxx>
 #include <StepShape_EdgeLoop.hxx>
 #include <StepShape_FaceBound.hxx>
@@ -48,6 +49,10 @@ bool begins(const std::string& text, const char* start) { return text.rfind(star
 bool matters(const Handle(Standard_Transient) & entity) {
   const std::string type = entity->DynamicType()->Name();
   return begins(type, "StepShape_") || begins(type, "StepGeom_");
+}
+
+std::string name_of(const Handle(StepRepr_RepresentationItem) & item) {
+  return item->Name().IsNull() ? "" : item->Name()->ToCString();
 }
 
 // Colours, styles of lines.
@@ -168,14 +173,17 @@ void refuse_broken_entities(const STEPControl_Reader& reader) {
 
 namespace {
 
-// OpenCASCADE leaves it at the faces.
-void note_open_solids(const Model& model, const Process& process, std::vector<std::string>& lines) {
+// OpenCASCADE leaves an open one at the faces, and of a part's only solid it keeps the part's name alone.
+void note_solids(const Model& model, const Process& process, StepLabels& labels,
+                 std::vector<std::string>& lines) {
   for (int i = 1; i <= process->NbMapped(); ++i) {
     const auto solid = Handle(StepShape_ManifoldSolidBrep)::DownCast(process->Mapped(i));
     if (solid.IsNull()) continue;
     const TopoDS_Shape shape = result_of(process, solid);
     if (!shape.IsNull() && !TopExp_Explorer(shape, TopAbs_SOLID).More())
       lines.push_back(named(model, solid) + " encloses nothing: it is a sheet, not a body");
+    for (TopExp_Explorer it(shape, TopAbs_SOLID); !shape.IsNull() && it.More(); it.Next())
+      labels.Bind(it.Current().Located(TopLoc_Location()), {name_of(solid), -1, model->IdentLabel(solid)});
   }
 }
 
@@ -199,13 +207,12 @@ std::vector<std::string> note_entities(const STEPControl_Reader& reader, StepLab
           named(model, face) +
           ": its borders are holes, with the face outside of them, expected an outer border that has the "
           "face at its left: put it back, or export the part again");
-    const std::string name = face->Name().IsNull() ? "" : face->Name()->ToCString();
     int count = 0;
     for (TopExp_Explorer it(shape, TopAbs_FACE); it.More(); it.Next(), ++count)
-      labels.Bind(it.Current().Located(TopLoc_Location()), {name, -1, model->IdentLabel(face)});
+      labels.Bind(it.Current().Located(TopLoc_Location()), {name_of(face), -1, model->IdentLabel(face)});
     if (count != 1) lines.push_back(fmt::format("{} became {} faces", named(model, face), count));
   }
-  note_open_solids(model, process, lines);
+  note_solids(model, process, labels, lines);
   return lines;
 }
 

@@ -122,6 +122,18 @@ class ConvertStep(unittest.TestCase):
         iges, step = self.places("branch_holes.igs")[1], self.places("branch_holes.step")[1]
         numpy.testing.assert_allclose(iges, step, rtol=1e-6)
 
+    def test_a_part_and_its_only_solid_have_names(self):
+        """OpenCASCADE keeps that of the part, which some programs make up."""
+        text, brep = (self.folder / "box.step").read_text(), "MANIFOLD_SOLID_BREP('"
+        self.assertEqual(text.count(brep), 1)
+        for solid, part, expected in (
+            ("block", "bin", "bin/block"), ("bin", "bin", "bin"), ("", "bin", "bin"), ("NONE", "bin", "bin"),
+            ("block", "Open CASCADE STEP translator 7.6 1", "block"),
+        ):  # fmt: skip
+            named = re.sub(r"= PRODUCT\('[^']*','[^']*'", f"= PRODUCT('1','{part}'", text).replace(brep, brep + solid)
+            (self.folder / "own.step").write_text(named)
+            self.assertIn(f"  solid 1 '{expected}': 6 faces\n", self.converted("own.step"))
+
     def test_names_colours_and_units_of_iges(self):
         """A label of the directory is a name; colours are the file's own, or by one of IGES' numbers."""
         lines = (self.folder / "nested.igs").read_text().splitlines()
