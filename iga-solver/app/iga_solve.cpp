@@ -9,6 +9,7 @@
 #include "command.h"
 #include "explicit_run.h"
 #include "io/model_file.h"
+#include "loose_patches.h"
 #include "model_check.h"
 #include "model_report.h"
 #include "parallel/all_or_none.h"
@@ -29,6 +30,7 @@ void analyse(const SolveOptions& options, io::ModelFile& model) {
   if (parallel::Ranks(MPI_COMM_WORLD).count > 1)
     throw std::runtime_error(
         fmt::format("{}: an 'analysis' runs on one rank, expected iga-solve without mpiexec", model.file));
+  app::expect_held_pieces(model);
   std::optional<io::FieldSeries> fields;  // while the control points are there
   if (model.output && model.output->fields) fields.emplace(model);
   structure::ExplicitSolver solver = io::build_solver(model);

@@ -16,8 +16,21 @@ struct Pieces {
 };
 Pieces pieces_of(const structure::NodeNumbering& nodes);
 
+/// In how many rigid motions supports and springs leave a piece of the body free: the first such piece, by
+/// its first patch, or "it" where there is one.
+struct FreeMotions {
+  std::size_t count = 0;
+  std::string whose = {};
+};
+/// Before a solver takes the control points, as what follows.
+FreeMotions free_motions(const io::ModelFile& model);
+
+/// Of a model with an analysis.  Throws std::runtime_error if one of several pieces has no equilibrium, as
+/// nothing holds it; a body in one piece is the analysis' own matter.
+void expect_held_pieces(const io::ModelFile& model);
+
 /// That faces of different pieces are nearer to each other than anybody means, the nearest ones by name;
-/// empty if none are, or welds are not wanted.  Before a solver takes the control points.
+/// empty if none are, or welds are not wanted.
 std::string almost_welded(const io::ModelFile& model);
 
 }  // namespace app

@@ -5,16 +5,13 @@
 #include <algorithm>
 #include <variant>
 
-#include "io/boundary_keys.h"
 #include "loose_patches.h"
 #include "model_report.h"
-#include "structure/analysis/rigid_motions.h"
 
 namespace app {
 
 namespace {
 
-using nurbs::NodalVectors;
 using Warnings = std::vector<std::string>;
 
 bool is_of(const io::ModelFile& model, std::size_t analysis) {
@@ -69,40 +66,6 @@ bool is_loaded(const io::Loads& loads) {
 
 bool is_moved(const io::ModelFile& model) {
   return std::any_of(model.boundary.begin(), model.boundary.end(), [](const auto& e) { return e.moves; });
-}
-
-/// Of the nodes of a piece, which rise.
-std::size_t free_motions(const io::ModelFile& model, const std::vector<structure::Id>& nodes) {
-  NodalVectors X(3, nodes.size());
-  for (std::size_t column = 0; column < nodes.size(); ++column) {
-    const auto place = model.nodes.place(nodes[column]);
-    X.col(static_cast<Eigen::Index>(column)) =
-        model.volume(place.patch).control_points.col(place.control_point);
-  }
-  return structure::free_rigid_motions(X, io::supports_of(model.boundary).on(nodes),
-                                       io::springs_of(model.boundary, model.geometry, model.nodes, nodes))
-      .size();
-}
-
-/// How often pieces of the body are free, and of which: "it", or the first patch of the first such piece.
-struct FreeMotions {
-  std::size_t count = 0;
-  std::string whose = {};
-};
-
-FreeMotions free_motions(const io::ModelFile& model) {
-  const Pieces pieces = pieces_of(model.nodes);
-  std::vector<std::vector<structure::Id>> nodes(pieces.count);
-  for (structure::Id node = 0; node < model.nodes.node_count(); ++node)
-    nodes[pieces.of_patch[model.nodes.place(node).patch]].push_back(node);
-  for (int piece = 0; piece < pieces.count; ++piece)
-    if (const std::size_t count = free_motions(model, nodes[piece]); count > 0) {
-      const auto first = std::find(pieces.of_patch.begin(), pieces.of_patch.end(), piece);
-      return {count, pieces.count == 1
-                         ? "it"
-                         : fmt::format("patch {} and what is welded to it", first - pieces.of_patch.begin())};
-    }
-  return {};
 }
 
 void warn_of_conditions(const io::ModelFile& model, Warnings& warnings) {

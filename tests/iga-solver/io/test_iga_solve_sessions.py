@@ -293,6 +293,10 @@ class Check(Sessions):
             "WARNING: two.yaml: 'boundary' leaves patch 1 and what is welded to it free in 6 of its 6 rigid motions: loads carry it away",
             subprocess.check_output([PROGRAM, "two.yaml", "--check"], cwd=self.folder, text=True, timeout=60),
         )
+        for kind in ("static", "relax"):
+            (self.folder / "two.yaml").write_text(TWO_BOXES.replace("GAP", "1").replace("time: {end: 1e-6}", f"analysis: {kind}"))
+            done = subprocess.run([PROGRAM, "two.yaml"], cwd=self.folder, capture_output=True, text=True, timeout=10, check=False)
+            self.assertIn(f"ERROR: two.yaml: {kind}: 'boundary' leaves patch 1 and what is welded to it free in 6 of its 6", done.stderr)
 
     def test_errors_are_those_of_a_run(self):
         plate = PLATE.replace("LAW", "linear_elastic")
