@@ -21,21 +21,26 @@ void LiggghtsContactModel::evaluate(Contact* contacts, int count) {
   torque_rows_.resize(atom_.nmax);
   double **const f = force_rows_.data(), **const torque = torque_rows_.data();
   const Setting<double**> of_force(atom_.f, f), of_torque(atom_.torque, torque);
+  TangentialSprings springs = springs_;  // which no model can change
   for (Contact* contact = contacts; contact < contacts + count; ++contact) {
     contact->force.setZero();
     contact->torque.setZero();
     f[contact->particle] = contact->force.data();
     torque[contact->particle] = contact->torque.data();
-    compute_with_spring(*contact, data);
+    if (springs.exist() && contact->touches)
+      compute_with_spring(*contact, data, springs);
+    else
+      compute(*contact, data);
   }
+  springs_ = springs;
 }
 
-inline void LiggghtsContactModel::compute_with_spring(Contact& contact, LCM::SurfacesIntersectData& data) {
-  if (!springs_.exist() || !contact.touches) return compute(contact, data);
-  const double before = springs_.squared_stretch(contact.history);
-  if (contact.correction) springs_.stretch_by(contact.correction->further_slip, contact.history);
+inline void LiggghtsContactModel::compute_with_spring(Contact& contact, LCM::SurfacesIntersectData& data,
+                                                      TangentialSprings& springs) {
+  const double before = springs.squared_stretch(contact.history);
+  if (contact.correction) springs.stretch_by(contact.correction->further_slip, contact.history);
   compute(contact, data);
-  springs_.add(data.kt, before, springs_.squared_stretch(contact.history));
+  springs.add(data.kt, before, springs.squared_stretch(contact.history));
 }
 
 inline void LiggghtsContactModel::compute(Contact& contact, LCM::SurfacesIntersectData& data) {

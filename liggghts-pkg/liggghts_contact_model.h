@@ -50,7 +50,8 @@ class LiggghtsContactModel final : public contact::ContactModel {
     return constants_.of_types(atom_.type[particle], wall_type_);
   }
   void compute(contact::Contact& contact, LCM::SurfacesIntersectData& data);
-  void compute_with_spring(contact::Contact& contact, LCM::SurfacesIntersectData& data);
+  void compute_with_spring(contact::Contact& contact, LCM::SurfacesIntersectData& data,
+                           TangentialSprings& springs);
   void compute_with_effective_radius(contact::Contact& contact, LCM::SurfacesIntersectData& data);
 
   LAMMPS_NS::FixWallGran& wall_;

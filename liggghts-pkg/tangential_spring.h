@@ -36,12 +36,12 @@ class TangentialSprings {
   void begin_step() { before_ = now_ = 0.0; }
   /// Of one contact: stiffness [force/length], |xi|^2 before and after the models had it [length^2].
   void add(double stiffness, double before, double now) {
-    before_ += 0.5 * stiffness * before;
-    now_ += 0.5 * stiffness * now;
+    before_ += stiffness * before;
+    now_ += stiffness * now;
   }
   /// `setup`: a run begins, and with it the sum.
   void end_step(bool setup) {
-    gained_ = setup ? 0.0 : gained_ + (before_ - stored_);
+    gained_ = setup ? 0.0 : gained_ + 0.5 * (before_ - stored_);
     stored_ = now_;
   }
   /// Sum of the first terms since the beginning of the run [energy].  A contact that goes to another rank is
@@ -50,7 +50,7 @@ class TangentialSprings {
 
  private:
   int place_;
-  double before_ = 0.0, now_ = 0.0;  // springs' energy with this step's stiffness, before and after it
+  double before_ = 0.0, now_ = 0.0;  // twice springs' energy with this step's stiffness, before and after it
   double stored_ = 0.0, gained_ = 0.0;
 };
 

@@ -100,14 +100,12 @@ void ContactLoop::step(const ParticleView& particles, const StepInfo& step, Cont
   body_squared_frequency_ = wall_.squared_frequency();
   squared_time_ = 2.0 * step.dt * step.dt, squared_way_ = 2.0 * wall_travel_ * wall_travel_;
   FeetTracker::Query queries[FeetTracker::kBlock];  // found together, and still at hand afterwards
-  SteadyFeet* const steady = tracker_->steady();
   const int candidates = static_cast<int>(candidates_.candidates().size());
   searches_.near += candidates;
-  for (int candidate = 0; candidate < candidates;) {
+  for (int begin = 0; begin < candidates; begin += FeetTracker::kBlock) {
     const std::size_t first = contacts_.size();
-    int count = 0;
-    candidate = next_block(particles, step, candidate, queries, count);
-    if (steady) take_steady(particles, step, *steady, queries, count);
+    const int end = std::min(begin + FeetTracker::kBlock, candidates);
+    const int count = take_steady(particles, step, begin, end, queries);
     tracker_->follow(queries, count);
     for (int k = 0; k < count; ++k) find_contacts(particles, step, queries[k]);
     answer(particles, step, model, observer, first);
@@ -115,31 +113,48 @@ void ContactLoop::step(const ParticleView& particles, const StepInfo& step, Cont
   list_is_new_ = false;
 }
 
-// The next candidates that may touch, from number `candidate` on: those that may be steady, and `count`
-// queries of the others.  The result is the number behind them.
-inline int ContactLoop::next_block(const ParticleView& particles, const StepInfo& step, int candidate,
-                                   FeetTracker::Query* queries, int& count) {
+// Candidates [begin, end) that are steady become contacts, others that may touch queries; how many of these.
+inline int ContactLoop::take_steady(const ParticleView& particles, const StepInfo& step, int begin, int end,
+                                    FeetTracker::Query* queries) {
   const Candidate* const candidates = candidates_.candidates().data();
-  const int end = static_cast<int>(candidates_.candidates().size());
-  SteadyFeet* const steady = tracker_->steady();
-  const ParticleView p = particles;
-  int seen = 0;
-  if (steady) steady->begin_block(wall_.frame(), wall_.is_turned());
-  for (; candidate < end && seen <= FeetTracker::kBlock - SteadyFeet::kMostFeet; ++candidate) {
-    const std::ptrdiff_t i = candidates[candidate].particle;
-    if (!p.meets_wall(static_cast<int>(i))) continue;
-    const double touch_reach = this->touch_reach(particles, step, static_cast<int>(i));
-    if (steady) {
-      const int lines = steady->add(candidate, static_cast<int>(i), p.x + 3 * i, p.v + 3 * i, touch_reach);
-      seen += lines;
-      if (lines > 0) continue;
+  SteadyFeet* const steady = find_steady(particles, step, begin, end);
+  const std::size_t before = contacts_.size();
+  int count = 0;
+  for (int candidate = begin; candidate < end; ++candidate) {
+    const int i = candidates[candidate].particle, k = candidate - begin;
+    if (steady && steady->is_there(k) && settle(particles, *steady, k, i)) {
+      go_on(particles, step, i, steady->foot(k));
+      if (steady->feet(k) > 1) go_on_with_others(particles, step, i, *steady, k);
+    } else if (may_touch(particles, step, candidate)) {
+      queries[count++] = query_of(particles, step, candidate);
     }
-    const Vector3 centre = wall_.to_frame(Vector3::Map(p.x + 3 * i));
-    if (tracker_->is_quiet(candidate, centre, touch_reach)) continue;
-    queries[count++] = query_of(particles, step, candidate);
-    ++seen;
   }
-  return candidate;
+  searches_.add_interior(static_cast<int>(contacts_.size() - before));
+  return count;
+}
+
+// Null: none of them is steady.
+inline SteadyFeet* ContactLoop::find_steady(const ParticleView& particles, const StepInfo& step, int begin,
+                                            int end) {
+  SteadyFeet* const steady = tracker_->steady();
+  if (!steady || !steady->begin_block(begin, end - begin, wall_.frame(), wall_.is_turned())) return nullptr;
+  const Candidate* const candidates = candidates_.candidates().data();
+  const ParticleView p = particles;
+  for (int candidate = begin; candidate < end; ++candidate) {
+    if (!steady->has(candidate - begin)) continue;
+    const std::ptrdiff_t i = candidates[candidate].particle;
+    if (p.meets_wall(static_cast<int>(i)))
+      steady->add(candidate - begin, p.x + 3 * i, p.v + 3 * i,
+                  touch_reach(particles, step, static_cast<int>(i)));
+  }
+  steady->find({squared_time_, squared_way_, wall_.resolution()});
+  return steady;
+}
+
+inline bool ContactLoop::may_touch(const ParticleView& particles, const StepInfo& step, int candidate) const {
+  const int i = candidates_.candidates()[candidate].particle;
+  return particles.meets_wall(i) &&
+         !tracker_->is_quiet(candidate, wall_.to_frame(particles.centre(i)), touch_reach(particles, step, i));
 }
 
 // Contacts that are corrected may go on where the surfaces have lost touch.
@@ -149,24 +164,6 @@ inline double ContactLoop::touch_reach(const ParticleView& particles, const Step
   const ContactMemory& memory = particles.memory;
   int used = used_slots_[i];
   return reach + ComplianceCorrection::held_gap(memory.of(i, used), memory.history_count);
-}
-
-// Those that may be steady become contacts, or queries.
-inline void ContactLoop::take_steady(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady,
-                                     FeetTracker::Query* queries, int& count) {
-  if (steady.count() == 0) return;
-  steady.find({squared_time_, squared_way_, wall_.resolution()});
-  for (const SteadyFeet::Group& lines : steady)
-    if (!settle(particles, steady, lines)) steady.drop(lines);
-  int taken = 0;
-  for (int k = 0; k < steady.count(); ++k)
-    if (steady.is_there(k) && (steady.slot(k) >= 0 || settle(particles, steady, {k, 1}))) {
-      go_on(particles, step, steady, k);
-      ++taken;
-    } else if (count == 0 || queries[count - 1].candidate != steady.candidate(k)) {
-      queries[count++] = query_of(particles, step, steady.candidate(k));
-    }
-  searches_.add_interior(taken);
 }
 
 FeetTracker::Query ContactLoop::query_of(const ParticleView& particles, const StepInfo& step,
@@ -200,42 +197,49 @@ bool keeps_side(const ContactSlot& slot, const TrackedFoot& tracked, double radi
 }  // namespace
 
 // Finds the slots of a candidate's feet, each on its face; false: they may be others, ask find_contacts.
-bool ContactLoop::settle(const ParticleView& particles, SteadyFeet& steady, const SteadyFeet::Group& lines) {
-  if (!steady.is_there(lines.first) || steady.slot(lines.first) >= 0) return true;
-  const ParticleSlots slots = slots_of(particles, steady.particle(lines.first));
-  if (slots.filled() != lines.count) return false;
-  for (int k = lines.first; k < lines.first + lines.count; ++k) {
+inline bool ContactLoop::settle(const ParticleView& particles, SteadyFeet& steady, int k, int i) {
+  return steady.foot(k).slot() >= 0 || find_slots(slots_of(particles, i), steady, k);
+}
+
+bool ContactLoop::find_slots(const ParticleSlots& slots, SteadyFeet& steady, int k) {
+  if (slots.filled() != steady.feet(k)) return false;
+  for (int n = 0; n < steady.feet(k); ++n) {
+    const SteadyFeet::Foot foot = steady.foot(k, n);
     int s = 0;
-    while (s < slots.used() && !steady.has_been_on_face(slots.slot(s), k)) ++s;
+    while (s < slots.used() && !steady.has_been_on_face(slots.slot(s), foot)) ++s;
     if (s == slots.used()) return false;
-    steady.settle(k, s);
+    steady.settle(k, n, s);
   }
   return true;
 }
 
 // A contact that keeps its slot and its side.
-inline void ContactLoop::go_on(const ParticleView& particles, const StepInfo& step, const SteadyFeet& steady,
-                               int k) {
-  const int i = steady.particle(k), place = steady.slot(k);
-  const double distance = steady.distance(k);
-  const Vector3 delta = steady.delta(k);
-  const nurbs::SurfacePoint at = steady.at(k);
-  Vector3 v_wall = Vector3::Zero();
+[[gnu::always_inline]] inline void ContactLoop::go_on(const ParticleView& particles, const StepInfo& step,
+                                                      int i, const SteadyFeet::Foot& foot) {
+  const nurbs::Parameter<2> xi = foot.xi();
+  Contact& contact = add_contact(particles, i, foot.slot(), foot.distance());
+  contact.foot.patch = foot.patch(), contact.foot.xi = xi;
+  contact.delta = foot.delta();
+  contact.wall_velocity.setZero();
   if (!wall_.stands()) {
-    v_wall = wall_.velocity_of_rigid(particles.centre(i) - delta, delta);
-    check_crossing(particles, step, i, distance, delta, v_wall);
+    contact.wall_velocity = wall_.velocity_of_rigid(contact.centre - contact.delta, contact.delta);
+    check_crossing(particles, step, i, contact.distance, contact.delta, contact.wall_velocity);
   }
-  ContactSlot slot = particles.memory.slot(i, place);
-  slot.set_parameters(at);
-  Contact& contact = add_contact(particles, i, at, place, distance, delta, v_wall);
-  contact.inside = wall_.is_inside(at.patch, steady.side(k));
-  contact.effective_radius = particles.radius[i];
+  contact.inside = wall_.is_inside(foot.patch(), foot.side());
   if (options_.curvature_radius) {
-    const Vector3 point = wall_.to_frame(particles.centre(i) - delta);
-    contact.effective_radius = wall_.effective_radius(
-        {at.xi, point, distance, search::FootStatus::interior, 0, at.patch}, delta, particles.radius[i]);
+    const Vector3 point = wall_.to_frame(contact.centre - contact.delta);
+    contact.effective_radius =
+        wall_.effective_radius({xi, point, contact.distance, search::FootStatus::interior, 0, foot.patch()},
+                               contact.delta, contact.effective_radius);
   }
+  ContactSlot slot = particles.memory.slot(i, foot.slot());
+  slot.set_parameters({foot.patch(), xi});
   contact.history = slot.history();
+}
+
+void ContactLoop::go_on_with_others(const ParticleView& particles, const StepInfo& step, int i,
+                                    SteadyFeet& steady, int k) {
+  for (int n = 1; n < steady.feet(k); ++n) go_on(particles, step, i, steady.foot(k, n));
 }
 
 inline void ContactLoop::find_contacts(const ParticleView& particles, const StepInfo& step,
@@ -261,11 +265,13 @@ inline void ContactLoop::find_contacts(const ParticleView& particles, const Step
     }
     if (touches) {
       const int slot = tracked.slot = take_slot(particles, step, i, tracked, slots, delta);
-      Contact& contact = add_contact(particles, i, foot.at(), slot, foot.distance, delta, v_wall);
+      Contact& contact = add_contact(particles, i, slot, foot.distance);
+      contact.foot.patch = foot.patch, contact.foot.xi = foot.xi;  // a copy of the whole waits for its parts
+      contact.delta = delta;
+      contact.wall_velocity = v_wall;
       ContactSlot own = slots.slot(slot);
       contact.inside = foot.distance < 0.0 || wall_.is_inside(foot, own.side());
-      contact.effective_radius =
-          options_.curvature_radius ? wall_.effective_radius(foot, delta, radius) : radius;
+      if (options_.curvature_radius) contact.effective_radius = wall_.effective_radius(foot, delta, radius);
       contact.history = own.history();
     } else if (tracked.slot >= 0) {
       slots.slot(tracked.slot).clear();
@@ -309,22 +315,21 @@ inline int ContactLoop::take_slot(const ParticleView& particles, const StepInfo&
   return place;
 }
 
-inline Contact& ContactLoop::add_contact(const ParticleView& particles, int i,
-                                         const nurbs::SurfacePoint& foot, int slot, double distance,
-                                         const Vector3& delta, const Vector3& v_wall) {
+// All but its foot and the wall's velocity there.
+inline Contact& ContactLoop::add_contact(const ParticleView& particles, int i, int slot, double distance) {
   NURBS_ASSERT(0 <= i && i < particles.count, i, particles.count);
   const double radius = particles.radius[i];
+  const int tag = particles.tag[i];
+  const Vector3 centre = particles.centre(i);
   Contact& contact = contacts_.emplace_back();
   contact.particle = i;
-  contact.tag = particles.tag[i];
+  contact.tag = tag;
   contact.slot = slot;
-  contact.foot.patch = foot.patch, contact.foot.xi = foot.xi;  // a copy of the whole waits for its parts
   contact.touches = distance <= radius;
   contact.distance = distance;
   contact.overlap = radius - distance;
-  contact.centre = particles.centre(i);
-  contact.delta = delta;
-  contact.wall_velocity = v_wall;
+  contact.effective_radius = radius;
+  contact.centre = centre;
   contact.missing = 0.0;
   contact.correction = nullptr;
   return contact;

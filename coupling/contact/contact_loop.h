@@ -114,15 +114,18 @@ class ContactLoop {
  private:
   void expect_images_to_stay(const std::vector<Vector3>& images) const;
   void forget_lost_contacts(const ParticleView& particles);
-  int next_block(const ParticleView& particles, const StepInfo& step, int candidate,
-                 FeetTracker::Query* queries, int& count);
+  int take_steady(const ParticleView& particles, const StepInfo& step, int begin, int end,
+                  FeetTracker::Query* queries);
+  SteadyFeet* find_steady(const ParticleView& particles, const StepInfo& step, int begin, int end);
+  bool may_touch(const ParticleView& particles, const StepInfo& step, int candidate) const;
   FeetTracker::Query query_of(const ParticleView& particles, const StepInfo& step, int candidate) const;
   double squared_travel(const ParticleView& particles, int particle) const;
   double touch_reach(const ParticleView& particles, const StepInfo& step, int particle) const;
-  void take_steady(const ParticleView& particles, const StepInfo& step, SteadyFeet& steady,
-                   FeetTracker::Query* queries, int& count);
-  bool settle(const ParticleView& particles, SteadyFeet& steady, const SteadyFeet::Group& lines);
-  void go_on(const ParticleView& particles, const StepInfo& step, const SteadyFeet& steady, int k);
+  bool settle(const ParticleView& particles, SteadyFeet& steady, int k, int i);
+  static bool find_slots(const ParticleSlots& slots, SteadyFeet& steady, int k);
+  void go_on(const ParticleView& particles, const StepInfo& step, int i, const SteadyFeet::Foot& foot);
+  void go_on_with_others(const ParticleView& particles, const StepInfo& step, int i, SteadyFeet& steady,
+                         int k);
   void find_contacts(const ParticleView& particles, const StepInfo& step, const FeetTracker::Query& query);
   bool may_cross(const ParticleView& particles, const StepInfo& step, int particle, double distance) const;
   void check_crossing(const ParticleView& particles, const StepInfo& step, int particle, double distance,
@@ -132,8 +135,7 @@ class ContactLoop {
   }
   int take_slot(const ParticleView& particles, const StepInfo& step, int particle, const TrackedFoot& tracked,
                 const ParticleSlots& slots, const Vector3& delta) const;
-  Contact& add_contact(const ParticleView& particles, int particle, const nurbs::SurfacePoint& foot, int slot,
-                       double distance, const Vector3& delta, const Vector3& v_wall);
+  Contact& add_contact(const ParticleView& particles, int particle, int slot, double distance);
   void push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact);
   void turn_body(const Contact& contact, coupling::ContactForce& on_body) const;
   void answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,

@@ -32,11 +32,12 @@ void into_space(FeetBlock& block, const double* R) {
   }
 }
 
-void room_to_move(FeetBlock& block) {
+// A particle may have grown or shrunk since.
+void room_to_move(FeetBlock& __restrict block, const KeptFeet& __restrict kept) {
   for (int k = 0; k < block.count; ++k) {
-    const double margin = block.margin[k];
-    const double x = block.centre[0][k] - block.before[0][k], y = block.centre[1][k] - block.before[1][k],
-                 z = block.centre[2][k] - block.before[2][k];
+    const double margin = least(kept.reach[k] - block.touch_reach[k], kept.margin[k]);
+    const double x = block.centre[0][k] - kept.centre[0][k], y = block.centre[1][k] - kept.centre[1][k],
+                 z = block.centre[2][k] - kept.centre[2][k];
     block.room[k] = margin * __builtin_fabs(margin) - (x * x + y * y + z * z);
   }
 }
@@ -66,7 +67,8 @@ struct EachItsPlane {
 
 // In the order in which brep::PlaneTriangle adds up.
 template <class Planes>
-[[gnu::always_inline]] inline void find_over(FeetBlock& block, const Planes planes) {
+[[gnu::always_inline]] inline void find_over(FeetBlock& __restrict block, const KeptFeet& __restrict kept,
+                                             const Planes planes) {
   const int count = block.count;
   for (int k = 0; k < count; ++k) {
     const double x = block.centre[0][k] - planes.origin(0, k), y = block.centre[1][k] - planes.origin(1, k),
@@ -79,21 +81,22 @@ template <class Planes>
     for (int d = 0; d < 3; ++d) block.delta[d][k] = block.centre[d][k] - (block.centre[d][k] - height * n[d]);
     block.xi[0][k] = u * planes.scale(0, k) + planes.shift(0, k);
     block.xi[1][k] = v * planes.scale(1, k) + planes.shift(1, k);
-    const double distance = block.sign[k] * height;
+    const double distance = kept.sign[k] * height;
     block.distance[k] = distance;
     block.room[k] = least(block.room[k], least(distance, block.touch_reach[k] - distance));
   }
 }
 
-void over_one_plane(FeetBlock& block, const PlaneNumbers& plane) {
+void over_one_plane(FeetBlock& block, const KeptFeet& kept, const PlaneNumbers& plane) {
   const PlaneNumbers own = plane;  // which no store changes
-  find_over(block, OnePlane{own});
+  find_over(block, kept, OnePlane{own});
 }
 
-void over_planes(FeetBlock& block) { find_over(block, EachItsPlane{block}); }
+void over_planes(FeetBlock& block, const KeptFeet& kept) { find_over(block, kept, EachItsPlane{block}); }
 
-// As brep::Face::polar_foot has it.
-void over_one_cylinder(FeetBlock& block, const CylinderNumbers& cylinder) {
+// As brep::Face::polar_foot and brep::Chart::place have it.
+void over_one_cylinder(FeetBlock& __restrict block, const KeptFeet& __restrict kept,
+                       const CylinderNumbers& cylinder) {
   const CylinderNumbers c = cylinder;
   for (int k = 0; k < block.count; ++k) {
     const double x = block.centre[0][k] - c.origin[0], y = block.centre[1][k] - c.origin[1],
@@ -103,11 +106,16 @@ void over_one_cylinder(FeetBlock& block, const CylinderNumbers& cylinder) {
     block.length[k] = along(c.z);
     const double from_axis = __builtin_sqrt(cos * cos + sin * sin), inverse = 1.0 / from_axis;
     block.cos[k] = cos * inverse, block.sin[k] = sin * inverse;
-    block.from_axis[k] = from_axis;
-    const double distance = block.sign[k] * (from_axis - c.radius);
+    const double distance = kept.sign[k] * (from_axis - c.radius);
     block.distance[k] = distance;
     block.room[k] = least(block.room[k], least(distance, block.touch_reach[k] - distance));
     block.room[k] = least(block.room[k], from_axis - c.least);
+  }
+  for (int k = 0; k < block.count; ++k) {
+    const brep::OnChart around = brep::place_angle(c.around, block.cos[k], block.sin[k]),
+                        along = brep::place_length(c.along, block.length[k]);
+    block.xi[0][k] = around.on_patch, block.xi[1][k] = along.on_patch;
+    block.room[k] = least(block.room[k], least(around.inside, along.inside));
   }
   for (int d = 0; d < 3; ++d)
     for (int k = 0; k < block.count; ++k)

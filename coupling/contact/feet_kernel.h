@@ -4,26 +4,37 @@
 // brep::Face, as nothing is fused.
 #pragma once
 
+#include "brep/chart_numbers.h"
 #include "nurbs/simd_level.h"
 
 namespace contact {
 
-/// Centres and their feet, number by number.  Lengths have one unit throughout; `xi` is the patch's.
+constexpr int kFeetCapacity = 64;
+using FeetLanes = double[kFeetCapacity + 8];
+
+/// What feet have been kept with, number by number: it is read in place in each step.  Feet last as long as
+/// the centre reaches `margin` less than `reach` and has not moved by more; lines without a foot have a
+/// margin < 0.
+struct KeptFeet {
+  alignas(64) FeetLanes centre[3] = {};  // where it was looked at, in the frame
+  FeetLanes reach = {}, margin = {};
+  FeetLanes sign = {};  // of its height over the face
+};
+
+/// Centres and their feet, likewise.  Lengths have one unit throughout; `xi` is the patch's.
 struct FeetBlock {
-  static constexpr int kCapacity = 64;
-  using Lanes = double[kCapacity + 8];
+  static constexpr int kCapacity = kFeetCapacity;
+  using Lanes = FeetLanes;
 
   int count = 0;
-  alignas(64) Lanes centre[3] = {};                       // in space; then in the wall's frame
-  Lanes squared_speed = {};                               // in space
-  Lanes before[3] = {};                                   // where they were looked at, in the frame
-  Lanes touch_reach = {}, margin = {};                    // how far it touches; how far it may move
-  Lanes sign = {};                                        // of their height over the face
-  Lanes origin[3] = {}, x[3] = {}, y[3] = {};             // of their planes
-  Lanes scale[2] = {}, shift[2] = {};                     // from the face's to the patch's parameters
-  Lanes cos = {}, sin = {}, length = {}, from_axis = {};  // of cylinders
-  Lanes room = {};                                        // > 0: the foot is what it was kept as, and touches
-  Lanes delta[3] = {};                                    // from the foot to the centre
+  alignas(64) Lanes centre[3] = {};            // in space; then in the wall's frame
+  Lanes squared_speed = {};                    // in space
+  Lanes touch_reach = {};                      // how far it touches
+  Lanes origin[3] = {}, x[3] = {}, y[3] = {};  // of their planes
+  Lanes scale[2] = {}, shift[2] = {};          // from the face's to the patch's parameters
+  Lanes cos = {}, sin = {}, length = {};       // of cylinders
+  Lanes room = {};                             // > 0: the foot is what it was kept as, and touches
+  Lanes delta[3] = {};                         // from the foot to the centre
   Lanes distance = {}, xi[2] = {};
 };
 
@@ -33,10 +44,11 @@ struct PlaneNumbers {
   double scale[2], shift[2];
 };
 
-/// Or the cylinder: nearer to its axis than `least` there is no foot.
+/// Or the cylinder: nearer to its axis than `least` there is no foot.  Its patch around it and along it.
 struct CylinderNumbers {
   double origin[3], x[3], y[3], z[3];
   double radius, least;
+  brep::ChartNumbers around, along;
 };
 
 /// What a step leaves of contacts that need no second look: a centre stays farther from its foot than it and
@@ -53,11 +65,10 @@ struct FeetKernel {
   /// delta: R delta.
   void (*into_space)(FeetBlock& block, const double* R);
   /// room: how far they may still move until other faces matter, squared.
-  void (*room_to_move)(FeetBlock& block);
-  void (*over_one_plane)(FeetBlock& block, const PlaneNumbers& plane);
-  void (*over_planes)(FeetBlock& block);
-  /// All but xi, of which cos, sin and length are found.
-  void (*over_one_cylinder)(FeetBlock& block, const CylinderNumbers& cylinder);
+  void (*room_to_move)(FeetBlock& block, const KeptFeet& kept);
+  void (*over_one_plane)(FeetBlock& block, const KeptFeet& kept, const PlaneNumbers& plane);
+  void (*over_planes)(FeetBlock& block, const KeptFeet& kept);
+  void (*over_one_cylinder)(FeetBlock& block, const KeptFeet& kept, const CylinderNumbers& cylinder);
   /// room: also that the step is one of those.
   void (*stay_outside)(FeetBlock& block, const StepNumbers& step);
   /// Whether any of `count` values is above its limit: what is asked of all particles in each step.

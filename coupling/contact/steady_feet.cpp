@@ -17,99 +17,174 @@ SteadyFeet::SteadyFeet(const brep::FootSearch& search, const FaceNames& names)
     for (const brep::Face& face : search.surface().faces) faces_.push_back(FaceNumbers::of(face));
 }
 
-void SteadyFeet::set(Rest& rest, const Room& room, int piece, int face, int side) {
-  rest.centre = room.centre;
-  rest.reach = room.reach, rest.margin = room.margin;
-  rest.sign = static_cast<float>(side);
-  rest.piece = piece, rest.face = face;
-  rest.feet = 1;
+/* ---------------------------------------------------------------------- what is kept of candidates */
+
+SteadyFeet::Page::Page() {
+  std::fill_n(piece, kBlock, kNone);
+  std::fill_n(face, kBlock, kNone);
+  std::fill_n(marks, kBlock, Marks());
+  std::fill_n(further, kBlock, kNone);
+  std::fill_n(kept.margin, kBlock, kAway);
+}
+
+void SteadyFeet::Page::set(int k, const Room& room, int piece_below, int face_below, int side_of_face,
+                           const Marks& of_foot) {
+  count += piece[k] < 0;
+  for (int d = 0; d < 3; ++d) kept.centre[d][k] = room.centre[d];
+  kept.reach[k] = room.reach, kept.margin[k] = room.margin;
+  kept.sign[k] = side_of_face;
+  piece[k] = piece_below, face[k] = face_below;
+  marks[k] = of_foot;
+  below.is_known = false;
+}
+
+void SteadyFeet::Page::forget(int k) {
+  if (piece[k] < 0) return;
+  piece[k] = kNone;
+  kept.margin[k] = kAway;
+  --count;
+  below.is_known = false;
+}
+
+void SteadyFeet::Page::look_below() {
+  below = {true, true, false, false,
+           static_cast<int>(std::find_if(piece, piece + kBlock, [](int of) { return of >= 0; }) - piece)};
+  for (int k = below.first; k < kBlock; ++k) {
+    if (piece[k] < 0) continue;
+    below.is_one_face &= face[k] == face[below.first];
+    (marks[k].is_curved ? below.has_curved : below.has_planes) = true;
+  }
+}
+
+void SteadyFeet::forget_all(std::size_t candidates) {
+  pages_.swap(pages_before_), further_.swap(further_before_);
+  pages_.assign((candidates + kBlock - 1) / kBlock, Page());
+  further_.clear();
+  if (search_.surface().patches) followed_.resize(candidates);
 }
 
 void SteadyFeet::keep(int candidate, const Room& room, int piece, const brep::Foot& foot,
                       const nurbs::Vector3& centre) {
-  Rest& rest = rests_[candidate];
-  set(rest, room, piece, foot.patch, foot.side);
-  rest.marks = {of_patch(foot.patch, foot.side), kNone, 0, !search_.triangle(piece).exists()};
+  page_of(candidate).set(line_of(candidate), room, piece, foot.patch, foot.side,
+                         {of_patch(foot.patch, foot.side), kNone, 1, !search_.triangle(piece).exists()});
   if (!followed_.empty()) followed_[candidate] = {foot.xi, centre - foot.point};
+}
+
+// The place of a candidate's further feet.
+int SteadyFeet::room_for_others() {
+  const std::size_t first = further_.size();
+  further_.resize(first + kMostFeet - 1);
+  return static_cast<int>(first);
 }
 
 void SteadyFeet::keep(int candidate, const Room& room, const std::vector<brep::Foot>& feet,
                       const int* pieces) {
-  const int count = static_cast<int>(feet.size());
+  const int count = static_cast<int>(feet.size()), k = line_of(candidate);
   NURBS_ASSERT(0 < count && count <= kMostFeet, count);
-  Rest& rest = rests_[candidate];
-  if (count > 1 && rest.further < 0) {
-    rest.further = static_cast<std::int32_t>(further_.size());
-    further_.resize(further_.size() + kMostFeet - 1);
-  }
-  for (int k = 0; k < count; ++k) {
-    Rest& own = k == 0 ? rest : further_[rest.further + k - 1];
-    set(own, room, pieces[k], feet[k].patch, feet[k].side);
-    own.marks = {of_patch(feet[k].patch, feet[k].side), kNone, static_cast<std::int8_t>(k), false};
-  }
-  rest.feet = count;
+  Page& page = page_of(candidate);
+  const auto marks = [&](const brep::Foot& foot) {
+    return Marks{of_patch(foot.patch, foot.side), kNone, static_cast<std::int8_t>(count), false};
+  };
+  page.set(k, room, pieces[0], feet[0].patch, feet[0].side, marks(feet[0]));
+  if (count > 1 && page.further[k] < 0) page.further[k] = room_for_others();
+  for (int n = 1; n < count; ++n)
+    further_[page.further[k] + n - 1] = {
+        room.centre, room.reach,    room.margin,   static_cast<double>(feet[n].side),
+        pieces[n],   feet[n].patch, marks(feet[n])};
 }
 
 void SteadyFeet::go_on(int candidate, int before, const nurbs::Vector3& centre, double known) {
-  const Rest& old = rests_before_[before];
-  if (old.piece < 0) return;
-  const double reach = std::min(old.reach, known - (old.centre - centre).norm());
-  Rest& rest = rests_[candidate];
-  rest = old;
-  rest.further = kNone;
-  if (old.feet > 1) {
-    rest.further = static_cast<std::int32_t>(further_.size());
-    const auto first = further_before_.begin() + old.further;
-    further_.insert(further_.end(), first, first + kMostFeet - 1);
-  }
-  for (int k = 0; k < rest.feet; ++k) {
-    Rest& own = k == 0 ? rest : further_[rest.further + k - 1];
+  const Page& old = pages_before_[before / kBlock];
+  const int from = line_of(before), k = line_of(candidate);
+  if (old.piece[from] < 0) return;
+  const nurbs::Vector3 then(old.kept.centre[0][from], old.kept.centre[1][from], old.kept.centre[2][from]);
+  const double reach = std::min(old.kept.reach[from], known - (then - centre).norm());
+  Page& page = page_of(candidate);
+  Marks marks = old.marks[from];
+  marks.slot = kNone;  // somebody may have looked at the particle's memory meanwhile
+  page.set(k, {then, reach, old.kept.margin[from]}, old.piece[from], old.face[from],
+           static_cast<int>(old.kept.sign[from]), marks);
+  if (marks.feet == 1) return;
+  page.further[k] = room_for_others();
+  for (int n = 0; n < marks.feet - 1; ++n) {
+    Further& own = further_[page.further[k] + n] = further_before_[old.further[from] + n];
     own.reach = reach;
-    own.marks.slot = kNone;  // somebody may have looked at the particle's memory meanwhile
+    own.marks.slot = kNone;
   }
 }
 
-int SteadyFeet::add_group(int particle, const double* x, const double* v, double touch_reach,
-                          const Rest& rest) {
-  const int first = block_.count - 1, candidate = candidate_[first];
-  for (int k = 1; k < rest.feet; ++k)
-    add_line(candidate, particle, x, v, touch_reach, further_[rest.further + k - 1]);
-  groups_[group_count_++] = {first, rest.feet};
-  return rest.feet;
+/* ---------------------------------------------------------------------- one block */
+
+bool SteadyFeet::begin_block(int first, int count, const coupling::RigidFrame& frame, bool is_turned) {
+  NURBS_ASSERT(first % kBlock == 0 && count <= kBlock, first, count);
+  first_ = first;
+  page_ = &page_of(first);
+  frame_ = &frame;
+  is_turned_ = is_turned;
+  block_.count = count;
+  std::fill_n(block_.touch_reach, count, kAway);
+  others_.count = several_count_ = 0;
+  return page_->count > 0;
+}
+
+// Those for which there is no room are not there.
+void SteadyFeet::add_others(int k, const double* x, const double* v, double touch_reach) {
+  const int count = page_->marks[k].feet - 1;
+  if (others_.count + count > kBlock) {
+    block_.touch_reach[k] = kAway;
+    return;
+  }
+  several_[several_count_++] = k;
+  first_other_[k] = others_.count;
+  for (int n = 0; n < count; ++n) {
+    const Further& own = further_[page_->further[k] + n];
+    const int line = others_.count++;
+    set_centre(others_, line, x, v, touch_reach);
+    for (int d = 0; d < 3; ++d) others_kept_.centre[d][line] = own.centre[d];
+    others_kept_.reach[line] = own.reach, others_kept_.margin[line] = own.margin;
+    others_kept_.sign[line] = own.sign;
+    other_piece_[line] = own.piece, other_face_[line] = own.face;
+    if (waits_for_memory_) nurbs::prefetch(search_.triangle(own.piece));
+  }
 }
 
 void SteadyFeet::find(const StepNumbers& step) {
+  static constexpr Below kPlanes = {true, false, true, false, 0};
+  if (!page_->below.is_known) page_->look_below();
+  find({block_, page_->kept, page_->piece, page_->face, page_->marks, page_->below}, step);
+  if (others_.count == 0) return;
+  find({others_, others_kept_, other_piece_, other_face_, nullptr, kPlanes}, step);
+  for (int n = 0; n < several_count_; ++n) bring_together(several_[n]);
+}
+
+void SteadyFeet::find(const Lines& lines, const StepNumbers& step) {
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = frame_->rotation;
-  kernel_.into_frame(block_, frame_->origin.data(), is_turned_ ? R.data() : nullptr);
-  find_in_frame();
-  if (is_turned_) kernel_.into_space(block_, R.data());
-  kernel_.stay_outside(block_, step);
-  for (const Group& group : *this) bring_together(group);
+  kernel_.into_frame(lines.block, frame_->origin.data(), is_turned_ ? R.data() : nullptr);
+  find_in_frame(lines);
+  if (is_turned_) kernel_.into_space(lines.block, R.data());
+  kernel_.stay_outside(lines.block, step);
 }
 
-// Their order is that of a search, which forces are added in: the nearest is the first.
-void SteadyFeet::bring_together(const Group& group) {
-  const int first = group.first;
-  double room = block_.room[first];
-  for (int k = first + 1; k < first + group.count; ++k) {
-    room = std::min(room, block_.room[k]);
-    if (!(block_.distance[k - 1] < block_.distance[k])) room = 0.0;
+// Of a candidate all feet are there, or none.  Their order is that of a search, which forces are added in:
+// the nearest is the first.
+void SteadyFeet::bring_together(int k) {
+  double room = block_.room[k], distance = block_.distance[k];
+  const int first = first_other_[k];
+  for (int line = first; line < first + page_->marks[k].feet - 1; ++line) {
+    room = std::min(room, others_.room[line]);
+    if (!(distance < others_.distance[line])) room = 0.0;
+    distance = others_.distance[line];
   }
-  std::fill_n(block_.room + first, group.count, room);
+  block_.room[k] = room;
 }
 
-void SteadyFeet::find_in_frame() {
-  kernel_.room_to_move(block_);
-  if (!faces_.empty()) return find_on_faces();
-  if (curved_count_ < block_.count) find_on_planes();
-  if (curved_count_ == block_.count && find_on_one_cylinder()) return;
-  for (int n = 0; n < curved_count_; ++n) find_on_chart(curved_[n]);
-}
-
-bool SteadyFeet::is_one_face() const {
-  int others = 0;
-  for (int k = 1; k < block_.count; ++k) others |= face_[k] ^ face_[0];
-  return others == 0;
+void SteadyFeet::find_in_frame(const Lines& lines) {
+  kernel_.room_to_move(lines.block, lines.kept);
+  if (!faces_.empty()) return find_on_faces(lines);
+  if (lines.below.has_planes) find_on_planes(lines);
+  if (!lines.below.has_curved || (!lines.below.has_planes && find_on_one_cylinder(lines))) return;
+  for (int k = 0; k < lines.block.count; ++k)
+    if (lines.marks[k].is_curved || !lines.has(k)) find_on_chart(lines, k);
 }
 
 namespace {
@@ -118,108 +193,116 @@ void copy(const nurbs::Vector3& from, double (&to)[3]) { nurbs::Vector3::Map(to)
 
 }  // namespace
 
-void SteadyFeet::find_on_planes() {
-  if (is_one_face()) {
-    const brep::PlaneTriangle& plane = search_.triangle(piece_[0]);
+void SteadyFeet::find_on_planes(const Lines& lines) {
+  FeetBlock& block = lines.block;
+  if (lines.below.is_one_face) {
+    const int face = lines.face[lines.below.first];
+    const brep::PlaneTriangle& plane = search_.triangle(lines.piece[lines.below.first]);
     PlaneNumbers all{{}, {}, {}, {}, {1.0, 1.0}, {0.0, 0.0}};
     copy(plane.origin(), all.origin), copy(plane.x(), all.x), copy(plane.y(), all.y);
     copy(plane.normal(), all.normal);
     for (int i = 0; i < 2 && charts_; ++i) {
-      const brep::ChartLine& line = (*charts_)[face_[0]].line[i];
+      const brep::ChartLine& line = (*charts_)[face].line[i];
       all.scale[i] = line.scale(), all.shift[i] = line.shift();
     }
-    return kernel_.over_one_plane(block_, all);
+    return kernel_.over_one_plane(block, lines.kept, all);
   }
-  for (int k = 0; k < block_.count; ++k) {
-    if (marks_[k].is_curved) continue;
-    const brep::PlaneTriangle& plane = search_.triangle(piece_[k]);
+  for (int k = 0; k < block.count; ++k) {
+    if (!lines.has(k) || (lines.below.has_curved && lines.marks[k].is_curved)) continue;
+    const brep::PlaneTriangle& plane = search_.triangle(lines.piece[k]);
     for (int d = 0; d < 3; ++d) {
-      block_.origin[d][k] = plane.origin()[d];
-      block_.x[d][k] = plane.x()[d], block_.y[d][k] = plane.y()[d];
+      block.origin[d][k] = plane.origin()[d];
+      block.x[d][k] = plane.x()[d], block.y[d][k] = plane.y()[d];
     }
     for (int i = 0; i < 2; ++i) {
-      block_.scale[i][k] = charts_ ? (*charts_)[face_[k]].line[i].scale() : 1.0;
-      block_.shift[i][k] = charts_ ? (*charts_)[face_[k]].line[i].shift() : 0.0;
+      block.scale[i][k] = charts_ ? (*charts_)[lines.face[k]].line[i].scale() : 1.0;
+      block.shift[i][k] = charts_ ? (*charts_)[lines.face[k]].line[i].shift() : 0.0;
     }
   }
-  kernel_.over_planes(block_);
+  kernel_.over_planes(block, lines.kept);
 }
 
-// As brep::Chart::place has it, if all are on the same that has a chart.
-bool SteadyFeet::find_on_one_cylinder() {
-  const brep::Face& face = search_.surface().faces[face_[0]];
-  if (!charts_ || face.kind != brep::Kind::cylinder || !is_one_face()) return false;
-  CylinderNumbers numbers{{}, {}, {}, {}, face.R, brep::kOnAxis * face.R};
+// If all are on the same that has a chart.
+bool SteadyFeet::find_on_one_cylinder(const Lines& lines) {
+  const int number = lines.face[lines.below.first];
+  const brep::Face& face = search_.surface().faces[number];
+  if (!charts_ || face.kind != brep::Kind::cylinder || !lines.below.is_one_face) return false;
+  const brep::Chart& chart = (*charts_)[number];
+  CylinderNumbers numbers{
+      {}, {}, {}, {}, face.R, brep::kOnAxis * face.R, chart.line[0].numbers(), chart.line[1].numbers()};
   copy(face.frame.origin, numbers.origin), copy(face.frame.x, numbers.x);
   copy(face.frame.y, numbers.y), copy(face.frame.z, numbers.z);
-  kernel_.over_one_cylinder(block_, numbers);
-  const brep::Chart& chart = (*charts_)[face_[0]];
-  chart.line[0].place_angles(block_.count, block_.cos, block_.sin, block_.xi[0], inside_[0]);
-  chart.line[1].place_lengths(block_.count, block_.length, block_.xi[1], inside_[1]);
-  for (int k = 0; k < block_.count; ++k)
-    block_.room[k] = std::min(block_.room[k], std::min(inside_[0][k], inside_[1][k]));
+  kernel_.over_one_cylinder(lines.block, lines.kept, numbers);
   return true;
 }
 
 // What planes have made of its room is not meant for it.
-void SteadyFeet::find_on_chart(int k) {
-  const nurbs::Vector3 centre(block_.centre[0][k], block_.centre[1][k], block_.centre[2][k]);
-  const double margin = block_.margin[k];
-  block_.room[k] = margin * std::abs(margin) - (centre - rests_[candidate_[k]].centre).squaredNorm();
-  if (!(block_.room[k] > 0.0)) return;
+void SteadyFeet::find_on_chart(const Lines& lines, int k) {
+  FeetBlock& block = lines.block;
+  block.room[k] = 0.0;
+  if (!lines.has(k)) return;
+  const nurbs::Vector3 centre(block.centre[0][k], block.centre[1][k], block.centre[2][k]),
+      then(lines.kept.centre[0][k], lines.kept.centre[1][k], lines.kept.centre[2][k]);
+  const double margin = std::min(lines.kept.reach[k] - block.touch_reach[k], lines.kept.margin[k]);
+  const double room = margin * std::abs(margin) - (centre - then).squaredNorm();
+  if (!(room > 0.0)) return;
   search::Foot foot;
-  const int side = search_.foot_inside_curved(piece_[k], centre, block_.touch_reach[k], charts_, foot);
-  if (side != block_.sign[k]) {
-    block_.room[k] = 0.0;
-    return;
-  }
-  for (int d = 0; d < 3; ++d) block_.delta[d][k] = centre[d] - foot.point[d];
-  block_.distance[k] = foot.distance;
-  for (int i = 0; i < 2; ++i) block_.xi[i][k] = foot.xi[i];
+  const int side = search_.foot_inside_curved(lines.piece[k], centre, block.touch_reach[k], charts_, foot);
+  if (side != lines.kept.sign[k]) return;
+  block.room[k] = room;
+  for (int d = 0; d < 3; ++d) block.delta[d][k] = centre[d] - foot.point[d];
+  block.distance[k] = foot.distance;
+  for (int i = 0; i < 2; ++i) block.xi[i][k] = foot.xi[i];
 }
 
 // Of trimmed faces, whose borders are out of reach.
-void SteadyFeet::find_on_faces() {
+void SteadyFeet::find_on_faces(const Lines& lines) {
+  FeetBlock& block = lines.block;
   FaceBlock& on = on_faces_;
   int line[kBlock], closed = 0;
-  for (int k = 0; k < block_.count; ++k) {
-    if (search_.surface().faces[face_[k]].kind == brep::Kind::nurbs) {
-      find_on_patch(k);
+  for (int k = 0; k < block.count; ++k) {
+    if (!lines.has(k)) {
+      block.room[k] = 0.0;
       continue;
     }
-    const double* const numbers = faces_[face_[k]].value;
+    if (search_.surface().faces[lines.face[k]].kind == brep::Kind::nurbs) {
+      find_on_patch(lines, k);
+      continue;
+    }
+    const double* const numbers = faces_[lines.face[k]].value;
     for (int i = 0; i < FaceNumbers::count; ++i) on.face[i][closed] = numbers[i];
-    for (int d = 0; d < 3; ++d) on.centre[d][closed] = block_.centre[d][k];
-    on.sign[closed] = block_.sign[k];
-    on.touch_reach[closed] = block_.touch_reach[k], on.room[closed] = block_.room[k];
+    for (int d = 0; d < 3; ++d) on.centre[d][closed] = block.centre[d][k];
+    on.sign[closed] = lines.kept.sign[k];
+    on.touch_reach[closed] = block.touch_reach[k], on.room[closed] = block.room[k];
     line[closed++] = k;
   }
   on.count = closed;
   face_kernel_(on);
   for (int n = 0; n < closed; ++n) {
     const int k = line[n];
-    for (int d = 0; d < 3; ++d) block_.delta[d][k] = on.delta[d][n];
-    for (int i = 0; i < 2; ++i) block_.xi[i][k] = on.xi[i][n];
-    block_.distance[k] = on.distance[n], block_.room[k] = on.room[n];
+    for (int d = 0; d < 3; ++d) block.delta[d][k] = on.delta[d][n];
+    for (int i = 0; i < 2; ++i) block.xi[i][k] = on.xi[i][n];
+    block.distance[k] = on.distance[n], block.room[k] = on.room[n];
   }
 }
 
 // As long as it is near one foot nothing but its side of the surface may change.
-void SteadyFeet::find_on_patch(int k) {
-  if (!(block_.room[k] > 0.0)) return;
-  const nurbs::Vector3 centre(block_.centre[0][k], block_.centre[1][k], block_.centre[2][k]);
-  Followed& followed = followed_[candidate_[k]];
-  const search::Foot foot = search_.foot_on_patch(face_[k], centre, followed.xi);
+void SteadyFeet::find_on_patch(const Lines& lines, int k) {
+  FeetBlock& block = lines.block;
+  if (!(block.room[k] > 0.0)) return;
+  const nurbs::Vector3 centre(block.centre[0][k], block.centre[1][k], block.centre[2][k]);
+  Followed& followed = followed_[first_ + k];
+  const search::Foot foot = search_.foot_on_patch(lines.face[k], centre, followed.xi);
   const nurbs::Vector3 up = centre - foot.point;
-  if (foot.status != search::FootStatus::interior || !(foot.distance < block_.touch_reach[k]) ||
+  if (foot.status != search::FootStatus::interior || !(foot.distance < block.touch_reach[k]) ||
       !(up.dot(followed.up) > 0.0)) {
-    block_.room[k] = 0.0;
+    block.room[k] = 0.0;
     return;
   }
   followed.xi = foot.xi;
-  for (int d = 0; d < 3; ++d) block_.delta[d][k] = up[d];
-  block_.distance[k] = foot.distance;
-  for (int i = 0; i < 2; ++i) block_.xi[i][k] = foot.xi[i];
+  for (int d = 0; d < 3; ++d) block.delta[d][k] = up[d];
+  block.distance[k] = foot.distance;
+  for (int i = 0; i < 2; ++i) block.xi[i][k] = foot.xi[i];
 }
 
 }  // namespace contact

@@ -2,8 +2,8 @@
 // Contacts inside faces that stay there: what most contacts do in most steps.  Who has looked at all pieces
 // near a candidate says how far it may move until it can have other feet than these (keep); until then its
 // heights over their faces are all that is asked for: no search, no matching of slots, no question to anybody
-// else.  Feet over planes and on one cylinder are found a block at a time (feet_kernel.h); their digits are
-// those of a search.
+// else.  Feet over planes and on one cylinder are found a block at a time (feet_kernel.h), beside what they
+// were kept with, which stands in the order of the candidates; their digits are those of a search.
 #pragma once
 
 #include <algorithm>
@@ -23,23 +23,18 @@ namespace contact {
 
 class SteadyFeet {
  public:
-  static constexpr int kBlock = FeetBlock::kCapacity;
-  static constexpr int kMostFeet = 4;  ///< of one candidate
+  static constexpr int kBlock = FeetBlock::kCapacity;  ///< candidates of one block
+  static constexpr int kMostFeet = 4;                  ///< of one candidate
 
   /// Keeps references.
   SteadyFeet(const brep::FootSearch& search, const FaceNames& names);
 
   /// For a new list; those of the last are at hand to go_on() with.
-  void forget_all(std::size_t candidates) {
-    rests_.swap(rests_before_), further_.swap(further_before_);
-    rests_.assign(candidates, Rest());
-    further_.clear();
-    if (search_.surface().patches) followed_.resize(candidates);
-  }
+  void forget_all(std::size_t candidates);
   /// With the feet of candidate `before` of the last list, of which all is known that is within `known` of
   /// `centre` [length]; they are on faces in closed form.
   void go_on(int candidate, int before, const nurbs::Vector3& centre, double known);
-  void forget(int candidate) { rests_[candidate].piece = kNone; }
+  void forget(int candidate) { page_of(candidate).forget(line_of(candidate)); }
 
   /// Where a candidate was, and how far it may go: it has the feet that it is kept with, as long as it
   /// reaches `margin` less than `reach` and has not moved by more than `margin` [length].
@@ -52,133 +47,159 @@ class SteadyFeet {
   /// Up to kMostFeet feet over plane faces, the nearest first; pieces[k] is below foot k.
   void keep(int candidate, const Room& room, const std::vector<brep::Foot>& feet, const int* pieces);
 
-  /// Begins a block, of centres in space that `frame` has in the wall's.
-  void begin_block(const coupling::RigidFrame& frame, bool is_turned) {
-    block_.count = curved_count_ = group_count_ = 0;
-    frame_ = &frame;
-    is_turned_ = is_turned;
-  }
-  /// Adds a candidate, if it has such feet; how many lines of the block they take, whose numbers rise, 0:
-  /// none. There must be room for kMostFeet.  `x`, `v`: of its centre.
-  int add(int candidate, int particle, const double* x, const double* v, double touch_reach) {
-    NURBS_ASSERT(candidate < static_cast<int>(rests_.size()), candidate, rests_.size());
-    const Rest& rest = rests_[candidate];
-    if (rest.piece < 0) return 0;
-    add_line(candidate, particle, x, v, touch_reach, rest);
-    return rest.feet == 1 ? 1 : add_group(particle, x, v, touch_reach, rest);
+  /// Begins the block of candidates from number `first` on, a multiple of kBlock, which are its lines;
+  /// centres are in space that `frame` has in the wall's.  Whether any of them has such feet.
+  bool begin_block(int first, int count, const coupling::RigidFrame& frame, bool is_turned);
+  bool has(int k) const { return page_->piece[k] >= 0; }
+  /// One that has such feet; those that are not added are not there.  `x`, `v`: of its centre.
+  void add(int k, const double* x, const double* v, double touch_reach) {
+    NURBS_ASSERT(has(k) && k < block_.count, k, block_.count);
+    set_centre(block_, k, x, v, touch_reach);
+    if (waits_for_memory_) nurbs::prefetch(search_.triangle(page_->piece[k]));  // find() looks at it
+    if (page_->marks[k].feet > 1) add_others(k, x, v, touch_reach);
   }
 
-  /// Candidates of this block with several feet: lines [first, first + count).
-  struct Group {
-    int first, count;
-  };
-  const Group* begin() const { return groups_; }
-  const Group* end() const { return groups_ + group_count_; }
-
-  /// Finds the feet of those that were added, lines 0 to count() - 1.  Of a group all are there, or none.
+  /// Finds the feet of those that were added.
   void find(const StepNumbers& step);
-  int count() const { return block_.count; }
-  int candidate(int k) const { return candidate_[k]; }
-  int particle(int k) const { return particle_[k]; }
   /// Whether the candidate still has those feet alone, and the step leaves them as they are (StepNumbers).
   bool is_there(int k) const { return block_.room[k] > 0.0; }
-  void drop(const Group& group) {
-    for (int k = group.first; k < group.first + group.count; ++k) block_.room[k] = 0.0;
+  int feet(int k) const { return page_->marks[k].feet; }
+
+  struct Marks {       // copied as one number
+    std::int8_t side;  ///< of the patch, where the centre is: +1 or -1
+    std::int8_t slot;  ///< of the particle's memory; -1: settle() was not told yet
+    std::int8_t feet;  ///< of the candidate
+    bool is_curved;    ///< the face below
+  };
+  /// One of them, in space; for as long as its block lasts.
+  class Foot {
+   public:
+    Foot(const FeetBlock& block, int line, int face, int patch, const Marks& marks)
+        : block_(block), line_(line), face_(face), patch_(patch), marks_(marks) {}
+    int face() const { return face_; }
+    int patch() const { return patch_; }
+    nurbs::Parameter<2> xi() const { return {block_.xi[0][line_], block_.xi[1][line_]}; }  ///< on the patch
+    nurbs::Vector3 delta() const {  ///< from the foot to the centre [length]
+      return {block_.delta[0][line_], block_.delta[1][line_], block_.delta[2][line_]};
+    }
+    double distance() const { return block_.distance[line_]; }  ///< [length]
+    int side() const { return marks_.side; }
+    int slot() const { return marks_.slot; }
+
+   private:
+    const FeetBlock& block_;
+    int line_, face_, patch_;
+    const Marks& marks_;
+  };
+  /// The nearest of a candidate; then the others.
+  Foot foot(int k) const {
+    return {block_, k, page_->face[k], names_.patch_of(page_->face[k]), page_->marks[k]};
   }
-  nurbs::SurfacePoint at(int k) const {
-    return {names_.patch_of(face_[k]), {block_.xi[0][k], block_.xi[1][k]}};
+  Foot foot(int k, int n) const {
+    if (n == 0) return foot(k);
+    const int line = first_other_[k] + n - 1, face = other_face_[line];
+    return {others_, line, face, names_.patch_of(face), further_[page_->further[k] + n - 1].marks};
+  }
+  /// Whoever fills or clears that slot otherwise asks for feet anew.
+  void settle(int k, int n, int slot) {
+    Marks& marks = n == 0 ? page_->marks[k] : further_[page_->further[k] + n - 1].marks;
+    marks.slot = static_cast<std::int8_t>(slot);
   }
   /// Whether a slot has been on the foot's face, on a side that is known.
-  bool has_been_on_face(const ContactSlot& slot, int k) const {
-    return slot.is_beside(names_.patch_of(face_[k])) &&
-           (!names_.parts || names_.parts->part_at(slot.foot()) == face_[k]);
-  }
-  /// From the foot to the centre, in space [length].
-  nurbs::Vector3 delta(int k) const { return {block_.delta[0][k], block_.delta[1][k], block_.delta[2][k]}; }
-  double distance(int k) const { return block_.distance[k]; }
-  int side(int k) const { return marks_[k].side; }  ///< of the patch, where the centre is: +1 or -1
-  /// The slot of the particle's memory that has the foot's branch; -1: settle() was not told yet.
-  int slot(int k) const { return marks_[k].slot; }
-  /// Whoever fills or clears that slot otherwise asks for feet anew.
-  void settle(int k, int slot) {
-    marks_[k].slot = static_cast<std::int8_t>(slot);
-    rest_of(k).marks.slot = marks_[k].slot;
+  bool has_been_on_face(const ContactSlot& slot, const Foot& foot) const {
+    return slot.is_beside(foot.patch()) &&
+           (!names_.parts || names_.parts->part_at(slot.foot()) == foot.face());
   }
 
  private:
   static constexpr int kNone = -1;
-  struct Marks {       // copied as one number
-    std::int8_t side;  // of the patch
-    std::int8_t slot;
-    std::int8_t number;  // among the feet of its candidate
-    bool is_curved;
-  };
-  struct alignas(64) Rest {
-    nurbs::Vector3 centre;
-    double reach, margin;
-    float sign;  // of its height over the face
-    std::int32_t piece = kNone, face;
-    alignas(4) Marks marks;
-    std::int32_t feet;             // of the candidate; the others are at
-    std::int32_t further = kNone;  // in further_, if it ever had several
-  };
-  static_assert(sizeof(Rest) == 64, "one cache line");
+  static constexpr double kAway = -1.0;  // what lines reach that were not added
 
-  void add_line(int candidate, int particle, const double* x, const double* v, double touch_reach,
-                const Rest& rest) {
-    const int k = block_.count++;
-    candidate_[k] = candidate, particle_[k] = particle, piece_[k] = rest.piece;
-    face_[k] = rest.face, marks_[k] = rest.marks;
-    block_.sign[k] = static_cast<double>(rest.sign);
-    block_.touch_reach[k] = touch_reach;
-    block_.margin[k] = std::min(rest.reach - touch_reach, rest.margin);  // it may have grown or shrunk
-    for (int d = 0; d < 3; ++d) block_.centre[d][k] = x[d], block_.before[d][k] = rest.centre[d];
-    block_.squared_speed[k] = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    if (rest.marks.is_curved) curved_[curved_count_++] = k;
-    if (waits_for_memory_) nurbs::prefetch(search_.triangle(rest.piece));  // find() looks at it
+  // What the faces below lines have in common.
+  struct Below {
+    bool is_known = false, is_one_face = false, has_planes = false, has_curved = false;
+    int first = 0;  // a line that has one
+  };
+  // The nearest feet of kBlock candidates, number by number.
+  struct Page {
+    Page();
+    void set(int k, const Room& room, int piece_below, int face_below, int side_of_face,
+             const Marks& of_foot);
+    void forget(int k);
+    void look_below();
+
+    KeptFeet kept;
+    std::int32_t piece[kBlock], face[kBlock];
+    Marks marks[kBlock];
+    std::int32_t further[kBlock];  // in further_, of candidates that ever had several feet
+    int count = 0;                 // of those that have a foot
+    Below below;
+  };
+  // Another foot of a candidate.
+  struct Further {
+    nurbs::Vector3 centre;
+    double reach, margin, sign;
+    std::int32_t piece, face;
+    Marks marks;
+  };
+  // Feet of a block, and what is below them; piece < 0: there is none.
+  struct Lines {
+    FeetBlock& block;
+    const KeptFeet& kept;
+    const std::int32_t *piece, *face;
+    const Marks* marks;
+    const Below& below;
+    bool has(int k) const { return piece[k] >= 0 && block.touch_reach[k] >= 0.0; }
+  };
+
+  Page& page_of(int candidate) {
+    NURBS_ASSERT(candidate < static_cast<int>(pages_.size()) * kBlock, candidate, pages_.size());
+    return pages_[candidate / kBlock];
   }
-  int add_group(int particle, const double* x, const double* v, double touch_reach, const Rest& rest);
-  Rest& rest_of(int k) {
-    Rest& first = rests_[candidate_[k]];
-    return marks_[k].number == 0 ? first : further_[first.further + marks_[k].number - 1];
+  static int line_of(int candidate) { return candidate % kBlock; }
+  static void set_centre(FeetBlock& block, int k, const double* x, const double* v, double touch_reach) {
+    for (int d = 0; d < 3; ++d) block.centre[d][k] = x[d];
+    block.squared_speed[k] = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    block.touch_reach[k] = touch_reach;
   }
-  static void set(Rest& rest, const Room& room, int piece, int face, int side);
+  void add_others(int k, const double* x, const double* v, double touch_reach);
+  int room_for_others();
   std::int8_t of_patch(int face, int side) const { return static_cast<std::int8_t>(names_.side(face, side)); }
-  bool is_one_face() const;
-  void find_in_frame();
-  void find_on_planes();
-  void find_on_faces();
-  bool find_on_one_cylinder();
-  void find_on_chart(int k);
-  void find_on_patch(int k);
-  void bring_together(const Group& group);
+  void find(const Lines& lines, const StepNumbers& step);
+  void find_in_frame(const Lines& lines);
+  void find_on_planes(const Lines& lines);
+  void find_on_faces(const Lines& lines);
+  bool find_on_one_cylinder(const Lines& lines);
+  void find_on_chart(const Lines& lines, int k);
+  void find_on_patch(const Lines& lines, int k);
+  void bring_together(int k);
 
   const brep::FootSearch& search_;
   FaceNames names_;
   const std::vector<brep::Chart>* charts_;  // of these
   bool waits_for_memory_;
-  std::vector<Rest> rests_;    // per candidate
-  std::vector<Rest> further_;  // kMostFeet - 1 for each that has had several feet
+  std::vector<Page> pages_, pages_before_;         // of the candidates, of this list and of the last
+  std::vector<Further> further_, further_before_;  // kMostFeet - 1 for each that has had several feet
   struct Followed {
     nurbs::Parameter<2> xi;
     nurbs::Vector3 up;  // from the foot to the centre
   };
-  std::vector<Followed> followed_;                   // per candidate, of feet on patches
-  std::vector<Rest> rests_before_, further_before_;  // of the last list
+  std::vector<Followed> followed_;  // per candidate, of feet on patches
 
   FeetKernel kernel_;
   const coupling::RigidFrame* frame_ = nullptr;
   bool is_turned_ = false;
-  int curved_count_ = 0, group_count_ = 0;
-  int candidate_[kBlock] = {}, particle_[kBlock] = {}, piece_[kBlock] = {}, face_[kBlock] = {},
-      curved_[kBlock] = {};
-  alignas(4) Marks marks_[kBlock] = {};
-  Group groups_[kBlock / 2] = {};
+  Page* page_ = nullptr;  // of this block
+  int first_ = 0;         // its first candidate
   FeetBlock block_;
+  // The further feet of its candidates, where the first of each stands among them, and who has some.
+  FeetBlock others_;
+  KeptFeet others_kept_;
+  std::int32_t other_piece_[kBlock] = {}, other_face_[kBlock] = {};
+  int first_other_[kBlock] = {}, several_[kBlock] = {}, several_count_ = 0;
   FaceKernel face_kernel_;
   std::vector<FaceNumbers> faces_;  // of walls whose faces have no charts
   FaceBlock on_faces_;
-  double inside_[2][kBlock] = {};  // of charts of cylinders
 };
 
 }  // namespace contact

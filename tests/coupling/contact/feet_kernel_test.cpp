@@ -9,9 +9,12 @@
 #include <random>
 #include <vector>
 
+#include "brep/chart.h"
+
 namespace {
 
 using contact::FeetBlock;
+using contact::KeptFeet;
 using Eigen::Vector3d;
 using nurbs::SimdLevel;
 
@@ -45,13 +48,27 @@ FeetBlock random_block(Random& random, int count) {
   block.count = count;
   for (int k = 0; k < count; ++k) {
     set(block.centre, k, random.vector());
-    set(block.before, k, get(block.centre, k) + 0.01 * random.vector());
     block.touch_reach[k] = random(0.5, 1.0);
-    block.margin[k] = random(-0.01, 0.05);
-    block.sign[k] = random() > 0.0 ? 1.0 : -1.0;
     block.squared_speed[k] = random(0.0, 3.0);
   }
   return block;
+}
+
+// Some have grown more than their margin, some have none.
+KeptFeet kept_feet(Random& random, const FeetBlock& block) {
+  KeptFeet kept;
+  for (int k = 0; k < block.count; ++k) {
+    set(kept.centre, k, get(block.centre, k) + 0.01 * random.vector());
+    kept.reach[k] = block.touch_reach[k] + random(-0.01, 0.1);
+    kept.margin[k] = random(-0.01, 0.05);
+    kept.sign[k] = random() > 0.0 ? 1.0 : -1.0;
+  }
+  return kept;
+}
+
+bool may_move(const FeetBlock& block, const KeptFeet& kept, int k) {
+  return (get(block.centre, k) - get(kept.centre, k)).norm() <
+         std::min(kept.margin[k], kept.reach[k] - block.touch_reach[k]);
 }
 
 constexpr double kRoundOff = 1e-15;
@@ -101,12 +118,15 @@ TEST(FeetKernel, TellsWhetherAnyIsAboveItsLimit) {
     }
 }
 
-// room > 0 where the foot touches, is on its side, and the centre has moved by less than it may.
+// room > 0 where the foot touches, is on its side, and the centre has moved by less than it may.  Those that
+// reach nothing have no room.
 TEST(FeetKernel, FeetOverPlanes) {
   Random random;
   for (const SimdLevel level : levels_here()) {
     const contact::FeetKernel kernel = contact::feet_kernel(level);
     FeetBlock block = random_block(random, 61);
+    const KeptFeet kept = kept_feet(random, block);
+    block.touch_reach[17] = -1.0;
     std::vector<contact::PlaneNumbers> planes(block.count);
     for (int k = 0; k < block.count; ++k) {
       const Eigen::Matrix3d axes = random.rotation();
@@ -121,16 +141,16 @@ TEST(FeetKernel, FeetOverPlanes) {
       for (int i = 0; i < 2; ++i) block.scale[i][k] = plane.scale[i], block.shift[i][k] = plane.shift[i];
     }
     FeetBlock each = block;
-    kernel.room_to_move(each);
-    kernel.over_planes(each);
+    kernel.room_to_move(each, kept);
+    kernel.over_planes(each, kept);
     int there = 0;
     for (int k = 0; k < block.count; ++k) {
       FeetBlock one = block;
-      kernel.room_to_move(one);
-      kernel.over_one_plane(one, planes[k]);
+      kernel.room_to_move(one, kept);
+      kernel.over_one_plane(one, kept, planes[k]);
       const Vector3d c = get(block.centre, k), n = Vector3d::Map(planes[k].normal),
                      way = c - Vector3d::Map(planes[k].origin);
-      const double distance = block.sign[k] * n.dot(way);
+      const double distance = kept.sign[k] * n.dot(way);
       for (const FeetBlock* found : {&one, &each}) {
         EXPECT_NEAR(found->distance[k], distance, 4 * kRoundOff);
         EXPECT_LT((get(found->delta, k) - n.dot(way) * n).norm(), 8 * kRoundOff);
@@ -140,8 +160,7 @@ TEST(FeetKernel, FeetOverPlanes) {
         EXPECT_NEAR(found->xi[1][k],
                     planes[k].scale[1] * way.dot(Vector3d::Map(planes[k].y)) + planes[k].shift[1],
                     4 * kRoundOff);
-        const double moved = (c - get(block.before, k)).norm();
-        const bool is_there = distance > 0.0 && distance < block.touch_reach[k] && moved < block.margin[k];
+        const bool is_there = distance > 0.0 && distance < block.touch_reach[k] && may_move(block, kept, k);
         EXPECT_EQ(found->room[k] > 0.0, is_there);
         there += is_there;
       }
@@ -150,34 +169,45 @@ TEST(FeetKernel, FeetOverPlanes) {
   }
 }
 
+// Three arcs around it, from `begin` on.
+brep::ChartLine around_cylinder(double begin) { return {{begin, begin + 3.5}, {-1.0, 2.0}, 3}; }
+brep::ChartLine along_cylinder() { return {{-0.8, 0.7}, {0.5, 3.0}, 0}; }
+
+// Their parameters are to the last bit as each alone has them.
 TEST(FeetKernel, FeetOverACylinder) {
   Random random;
   for (const SimdLevel level : levels_here()) {
     const contact::FeetKernel kernel = contact::feet_kernel(level);
     FeetBlock block = random_block(random, 61);
+    const KeptFeet kept = kept_feet(random, block);
     const Eigen::Matrix3d axes = random.rotation();
     const Vector3d origin = 0.1 * random.vector();
-    contact::CylinderNumbers cylinder{{}, {}, {}, {}, 0.7, 0.3};
+    const brep::ChartLine around = around_cylinder(-1.5), along = along_cylinder();
+    contact::CylinderNumbers cylinder{{}, {}, {}, {}, 0.7, 0.3, around.numbers(), along.numbers()};
     copy(origin, cylinder.origin), copy(axes.col(0), cylinder.x), copy(axes.col(1), cylinder.y);
     copy(axes.col(2), cylinder.z);
-    kernel.room_to_move(block);
-    const FeetBlock before = block;
-    kernel.over_one_cylinder(block, cylinder);
+    kernel.room_to_move(block, kept);
+    kernel.over_one_cylinder(block, kept, cylinder);
     int there = 0;
     for (int k = 0; k < block.count; ++k) {
       const Vector3d way = get(block.centre, k) - origin, z = axes.col(2), across = way - way.dot(z) * z;
-      const double distance = block.sign[k] * (across.norm() - 0.7);
+      const double distance = kept.sign[k] * (across.norm() - 0.7);
       EXPECT_NEAR(block.distance[k], distance, 4 * kRoundOff);
       EXPECT_NEAR(block.length[k], way.dot(z), 4 * kRoundOff);
       EXPECT_NEAR(block.cos[k], across.normalized().dot(axes.col(0)), 8 * kRoundOff);
       EXPECT_NEAR(block.sin[k], across.normalized().dot(axes.col(1)), 8 * kRoundOff);
       EXPECT_LT((get(block.delta, k) - (across - 0.7 * across.normalized())).norm(), 8 * kRoundOff);
-      const bool is_there =
-          before.room[k] > 0.0 && distance > 0.0 && distance < block.touch_reach[k] && across.norm() > 0.3;
+      double xi[2];
+      const bool is_around = around.place_angle(block.cos[k], block.sin[k], xi[0]),
+                 is_along = along.place_length(block.length[k], xi[1]);
+      EXPECT_EQ(block.xi[0][k], xi[0]);
+      EXPECT_EQ(block.xi[1][k], xi[1]);
+      const bool is_there = may_move(block, kept, k) && distance > 0.0 && distance < block.touch_reach[k] &&
+                            across.norm() > 0.3 && is_around && is_along;
       EXPECT_EQ(block.room[k] > 0.0, is_there);
       there += is_there;
     }
-    EXPECT_GT(there, 5);
+    EXPECT_GT(there, 3);
   }
 }
 
@@ -208,23 +238,30 @@ TEST(FeetKernel, StepsThatNeedASecondLook) {
 // Runs give the same digits on all machines.
 TEST(FeetKernel, InstructionSetsAgreeInAllDigits) {
   Random random;
-  FeetBlock given = random_block(random, 63);
+  const FeetBlock given = random_block(random, 63);
+  const KeptFeet kept = kept_feet(random, given);
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = random.rotation();
   const Vector3d origin = random.vector();
   const auto found_by = [&](SimdLevel level) {
     const contact::FeetKernel kernel = contact::feet_kernel(level);
     FeetBlock block = given;
-    const contact::CylinderNumbers cylinder{{0.1, 0.2, 0.3}, {1, 0, 0}, {0, 0.8, 0.6},
-                                            {0, -0.6, 0.8},  0.7,       0.01};
+    const contact::CylinderNumbers cylinder{{0.1, 0.2, 0.3},
+                                            {1, 0, 0},
+                                            {0, 0.8, 0.6},
+                                            {0, -0.6, 0.8},
+                                            0.7,
+                                            0.01,
+                                            around_cylinder(0.3).numbers(),
+                                            along_cylinder().numbers()};
     kernel.into_frame(block, origin.data(), R.data());
-    kernel.room_to_move(block);
-    kernel.over_one_cylinder(block, cylinder);
+    kernel.room_to_move(block, kept);
+    kernel.over_one_cylinder(block, kept, cylinder);
     kernel.stay_outside(block, {1e-3, 1e-4, 1e-3});
     kernel.into_space(block, R.data());
     std::vector<double> numbers;
     for (int k = 0; k < block.count; ++k)
-      for (const double x : {block.room[k], block.distance[k], block.cos[k], block.sin[k], block.delta[0][k],
-                             block.delta[1][k], block.delta[2][k]})
+      for (const double x : {block.room[k], block.distance[k], block.cos[k], block.sin[k], block.xi[0][k],
+                             block.xi[1][k], block.delta[0][k], block.delta[1][k], block.delta[2][k]})
         numbers.push_back(x);
     return numbers;
   };

@@ -116,32 +116,6 @@ TEST_P(Closed, FeetAreThoseOnThePatch) {
   EXPECT_GT(insides, 50) << case_.name;
 }
 
-// To the last bit; outside of the range, too.
-TEST_P(Closed, ManyPlacesAreThoseOfSingleOnes) {
-  ASSERT_TRUE(forms_) << case_.name;
-  constexpr int kCount = 101;
-  double cos[kCount], sin[kCount], length[kCount], on_patch[kCount], inside[kCount];
-  std::mt19937 random(9);
-  std::uniform_real_distribution<double> angle(-M_PI, M_PI), along(-2.0, 2.0);
-  for (int k = 0; k < kCount; ++k) {
-    const double a = angle(random);
-    cos[k] = std::cos(a), sin[k] = std::sin(a), length[k] = along(random);
-  }
-  for (const ChartLine& line : forms_->charts[0].line) {
-    if (line.turns())
-      line.place_angles(kCount, cos, sin, on_patch, inside);
-    else
-      line.place_lengths(kCount, length, on_patch, inside);
-    for (int k = 0; k < kCount; ++k) {
-      double single;
-      const bool is_inside =
-          line.turns() ? line.place_angle(cos[k], sin[k], single) : line.place_length(length[k], single);
-      EXPECT_EQ(inside[k] >= 0.0, is_inside) << case_.name << ' ' << k;
-      EXPECT_EQ(on_patch[k], single) << case_.name << ' ' << k;
-    }
-  }
-}
-
 TEST_P(Closed, NormalsAndCurvaturesAreThoseOfThePatch) {
   ASSERT_TRUE(forms_) << case_.name;
   const Face& face = forms_->surface.faces[0];
