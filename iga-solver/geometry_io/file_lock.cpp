@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,9 +14,13 @@ namespace geometry_io {
 
 namespace {
 
-// False if somebody else has a lock in the way.
-bool lock(int descriptor, int kind) {
-  return descriptor < 0 || flock(descriptor, kind | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+// False if somebody else has a lock in the way.  Not flock: HDF5 has those, where the environment asks for
+// it.
+bool lock(int descriptor, short kind) {
+  struct flock whole {};
+  whole.l_type = kind, whole.l_whence = SEEK_SET;
+  return descriptor < 0 || fcntl(descriptor, F_OFD_SETLK, &whole) == 0 ||
+         (errno != EAGAIN && errno != EACCES);
 }
 
 bool is_file_of(int descriptor, const std::string& path) {
@@ -32,7 +35,7 @@ bool is_file_of(int descriptor, const std::string& path) {
 FileLock::FileLock(const std::string& path) {
   do {
     open(path);
-    if (!lock(descriptor_, LOCK_EX)) {
+    if (!lock(descriptor_, F_WRLCK)) {
       close();
       throw std::runtime_error(in_use(path));
     }
@@ -61,7 +64,7 @@ std::string in_use(const std::string& path) {
 // Who only reads it has a shared lock.
 bool is_locked(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  const bool is_free = lock(descriptor, LOCK_SH);
+  const bool is_free = lock(descriptor, F_RDLCK);
   if (descriptor >= 0) ::close(descriptor);
   return !is_free;
 }

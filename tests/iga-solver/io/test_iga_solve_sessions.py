@@ -224,6 +224,12 @@ class Together(Sessions):
         last.wait()
         self.assertEqual(self.written()["time"][0], 0)
 
+    def test_locks_of_hdf5_are_not_in_the_way(self):
+        self.addCleanup(os.environ.pop, "HDF5_USE_FILE_LOCKING", None)
+        for setting in ("TRUE", "BEST_EFFORT", "FALSE"):
+            os.environ["HDF5_USE_FILE_LOCKING"] = setting
+            self.solve(self.PLATE)
+
     def test_who_reads_an_older_file_is_not_in_the_way(self):
         self.solve(self.PLATE)
         with h5py.File(self.folder / "plate.h5"):
