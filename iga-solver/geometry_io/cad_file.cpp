@@ -41,7 +41,7 @@ std::string unpacked_cad(const std::string& bytes, const std::string& file, doub
   } catch (const std::bad_alloc&) {
     throw InputError(nurbs::out_of_memory(file));
   } catch (const std::runtime_error& error) {
-    throw InputError(one_line(file + ": " + error.what()));
+    throw InputError(file + ": " + error.what());
   }
 }
 

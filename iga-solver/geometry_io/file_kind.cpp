@@ -140,8 +140,8 @@ bool is_binary_stl(string_view bytes) {
 
 void refuse_kind(FileKind given, const std::string& path) {
   for (const KnownKind& kind : kKinds)
-    if (kind.kind == given) throw InputError(one_line(path + ": is " + kind.name + ", " + kind.way_out));
-  throw InputError(one_line(path + ": is text"));
+    if (kind.kind == given) throw InputError(path + ": is " + kind.name + ", " + kind.way_out);
+  throw InputError(path + ": is text");
 }
 
 void expect_kind(FileKind expected, const std::string& path, const std::string& bytes) {

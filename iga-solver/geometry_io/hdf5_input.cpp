@@ -59,7 +59,7 @@ std::string unpacked_hdf5(const std::string& bytes, const std::string& file) {
   } catch (const std::bad_alloc&) {
     throw InputError(nurbs::out_of_memory(file));
   } catch (const std::runtime_error& error) {
-    throw InputError(one_line(file + ": " + error.what()));
+    throw InputError(file + ": " + error.what());
   }
 }
 
@@ -76,7 +76,7 @@ Hdf5Input::Hdf5Input(const std::string& bytes, std::string file) : file_name_(st
 }
 
 void Hdf5Input::fail(const std::string& path, const std::string& message) const {
-  throw InputError(one_line(fmt::format("{}: {}: {}", file_name_, path, message)));
+  throw InputError(fmt::format("{}: {}: {}", file_name_, path, message));
 }
 
 const Hdf5Object& Hdf5Input::object(const std::string& path) const {

@@ -35,8 +35,7 @@ XmlInput::XmlInput(const std::string& text, std::string file) : text_(text), fil
 
 void XmlInput::fail_at(std::ptrdiff_t offset, const std::string& message) const {
   const auto end = text_.begin() + std::clamp<std::ptrdiff_t>(offset, 0, text_.size());
-  throw InputError(
-      one_line(fmt::format("{}:{}: {}", file_, 1 + std::count(text_.begin(), end, '\n'), message)));
+  throw InputError(fmt::format("{}:{}: {}", file_, 1 + std::count(text_.begin(), end, '\n'), message));
 }
 
 void XmlInput::fail(pugi::xml_node node, const std::string& message) const {
