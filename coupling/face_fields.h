@@ -5,9 +5,11 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "brep/piece_tree.h"
+#include "brep/triangles_in_plane.h"
 #include "coupling/contact_fields.h"
 
 namespace coupling {
@@ -29,7 +31,8 @@ class FaceFields final : public ContactFields {
   int nearest_piece(const Vector3& point);
 
   std::shared_ptr<const brep::Surface> wall_, surface_;  // surface_: of triangles
-  brep::PieceTree tree_;
+  std::optional<brep::PieceTree> tree_;                  // of a trimmed wall's triangles
+  std::optional<brep::TrianglesInPlane> in_plane_;       // of a wall of triangles
   Eigen::RowVectorXd area_;
   std::vector<int> near_;  // of one contact
 };

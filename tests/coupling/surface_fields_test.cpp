@@ -248,9 +248,8 @@ TEST(SurfaceFields, AreThoseAskedFor) {
   EXPECT_TRUE(result[0].elements.empty());
 }
 
-/// A square of 4 x 4 x 2 triangles in one plane and a wall on one of its sides.
-std::shared_ptr<const brep::Surface> square_and_wall() {
-  constexpr int n = 4;
+/// A square of n x n x 2 triangles in one plane and a wall on one of its sides.
+std::shared_ptr<const brep::Surface> square_and_wall(int n) {
   nurbs::NodalVectors points(3, (n + 1) * (n + 2));
   std::vector<int> corners;
   for (int j = 0; j <= n + 1; ++j)
@@ -263,14 +262,14 @@ std::shared_ptr<const brep::Surface> square_and_wall() {
   return std::make_shared<brep::Surface>(brep::from_triangles(points, corners));
 }
 
-TEST(FaceFields, BelongToTheTriangleThatTheFootIsIn) {
-  const auto wall = square_and_wall();
+// One force of its own in each triangle: at the middle of cell (i, j) moved off the diagonal.
+void expect_fields_of_each_triangle(int n) {
+  const auto wall = square_and_wall(n);
   coupling::FaceFields fields(MPI_COMM_WORLD, wall);
   fields.begin_sample();
-  // One force of its own in each triangle: at the middle of cell (i, j) moved off the diagonal.
   int tag = 0;
-  for (int j = 0; j < 4; ++j)
-    for (int i = 0; i < 4; ++i)
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < n; ++i)
       for (const double off : {-0.2, 0.2}) {
         const Vector3 at(i + 0.5 - off, j + 0.5 + off, 0.0);
         const brep::Frame& plane = wall->faces[0].frame;
@@ -280,7 +279,7 @@ TEST(FaceFields, BelongToTheTriangleThatTheFootIsIn) {
         c.worn_volume = 2.0 * at[0];
         if (rank_of(++tag) == my_rank()) fields.add(c);
       }
-  ASSERT_EQ(wall->faces[0].piece_count, 32);
+  ASSERT_EQ(wall->faces[0].piece_count, 2 * n * n);
   const auto state = std::get<vtk::TriangleFields>(fields.state({}, kAtRest, kAll));
   if (my_rank() != 0) return;
   for (std::size_t t = 0; t < state.mesh.triangles.size(); ++t) {
@@ -296,6 +295,29 @@ TEST(FaceFields, BelongToTheTriangleThatTheFootIsIn) {
   }
   EXPECT_EQ(state.cells[1].name, "shear");
   EXPECT_EQ(state.cells[3].name, "contact_count");
+}
+
+TEST(FaceFields, BelongToTheTriangleThatTheFootIsIn) { expect_fields_of_each_triangle(4); }
+TEST(FaceFields, BelongToThatOneOfMany) { expect_fields_of_each_triangle(12); }
+
+// On a side that two share one of them has it; beyond the rim by round-off that at the rim.
+TEST(FaceFields, BelongToOneTriangleOnSides) {
+  for (const int n : {4, 12}) {
+    const auto wall = square_and_wall(n);
+    const brep::Frame& plane = wall->faces[0].frame;
+    coupling::FaceFields fields(MPI_COMM_SELF, wall);
+    fields.begin_sample();
+    for (const Vector3& at : {Vector3(0.5, -1e-12, 0.0), Vector3(1.5, 1.5, 0.0), Vector3(2.0, 1.25, 0.0)}) {
+      const Vector3 from = at - plane.origin;
+      fields.add({{0, {from.dot(plane.x), from.dot(plane.y)}}, {0, 0, -1.0}, {0, 0, 1}, 0.0});
+    }
+    const auto state = std::get<vtk::TriangleFields>(fields.state({}, kAtRest, kAll));
+    const auto contacts = [&](int triangle) { return state.cells[3].values(0, triangle); };
+    const int below = 2 * (1 + n), above = below + 1, beside = 2 * (2 + n) + 1;  // in cells (1, 1) and (2, 1)
+    EXPECT_EQ(contacts(0), 1.0) << n;
+    EXPECT_EQ(contacts(below) + contacts(above) + contacts(beside), 2.0) << n;
+    EXPECT_EQ(state.cells[3].values.sum(), 3.0) << n;
+  }
 }
 
 TEST(Finnie, HasTheFormulasOfBothRegimes) {
