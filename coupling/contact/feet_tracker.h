@@ -68,7 +68,7 @@ class FeetTracker {
     const double allowance = quiet.clearance - touch_reach - (surface_motion_ + quiet.surface_motion);
     return allowance > 0.0 && (centre - quiet.centre).squaredNorm() < allowance * allowance;
   }
-  /// Candidates that have one foot, which needs no search: ask these before anything else; null: none ever.
+  /// Candidates whose feet need no search: ask these before anything else; null: none ever.
   virtual SteadyFeet* steady() { return nullptr; }
   /// Takes the branches of these candidates to where they are now, as far as they are followed.
   virtual void follow(Query* queries, int count) = 0;
