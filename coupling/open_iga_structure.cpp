@@ -64,8 +64,10 @@ std::unique_ptr<MeshCompliance> compliance_of(const io::ModelFile& model,
 OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface,
                                    const SolidOptions& options) {
   io::ModelFile model = io::read_model_file(path, reader_on_all_ranks(comm));
-  if (!options.state.empty())
+  if (!options.state.empty()) {
     model.state = io::read_state(options.state, model.geometry.units, reader_on_all_ranks(comm));
+    if (model.output) model.output->inputs.push_back(options.state);
+  }
   geometry_io::named_surface(model.geometry, surface, path);  // complains about a name that is not there
   std::vector<structure::SkinPiece> skin;
   for (const geometry_io::SurfacePiece& piece : model.geometry.surfaces.at(surface))

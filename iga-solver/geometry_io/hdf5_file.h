@@ -24,6 +24,7 @@ class Hdf5Input {
   std::vector<int> integers(const std::string& path, const char* attribute) const;
 
   bool has(const std::string& path) const { return contents_.count(path) > 0; }
+  bool has(const std::string& path, const char* attribute) const;
   /// Names in a group, sorted.
   std::vector<std::string> members(const std::string& group) const;
   const Hdf5Value& numbers(const std::string& data_set) const;

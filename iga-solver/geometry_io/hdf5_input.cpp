@@ -79,6 +79,11 @@ void Hdf5Input::fail(const std::string& path, const std::string& message) const 
   throw InputError(fmt::format("{}: {}: {}", file_name_, path, message));
 }
 
+bool Hdf5Input::has(const std::string& path, const char* attribute) const {
+  const auto found = contents_.find(path);
+  return found != contents_.end() && found->second.attributes.count(attribute) > 0;
+}
+
 const Hdf5Object& Hdf5Input::object(const std::string& path) const {
   const auto found = contents_.find(path);
   if (found == contents_.end()) fail(path, "is missing");

@@ -113,6 +113,8 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
     const YamlMap probes = document.map("probes", "{NAME: {face: zeta+, at: [0.5, 0.5]}}");
     for (const std::string& name : probes.keys()) model.probes.push_back(read_probe(probes, name, model));
   }
+  // Before what names files to be written, none of which may be this one.
+  if (document.has("state")) model.state = read_state(document, model.geometry.units, read_and_note);
   if (document.has("output"))
     model.output = read_output(document.map("output", "{every: 1e-5, file: NAME}"), model.geometry, inputs,
                                document.has("analysis"));
@@ -126,7 +128,6 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
     model.modal_damping = damping.modal;
     if (damping.stiffness > 0.0) add_viscosity(damping.stiffness, model.materials);
   }
-  if (document.has("state")) model.state = read_state(document, model.geometry.units, read_and_note);
   if (document.has("time"))
     model.time = read_time_span(document.map("time", "{end: 1e-3}"), inputs, model.output);
   if (document.has("analysis")) model.analysis = read_analysis(document, inputs, model.output);

@@ -20,6 +20,7 @@ using nurbs::NodalVectors;
 
 constexpr const char* kFormat = "iga-solver state";
 constexpr int kVersion = 1;
+constexpr const char* kExpected = "a state that 'save' of an analysis or a run has written";
 
 NodalVectors nodal_vectors(const std::vector<double>& rows) {
   return Eigen::Map<const NodalVectors>(rows.data(), 3, static_cast<Eigen::Index>(rows.size() / 3));
@@ -92,10 +93,13 @@ void write_state(const std::string& path, geometry_io::Units units, const SavedS
 
 SavedState read_state(const std::string& path, geometry_io::Units units, const geometry_io::ReadFile& read) {
   const Hdf5Input file(read(path), path);
+  if (!file.has("/", "format"))
+    file.fail("/", fmt::format("attribute 'format' is missing, as in the histories and frequencies that "
+                               "'output' writes, expected {}",
+                               kExpected));
   if (file.text("/", "format") != kFormat || !file.has("/state"))
     file.fail("/",
-              fmt::format("format is '{}', expected '{}': a state that 'save' of an analysis has written",
-                          file.text("/", "format"), kFormat));
+              fmt::format("format is '{}', expected '{}': {}", file.text("/", "format"), kFormat, kExpected));
   if (file.text("/", "units") != geometry_io::units_name(units))
     file.fail("/", fmt::format("units are {}, expected {} as in the model", file.text("/", "units"),
                                geometry_io::units_name(units)));

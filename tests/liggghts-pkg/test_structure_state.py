@@ -105,6 +105,7 @@ class State(unittest.TestCase):
             (START.replace("rest", "none"), bob.block(), "none.h5"),
             (START.replace("rest.h5", "block.yaml"), bob.block(), "block.yaml"),
             (START, finer, "mesh and geometry are others"),
+            (START, bob.block() + "output: {file: rest, every: 1e-4}\n", "rest.h5 is the file rest.h5 that the model is read from"),
             (START + " state rest.h5", bob.block(), "'state'"),
             (START.replace("state rest.h5", "state rest.h5 state rest.h5"), bob.block(), "'state' is given twice"),
             ("geometry block.yaml state rest.h5 surface top", bob.block(), "'state' is for a solid of ours, given 'geometry'"),

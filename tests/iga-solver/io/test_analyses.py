@@ -250,6 +250,14 @@ output: {{{{file: out}}}}
             self.assertIn(f"{kind}: the supports and springs leave the body free in 1 of its 6", told)
         self.assertIn("runs on one rank", self.run_model("analysis: static", ranks=2, code=1))
 
+    def test_what_output_has_written_is_no_state(self):
+        for analysis in ("static", "modes"):
+            self.run_model(f"analysis: {analysis}")
+            (self.folder / "out.h5").rename(self.folder / "written.h5")
+            told = self.run_model("analysis: static\nstate: written.h5", code=1)
+            self.assertIn("written.h5: /: attribute 'format' is missing, as in the histories and frequencies that 'output' writes", told)
+            self.assertIn("expected a state that 'save' of an analysis or a run has written", told)
+
     def test_a_state_of_another_mesh_is_refused(self):
         self.run_model("analysis: {kind: static, save: rest.h5}")
         finer = MODEL.replace("[20, 2, 2]", "[21, 2, 2]").replace("file: out, fields: [displacement, stress]", "file: out, every: 1")

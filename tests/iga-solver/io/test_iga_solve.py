@@ -115,6 +115,26 @@ class OwnInput(IgaSolve):
         self.assert_error(done, "block.h5: is no HDF5 file, expected one by its name")
         self.assertEqual((self.folder / "block.h5").read_text(), BLOCK)
 
+    def test_the_state_that_it_starts_from_is_not_overwritten_either(self):
+        end = "time: {end: 0.1}"
+        done = self.run_model(changed((end, "analysis: {kind: static, save: state.h5}"), ("file: block", "file: out")))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        state = (self.folder / "state.h5").read_bytes()
+        (self.folder / "link.h5").symlink_to("state.h5")
+        (self.folder / "part.h5.part").write_bytes(state)
+        for output, file in (("state", "state.h5"), ("link", "state.h5"), ("./state", "link.h5"), ("part", "part.h5.part")):
+            for what in (end, "analysis: static", "analysis: modes", "analysis: relax", "check"):
+                if what != end and output != "state":
+                    continue
+                with self.subTest(output=output, file=file, what=what):
+                    key, words = (end, ["--check"]) if what == "check" else (what, [])
+                    text = changed((end, f"state: {file}\n{key}"), ("file: block}", f"file: {output}}}"))
+                    done = self.run_model(text, *words, name="model.yaml")
+                    told = f"model.yaml:7: output.file is .*{output}: .*{output}.h5.* is the file {file} .* would be overwritten"
+                    self.assert_error(done, told)
+                    self.assertEqual((self.folder / "state.h5").read_bytes(), state)
+            (self.folder / "state.h5").write_bytes(state)
+
     def test_save_is_none_of_the_outputs(self):
         (self.folder / "link").symlink_to(self.folder)
         (self.folder / "later.h5").symlink_to("block.h5")
