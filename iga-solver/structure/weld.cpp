@@ -87,48 +87,86 @@ struct Turn {
   bool swapped, flipped[2];
 };
 
-/// Knots of a direction from 0 to 1, from either end.
+/// Knots of a direction from either end: between lines of no smoothness, each part of length 1.  What such
+/// parts have for lengths changes no function of the place.
 std::vector<double> relative_knots(const nurbs::KnotVector& knots, bool flipped) {
-  std::vector<double> relative;
-  for (const double knot : knots.knots()) {
-    const double r = (knot - knots.front()) / (knots.back() - knots.front());
-    relative.push_back(flipped ? 1.0 - r : r);
+  const std::vector<double>& all = knots.knots();
+  const auto is_joint = [&](double knot) {
+    const auto [first, last] = std::equal_range(all.begin(), all.end(), knot);
+    return last - first >= knots.degree();
+  };
+  std::vector<double> joints, relative;
+  for (const double knot : knots.breaks())
+    if (is_joint(knot)) joints.push_back(knot);
+  for (const double knot : all) {
+    const auto next = std::upper_bound(joints.begin() + 1, joints.end() - 1, knot);
+    const double before = *(next - 1);
+    relative.push_back(static_cast<double>(next - joints.begin()) - 1.0 + (knot - before) / (*next - before));
   }
-  if (flipped) std::reverse(relative.begin(), relative.end());
+  if (!flipped) return relative;
+  for (double& knot : relative) knot = static_cast<double>(joints.size()) - 1.0 - knot;
+  std::reverse(relative.begin(), relative.end());
   return relative;
 }
+
+constexpr double kSame = 1e-9;  // of knots and weights, as of places: what they move is of that share
 
 bool same_knots(const nurbs::KnotVector& a, const nurbs::KnotVector& b, bool flipped) {
   if (a.degree() != b.degree() || a.knots().size() != b.knots().size()) return false;
   const std::vector<double> of_a = relative_knots(a, false), of_b = relative_knots(b, flipped);
   return std::equal(of_a.begin(), of_a.end(), of_b.begin(),
-                    [](double x, double y) { return std::abs(x - y) <= 1e-12; });
+                    [](double x, double y) { return std::abs(x - y) <= kSame; });
 }
 
-/// Whether `b`, turned, is `a`: the same functions at the same nodes.
-bool same_mesh(const FaceNet& a, const FaceNet& b, const Turn& turn) {
-  const nurbs::Space<2>&A = a.surface.space, &B = b.surface.space;
+bool same_knots(const FaceNet& a, const FaceNet& b, const Turn& turn) {
   for (int d = 0; d < 2; ++d)
-    if (!same_knots(A.knots(d), B.knots(turn.swapped ? 1 - d : d), turn.flipped[d])) return false;
-  const double ratio_wanted = [&] {
-    const int i = turn.flipped[0] ? a.count(0) - 1 : 0, j = turn.flipped[1] ? a.count(1) - 1 : 0;
-    return B.weight(turn.swapped ? j + b.count(0) * i : i + b.count(0) * j) / A.weight(0);
-  }();
-  for (int j = 0; j < a.count(1); ++j)
-    for (int i = 0; i < a.count(0); ++i) {
-      int at[2] = {turn.flipped[0] ? a.count(0) - 1 - i : i, turn.flipped[1] ? a.count(1) - 1 - j : j};
-      if (turn.swapped) std::swap(at[0], at[1]);
-      const double ratio = B.weight(at[0] + b.count(0) * at[1]) / A.weight(i + a.count(0) * j);
-      if (a.node(i, j) != b.node(at[0], at[1]) || !(std::abs(ratio / ratio_wanted - 1.0) <= 1e-12))
-        return false;
-    }
+    if (!same_knots(a.surface.space.knots(d), b.surface.space.knots(turn.swapped ? 1 - d : d),
+                    turn.flipped[d]))
+      return false;
   return true;
 }
 
-bool same_mesh(const FaceNet& a, const FaceNet& b) {
-  for (int turn = 0; turn < 8; ++turn)
-    if (same_mesh(a, b, {(turn & 4) != 0, {(turn & 1) != 0, (turn & 2) != 0}})) return true;
-  return false;
+/// Of `b`, turned, the control point that stands where (i, j) of `a` does.
+int turned(const FaceNet& a, const FaceNet& b, const Turn& turn, int i, int j) {
+  int at[2] = {turn.flipped[0] ? a.count(0) - 1 - i : i, turn.flipped[1] ? a.count(1) - 1 - j : j};
+  if (turn.swapped) std::swap(at[0], at[1]);
+  return at[0] + b.count(0) * at[1];
+}
+
+bool same_nodes(const FaceNet& a, const FaceNet& b, const Turn& turn) {
+  for (int d = 0; d < 2; ++d)
+    if (a.count(d) != b.count(turn.swapped ? 1 - d : d)) return false;
+  for (int j = 0; j < a.count(1); ++j)
+    for (int i = 0; i < a.count(0); ++i)
+      if (a.node(i, j) != b.nodes[turned(a, b, turn, i, j)]) return false;
+  return true;
+}
+
+/// But for a common factor.
+bool same_weights(const FaceNet& a, const FaceNet& b, const Turn& turn) {
+  const auto ratio = [&](int i, int j) {
+    return b.surface.space.weight(turned(a, b, turn, i, j)) / a.surface.space.weight(i + a.count(0) * j);
+  };
+  const double wanted = ratio(0, 0);
+  for (int j = 0; j < a.count(1); ++j)
+    for (int i = 0; i < a.count(0); ++i)
+      if (!(std::abs(ratio(i, j) / wanted - 1.0) <= kSame)) return false;
+  return true;
+}
+
+/// What one face has otherwise than the other, however this is turned.
+enum class Difference { none, weights, knots, control_points };
+
+Difference difference(const FaceNet& a, const FaceNet& b) {
+  Difference least = Difference::control_points;
+  for (int k = 0; k < 8; ++k) {
+    const Turn turn{(k & 4) != 0, {(k & 1) != 0, (k & 2) != 0}};
+    if (!same_nodes(a, b, turn)) continue;
+    least = std::min(least, !same_knots(a, b, turn)     ? Difference::knots
+                            : !same_weights(a, b, turn) ? Difference::weights
+                                                        : Difference::none);
+  }
+  return least;
 }
 
 Vector3 centre(const nurbs::Volume& patch, const FaceNet& net) {
@@ -206,16 +244,22 @@ void for_each_touching_pair(const std::vector<FaceNet>& faces, Visit visit) {
   }
 }
 
-/// Faces are one surface, as a rule, if they share corners and centre.
+constexpr const char* kOneMesh =
+    "expected one mesh on both: the same degrees, knots and weights, so that they can be welded";
+
+/// Faces are meant to be one surface, as a rule, if they share corners and centre, or all control points.
 void expect_one_mesh(const std::vector<nurbs::Volume>& patches, const NodeNumbering& nodes,
                      double tolerance) {
   for_each_touching_pair(faces_of(patches, nodes), [&](const FaceNet& a, const FaceNet& b) {
+    const Difference other = difference(a, b);
+    if (other == Difference::none) return expect_opposite_sides(patches, a, b, tolerance);
+    if (other != Difference::control_points)
+      throw std::invalid_argument(
+          fmt::format("faces '{}' and '{}' have the same control points, but other {}, {}", a.name(),
+                      b.name(), other == Difference::knots ? "degrees or knots" : "weights", kOneMesh));
     if ((centre(patches[a.patch], a) - centre(patches[b.patch], b)).norm() > tolerance) return;
-    if (same_mesh(a, b)) return expect_opposite_sides(patches, a, b, tolerance);
-    throw std::invalid_argument(
-        fmt::format("faces '{}' ({}) and '{}' ({}) are one surface, expected one mesh on both: the same "
-                    "degrees, knots and weights, so that they can be welded",
-                    a.name(), a.mesh(), b.name(), b.mesh()));
+    throw std::invalid_argument(fmt::format("faces '{}' ({}) and '{}' ({}) are one surface, {}", a.name(),
+                                            a.mesh(), b.name(), b.mesh(), kOneMesh));
   });
 }
 
@@ -307,8 +351,9 @@ std::vector<SkinPiece> free_faces(const std::vector<nurbs::Space<3>>& patches, c
 
 int welded_face_count(const std::vector<nurbs::Volume>& patches, const NodeNumbering& nodes) {
   int count = 0;
-  for_each_touching_pair(faces_of(patches, nodes),
-                         [&](const FaceNet& a, const FaceNet& b) { count += same_mesh(a, b); });
+  for_each_touching_pair(faces_of(patches, nodes), [&](const FaceNet& a, const FaceNet& b) {
+    count += difference(a, b) == Difference::none;
+  });
   return count;
 }
 

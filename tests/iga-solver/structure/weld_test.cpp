@@ -202,4 +202,52 @@ TEST(Weld, RefusesOtherWeightsOnOneFace) {
   EXPECT_NE(message({block, weighted(3.1)}), "");
 }
 
+/// In its second direction; control points stay.
+Volume with_knots(const Volume& patch, std::vector<double> knots) {
+  const nurbs::Space<3>& space = patch.space;
+  return {nurbs::Space<3>({space.knots(0), KnotVector(space.degree(1), std::move(knots)), space.knots(2)}),
+          patch.control_points};
+}
+
+// The middles of such faces are at different places.
+TEST(Weld, RefusesOtherKnotsOrWeightsBetweenTheSameControlPoints) {
+  const Volume block = models::block({1, 1, 1}, {1, 2, 1}, 2), beside = moved(block, {1, 0, 0});
+  const auto other = [](const std::string& what) {
+    return "faces 'xi+' and '1 xi-' have the same control points, but other " + what +
+           ", expected one mesh on both: the same degrees, knots and weights, so that they can be welded";
+  };
+  EXPECT_EQ(message({block, with_knots(beside, {0, 0, 0, 0.3, 1, 1, 1})}), other("degrees or knots"));
+  EXPECT_EQ(message({block, turned(with_knots(beside, {0, 0, 0, 0.3, 1, 1, 1}))}),
+            "faces 'xi+' and '1 eta-' have the same control points, but other degrees or knots, expected one "
+            "mesh on both: the same degrees, knots and weights, so that they can be welded");
+  EXPECT_EQ(message({block, with_knots(beside, {-1, -1, -1, 2 + 1e-10, 5, 5, 5})}), "");
+  EXPECT_EQ(message({with_knots(block, {0, 0, 0, 0.3, 1, 1, 1}),
+                     turned(with_knots(beside, {0, 0, 0, 0.3, 1, 1, 1}))}),
+            "");
+
+  std::vector<double> weights(beside.control_points.cols(), 1.0);
+  weights[3] = 1.5;
+  EXPECT_EQ(message({block, {nurbs::Space<3>(beside.space.knots(), weights), beside.control_points}}),
+            other("weights"));
+  for (double& weight : weights) weight *= 3.7;
+  std::vector<double> of_block(weights.size(), 2.0);
+  of_block[5] = 3.0;  // on xi+, where the other one has its larger weight
+  EXPECT_EQ(message({{nurbs::Space<3>(block.space.knots(), of_block), block.control_points},
+                     {nurbs::Space<3>(beside.space.knots(), weights), beside.control_points}}),
+            "");
+}
+
+// Between lines of no smoothness knots may be spread as they like: the functions of the place are the same.
+TEST(Weld, PartsOfAFaceMayHaveAnyShareOfTheKnots) {
+  const Volume block =
+      nurbs::box({0, 0, 0}, {1, 1, 1},
+                 {KnotVector::uniform(1, 1), KnotVector::uniform(1, 2), KnotVector::uniform(1, 1)});
+  EXPECT_EQ(message({block, with_knots(moved(block, {1, 0, 0}), {0, 0, 0.3, 1, 1})}), "");
+  const KnotVector joined(2, {0, 0, 0, 0.5, 0.75, 0.75, 1, 1, 1});
+  const Volume smooth =
+      nurbs::box({0, 0, 0}, {1, 1, 1}, {KnotVector::uniform(1, 1), joined, KnotVector::uniform(1, 1)});
+  EXPECT_EQ(message({smooth, with_knots(moved(smooth, {1, 0, 0}), {0, 0, 0, 0.2, 0.3, 0.3, 1, 1, 1})}), "");
+  EXPECT_NE(message({smooth, with_knots(moved(smooth, {1, 0, 0}), {0, 0, 0, 0.1, 0.3, 0.3, 1, 1, 1})}), "");
+}
+
 }  // namespace
