@@ -44,7 +44,7 @@ LineLoad read_line_load(const YamlMap& map, const GeometryFile& geometry,
   map.allow_only({"edge", "patch", "value", "time"});
   const Selection edge = read_selection(map, geometry, nodes);
   if (!map.has("edge")) map.fail("", "edge is missing");
-  return {edge.patches.front(),
+  return {read_patch(map, geometry),  // one alone
           {edge.faces[0], edge.faces[1]},
           read_field(map, "value", kOfPlace),
           read_time_function(map)};

@@ -32,6 +32,13 @@ std::vector<nurbs::Face> read_faces(const YamlMap& map, const std::string& key) 
   return faces;
 }
 
+template <class Value>
+typename std::vector<Value>::const_iterator first_repeated(const std::vector<Value>& values) {
+  return std::find_if(values.begin(), values.end(), [&](const Value& value) {
+    return std::count(values.begin(), values.end(), value) > 1;
+  });
+}
+
 /// Control points of a patch.
 NodeSet points_of_patch(const Selection& selection, const nurbs::Volume& patch) {
   if (selection.box)
@@ -61,6 +68,10 @@ void expect_faces(const YamlMap& map, const std::string& key, const std::vector<
                   std::size_t count) {
   if (faces.size() != count)
     map.fail(key, fmt::format("{} has {} faces, expected {} that meet there", key, faces.size(), count));
+  const auto twice = first_repeated(faces);
+  if (twice != faces.end())
+    map.fail(key, fmt::format("{} has {} twice, expected {} faces that meet there", key,
+                              nurbs::face_name(*twice), count));
 }
 
 std::vector<int> read_patches(const YamlMap& map, const GeometryFile& geometry) {
@@ -68,6 +79,8 @@ std::vector<int> read_patches(const YamlMap& map, const GeometryFile& geometry) 
   if (map.has("patch") && map.is_list("patch")) {
     std::vector<int> some = map.integers("patch", 0, patches - 1);
     if (some.empty()) map.fail("patch", fmt::format("patch is empty, expected some of 0 to {}", patches - 1));
+    if (const auto twice = first_repeated(some); twice != some.end())
+      map.fail("patch", fmt::format("patch has {} twice, expected once", *twice));
     return some;
   }
   if (map.has("patch") || !map.has("box")) return {read_patch(map, geometry)};
@@ -108,6 +121,9 @@ Selection read_selection(const YamlMap& map, const GeometryFile& geometry,
   const std::string key = given.empty() ? "patch" : given.front();
   if (key == "box") selection.box = read_box(map);
   if (key == "faces" || key == "edge" || key == "corner") selection.faces = read_faces(map, key);
+  if (key == "faces")
+    if (const auto twice = first_repeated(selection.faces); twice != selection.faces.end())
+      map.fail(key, fmt::format("faces has {} twice, expected once", nurbs::face_name(*twice)));
   if (key == "edge") expect_faces(map, key, selection.faces, 2);
   if (key == "corner") expect_faces(map, key, selection.faces, 3);
   selection.on_all_of_them = key == "edge" || key == "corner" || key == "patch";

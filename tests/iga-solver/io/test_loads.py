@@ -198,6 +198,8 @@ class Loads(unittest.TestCase):
             ("boundary: [{move: {x: 1}, faces: [xi-], time: 1/t}]", "the factor 'time' of model.yaml:5 is inf at time 0"),
             ("loads: {pressures: [{face: zeta+, value: [0, 0, 1]}]}", "value is a list of 3, expected a word"),
             ("loads: {pressures: [{face: zeta+, value: 1, time: x}]}", "expected a number or an expression of t"),
+            ("loads: {lines: [{edge: [xi+, xi+], value: [0, 0, 1]}]}", "model.yaml:5: edge has xi+ twice, expected 2 faces that meet there"),
+            ("loads: {lines: [{edge: [xi+, eta+], patch: [0], value: [0, 0, 1]}]}", "patch is a list of 1"),
             ("loads: {lines: [{edge: [zeta+, zeta-], value: [0, 0, 1]}]}", "edge has no control points"),
             ("loads: {points: [{face: zeta+, at: [2, 0], force: [0, 0, 1]}]}", "at is [2, 0], expected 2 numbers from 0 to 1"),
             ("loads: {tractions: [{face: zeta+, value: {x: [0, 1], table: [[0, 0, 1]]}}]}", "table: 1 rows, expected 2"),
