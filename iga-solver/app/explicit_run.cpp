@@ -39,17 +39,6 @@ long step_count(double span, double longest, const io::ModelFile& model) {
   return std::max(1L, std::lround(steps));
 }
 
-/// The state that `time: {save: FILE}` has left.
-io::SavedState read_saved(const io::ModelFile& model) {
-  if (!model.time || !model.time->save)
-    throw std::runtime_error(
-        fmt::format("{}: --continue goes on from the file of 'time: {{save: FILE}}', which the model has not",
-                    model.file));
-  return parallel::on_every_rank(MPI_COMM_WORLD, *model.time->save, [&] {
-    return io::read_state(*model.time->save, model.geometry.units, geometry_io::read_file);
-  });
-}
-
 /// The model may have changed since: what that means for the state decides.
 void compare_settings(const io::SavedState& saved, const io::ModelFile& model) {
   if (saved.settings.empty()) return;  // written before states kept them
@@ -147,6 +136,27 @@ void make_steps(ExplicitSolver& solver, const Steps& steps, const io::ModelFile&
 
 }  // namespace
 
+io::SavedState read_saved(const io::ModelFile& model) {
+  if (!model.time || !model.time->save)
+    throw std::runtime_error(
+        fmt::format("{}: --continue goes on from the file of 'time: {{save: FILE}}', which the model has not",
+                    model.file));
+  return parallel::on_every_rank(MPI_COMM_WORLD, *model.time->save, [&] {
+    return io::read_state(*model.time->save, model.geometry.units, geometry_io::read_file);
+  });
+}
+
+io::SavedState::Moment go_on(const io::SavedState& saved, const io::ModelFile& model,
+                             ExplicitSolver& solver) {
+  io::continue_from(saved, solver);
+  compare_settings(saved, model);
+  return *saved.moment;
+}
+
+void print_continued(const io::ModelFile& model, double time) {
+  print_on_first("  continues    from time {:.6g} ({})\n", time, *model.time->save);
+}
+
 std::optional<double> end_of(const SolveOptions& options, const io::ModelFile& model) {
   if (options.end) return options.end;
   return model.time ? std::optional(model.time->end) : std::nullopt;
@@ -204,16 +214,13 @@ void run_in_time(const SolveOptions& options, io::ModelFile& model) {
   if (options.continues) saved = read_saved(model);
   ExplicitSolver solver = io::build_solver(model, parallel::cut_among(MPI_COMM_WORLD));
   if (saved) {
-    io::continue_from(*saved, solver);
-    compare_settings(*saved, model);
-    continued = saved->moment;
+    continued = go_on(*saved, model, solver);
     output.resume();
     saved.reset();
   }
   if (prints) print_model(model, solver);
   if (options.talk == Talk::more) print_details(model);
-  if (prints && continued)
-    print_on_first("  continues    from time {:.6g} ({})\n", continued->time, *model.time->save);
+  if (prints && continued) print_continued(model, continued->time);
   const double stable = find_stable_step(model, solver, options.talk);
   const Steps steps = steps_to(*end, options, model, stable, continued);
   with_name(model, [&] {

@@ -22,6 +22,15 @@ struct Steps {
 /// The model's, or the command line's; nothing if neither has one.
 std::optional<double> end_of(const SolveOptions& options, const io::ModelFile& model);
 
+/// The state that `time: {save: FILE}` has left, for a run that goes on from it.  Collective; throws
+/// std::runtime_error.
+io::SavedState read_saved(const io::ModelFile& model);
+/// Puts the solver there, and warns where the model has changed since.  Collective; throws std::runtime_error
+/// if it has so that no run can go on.
+io::SavedState::Moment go_on(const io::SavedState& saved, const io::ModelFile& model,
+                             structure::ExplicitSolver& solver);
+void print_continued(const io::ModelFile& model, double time);
+
 /// None longer than asked for, and the last one ends at `end` [time].  A run that is `continued` keeps the
 /// time step of then, if the rest is a whole number of these and nothing else is asked for.  Throws
 /// std::runtime_error if the step that is asked for is above the stable one.

@@ -24,6 +24,7 @@ namespace {
 
 using structure::ExplicitSolver;
 using Clock = std::chrono::steady_clock;
+using Continued = std::optional<io::SavedState::Moment>;
 
 /// The most that this process has had [bytes].
 double memory_taken() {
@@ -48,16 +49,18 @@ long times_until(double end, double every) {
   return 1 + static_cast<long>(std::floor(end / every * (1 + 1e-12)));
 }
 
-void print_output(const io::ModelFile& model, double end, const Steps& steps) {
+/// What is written at the start of a run that goes on, and before, is there.
+void print_output(const io::ModelFile& model, double end, const Steps& steps, const Continued& continued) {
   if (!model.output) return print_on_first("  output       none\n");
-  const long most = steps.count + 1;
-  print_on_first("  output       {} rows of histories",
-                 std::min(most, times_until(end, model.output->every)));
-  if (const auto& fields = model.output->fields) {
-    const double every = fields->every ? *fields->every : *fields->steps * steps.size;
-    print_on_first(", {} states of fields at {} places", std::min(most, times_until(end, every)),
-                   fields->on.size());
-  }
+  const auto count = [&](double every) {
+    return continued ? std::min(steps.count, times_until(end, every) - times_until(continued->time, every))
+                     : std::min(steps.count + 1, times_until(end, every));
+  };
+  print_on_first("  output       {} {}rows of histories", count(model.output->every),
+                 continued ? "more " : "");
+  if (const auto& fields = model.output->fields)
+    print_on_first(", {} states of fields at {} places",
+                   count(fields->every ? *fields->every : *fields->steps * steps.size), fields->on.size());
   print_on_first("\n");
 }
 
@@ -82,21 +85,22 @@ std::optional<std::string> save_of(const io::ModelFile& model) {
   return {};
 }
 
-void check_motion(const SolveOptions& options, const io::ModelFile& model, const ExplicitSolver& solver) {
+void check_motion(const SolveOptions& options, const io::ModelFile& model, const ExplicitSolver& solver,
+                  const Continued& continued) {
   const Clock::time_point start = Clock::now();
   const double stable = find_stable_step(model, solver, Talk::usual);
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   const std::optional<double> end = end_of(options, model);
   with_name(model, [&] {
-    solver.expect_finite_conditions(0.0);
+    solver.expect_finite_conditions(continued ? continued->time : 0.0);
     if (end) solver.expect_finite_conditions(*end);
   });
   if (!end)
     return print_on_first("  time step    not known: neither 'time: {{end: T}}' nor --end T is given\n");
-  const Steps steps = steps_to(*end, options, model, stable, {});
+  const Steps steps = steps_to(*end, options, model, stable, continued);
   print_on_first("  time step    {:.6g}, {} steps\n", steps.size, steps.count);
   print_duration(steps, seconds);
-  print_output(model, *end, steps);
+  print_output(model, *end, steps, continued);
 }
 
 }  // namespace
@@ -110,15 +114,21 @@ void check_model(const SolveOptions& options, io::ModelFile& model) {
   check_save(model);
   const std::vector<std::string> warnings =
       warnings_of(model, model.analysis ? std::nullopt : end_of(options, model));
-  const ExplicitSolver solver = io::build_solver(model, parallel::cut_among(MPI_COMM_WORLD));
+  std::optional<io::SavedState> saved;
+  if (options.continues) saved = read_saved(model);
+  ExplicitSolver solver = io::build_solver(model, parallel::cut_among(MPI_COMM_WORLD));
+  Continued continued;
+  if (saved) continued = go_on(*saved, model, solver);
+  saved.reset();
   print_model(model, solver);
   print_details(model);
   print_size(model, solver);
+  if (continued) print_continued(model, continued->time);
   if (model.analysis) {
     with_name(model, [&] { expect_finite_conditions(model, solver); });
     print_on_first("  analysis     {}\n", io::analysis_word(*model.analysis));
   } else
-    check_motion(options, model, solver);
+    check_motion(options, model, solver, continued);
   for (const std::string& warning : warnings) print_on_first("WARNING: {}: {}\n", model.file, warning);
 }
 

@@ -165,14 +165,44 @@ class Continued(Sessions):
         )
         return done.stderr.splitlines()
 
-    def test_refusals(self):
+    def test_a_check_tells_what_the_run_would_be(self):
         plate = PLATE.replace("LAW", "linear_elastic")
-        self.assertIn("saved.h5: cannot read", self.solve(plate, "--continue", code=1))
-        self.assertIn("expected a later end", self.solve(plate, "--quiet") + self.solve(plate, "--continue", code=1))
+        self.solve(plate.replace("end: 4e-6", "end: 2.1e-6"))
+        before = {path: path.read_bytes() for path in self.folder.iterdir() if path.name != "plate.yaml"}
+        for words, ranks in ((), 1), ((), 2), (("--end", "9e-6"), 1):
+            told = self.solve(plate, "--check", "--continue", *words, ranks=ranks)
+            self.assertRegex(told, r"continues    from time 2.1e-06 \(saved.h5\)")
+            steps = re.search(r"time step .*, (\d+) steps", told)[0]
+            rows, fields = map(int, re.search(r"output +(\d+) more rows of histories, (\d+) states of fields at 1 places", told).groups())
+            self.assertEqual({path: path.read_bytes() for path in before}, before)
+            times = self.written()["time"]
+            states = len(list(self.folder.glob("plate_zeta+*.vtu")))
+            self.assertIn(steps, self.solve(plate, "--continue", *words))
+            self.assertEqual(len(self.written()["time"]), len(times) + rows)
+            self.assertEqual(len(list(self.folder.glob("plate_zeta+*.vtu"))), states + fields)
+            for path in self.folder.glob("plate_zeta+*"):
+                path.unlink()
+            for path, content in before.items():
+                path.write_bytes(content)
+
+    def test_refusals(self):
+        for check in ((), ("--check",)):
+            with self.subTest(check=check):
+                self.expect_refusals(*check)
+
+    def expect_refusals(self, *check: str) -> None:
+        def told(text: str, *words: str) -> str:
+            return self.solve(text, "--continue", *check, *words, code=1)
+
+        plate = PLATE.replace("LAW", "linear_elastic")
+        (self.folder / "saved.h5").unlink(missing_ok=True)
+        self.assertIn("saved.h5: cannot read", told(plate))
+        self.assertIn("expected a later end", self.solve(plate, "--quiet") + told(plate))
+        self.assertIn("another density: density: 2480 then, 2500 now", told(plate.replace("density: 2480", "density: 2500")))
         finer = plate.replace("[34, 34, 1]", "[35, 34, 1]")
-        self.assertIn("saved.h5: is a state of", self.solve(finer, "--continue", "--end", "1", code=1))
+        self.assertIn("saved.h5: is a state of", told(finer, "--end", "1"))
         never = plate.replace(", save: saved.h5, save_every: 1.5e-6", "")
-        self.assertIn("time: {save: FILE}", self.solve(never, "--continue", code=1))
+        self.assertIn("time: {save: FILE}", told(never))
         self.assertIn("save_every is given without", self.solve(plate.replace(" save: saved.h5,", ""), code=1))
         self.assertIn("save is plate.yaml", self.solve(plate.replace("saved.h5", "plate.yaml"), code=1))
 
