@@ -10,6 +10,7 @@
 #include "coupling/modal_setup.h"
 #include "coupling/model_text.h"
 #include "coupling/open_structure.h"
+#include "io/inner_faces.h"
 #include "io/model_file.h"
 #include "parallel/all_or_none.h"
 #include "parallel/session.h"
@@ -35,6 +36,17 @@ void expect_one_material(const io::ModelFile& model, const std::vector<structure
           fmt::format("{}: surface '{}' lies on patches of two materials ({} and {}), expected one: contact "
                       "laws have one material of the wall",
                       model.file, surface, skin.front().patch, piece.patch));
+}
+
+void expect_skin(const io::ModelFile& model, const std::vector<structure::SkinPiece>& skin,
+                 const std::string& surface) {
+  const io::InnerFaces inner(model.geometry, model.nodes);
+  for (const structure::SkinPiece& piece : skin)
+    if (const std::string told = inner.told(piece); !told.empty())
+      throw geometry_io::InputError(
+          fmt::format("{}: surface '{}' is on {}, expected faces that particles can "
+                      "reach",
+                      model.file, surface, told));
 }
 
 std::optional<ModalDamping> expect_no_modal_damping(const io::ModelFile& model) {
@@ -72,6 +84,7 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
   std::vector<structure::SkinPiece> skin;
   for (const geometry_io::SurfacePiece& piece : model.geometry.surfaces.at(surface))
     skin.push_back({piece.patch, *piece.face});
+  expect_skin(model, skin, surface);
   expect_one_material(model, skin, surface);
   const std::optional<ModalDamping> damping =
       options.modes ? std::optional(take_damping(model)) : expect_no_modal_damping(model);

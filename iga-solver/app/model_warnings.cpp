@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <variant>
 
+#include "io/inner_faces.h"
 #include "loose_patches.h"
 #include "model_report.h"
 
@@ -112,6 +113,26 @@ void warn_of_output(const io::ModelFile& model, std::optional<double> end, Warni
     late(*model.output->fields->every, "output.fields.every");
 }
 
+/// Where nobody pushes, and no particle gets to.
+void warn_of_inner_faces(const io::ModelFile& model, Warnings& warnings) {
+  const io::InnerFaces inner(model.geometry, model.nodes);
+  const auto tell = [&](const std::string& what, const structure::SkinPiece& face) {
+    if (const std::string told = inner.told(face); !told.empty())
+      warnings.push_back(fmt::format("{} is on {}", what, told));
+  };
+  const auto tell_of_loads = [&](const char* key, const std::vector<io::FaceLoad>& loads) {
+    for (std::size_t k = 0; k < loads.size(); ++k) tell(fmt::format("loads.{}[{}]", key, k), loads[k].piece);
+  };
+  tell_of_loads("tractions", model.loads.tractions);
+  tell_of_loads("pressures", model.loads.pressures);
+  for (std::size_t k = 0; k < model.boundary.size(); ++k)
+    if (const io::Selection& where = model.boundary[k].where; model.boundary[k].is_symmetry)
+      tell(fmt::format("boundary[{}].symmetry", k), {where.patches.front(), where.faces.front()});
+  for (const std::string& name : model.surfaces)
+    for (const geometry_io::SurfacePiece& piece : model.geometry.surfaces.at(name))
+      tell(fmt::format("surface '{}'", geometry_io::shown(name)), {piece.patch, *piece.face});
+}
+
 }  // namespace
 
 Warnings warnings_of_run(const io::ModelFile& model) {
@@ -119,6 +140,7 @@ Warnings warnings_of_run(const io::ModelFile& model) {
   if (!model.modal_damping.empty())
     warnings.emplace_back("'damping.modal' is not used: it is of 'body modal N' in a deck");
   if (std::string gap = almost_welded(model); !gap.empty()) warnings.push_back(std::move(gap));
+  warn_of_inner_faces(model, warnings);
   return warnings;
 }
 

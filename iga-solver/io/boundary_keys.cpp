@@ -83,6 +83,7 @@ BoundaryEntry read_entry(const YamlMap& map, const GeometryFile& geometry,
     const int patch = read_patch(map, geometry);
     const nurbs::Face face = read_face(map, "symmetry");
     entry.directions = read_symmetry(map, std::get<nurbs::Volume>(geometry.patches[patch]), face);
+    entry.is_symmetry = true;
     entry.where = {{patch}, {face}};
     entry.nodes = nodes_of(entry.where, geometry, nodes);
     return entry;

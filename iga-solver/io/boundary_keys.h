@@ -23,6 +23,7 @@ struct BoundaryEntry {
   std::string name;  ///< empty: reactions are not recorded
   Selection where;
   structure::Directions directions;
+  bool is_symmetry = false;
   bool moves = false;
   Vector3 displacement = Vector3::Zero();  ///< of what moves, times the factor [length]
   structure::TimeFunction time = {};

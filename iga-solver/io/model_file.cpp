@@ -105,6 +105,7 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
                        "initial", "time", "integration", "damping", "weld", "analysis", "state"});
   ModelFile model = read_required(document, read_and_note);
   if (is_saved(document)) model.settings = settings_of(document, model.materials);
+  if (document.has("surfaces")) model.surfaces = document.map("surfaces").keys();
   if (document.has("integration"))
     model.integration = read_integration(document.map("integration", "{quadrature: full}"));
   if (document.has("boundary"))

@@ -44,9 +44,10 @@ struct ModelFile {
   double mass_damping = 0.0;               ///< rate [1/time]
   std::vector<double> modal_damping = {};  ///< of critical damping (damping_keys.h); of a modal body alone
   std::optional<TimeSpan> time = {};
-  std::optional<Analysis> analysis = {};  ///< absent: a motion in time
-  std::optional<SavedState> state = {};   ///< what it starts from
-  Settings settings = {};                 ///< of a motion that is saved
+  std::optional<Analysis> analysis = {};   ///< absent: a motion in time
+  std::optional<SavedState> state = {};    ///< what it starts from
+  Settings settings = {};                  ///< of a motion that is saved
+  std::vector<std::string> surfaces = {};  ///< names that its own key `surfaces` gives, beside those of files
 
   /// Those of `boundary` that have names.
   std::vector<structure::NamedSupport> named_supports() const { return io::named_supports(boundary); }

@@ -329,7 +329,11 @@ NodeNumbering weld(const std::vector<nurbs::Volume>& patches, double relative_to
   return nodes;
 }
 
-std::vector<SkinPiece> free_faces(const std::vector<nurbs::Space<3>>& patches, const NodeNumbering& nodes) {
+namespace {
+
+/// Faces on the same nodes, which are sorted.
+std::map<std::vector<Id>, std::vector<SkinPiece>> faces_by_nodes(const std::vector<nurbs::Space<3>>& patches,
+                                                                 const NodeNumbering& nodes) {
   std::map<std::vector<Id>, std::vector<SkinPiece>> by_nodes;
   for (int p = 0; p < static_cast<int>(patches.size()); ++p)
     for (int f = 0; f < 6; ++f) {
@@ -340,13 +344,28 @@ std::vector<SkinPiece> free_faces(const std::vector<nurbs::Space<3>>& patches, c
       std::sort(on_face.begin(), on_face.end());
       by_nodes[on_face].push_back(piece);
     }
+  return by_nodes;
+}
+
+}  // namespace
+
+std::vector<SkinPiece> free_faces(const std::vector<nurbs::Space<3>>& patches, const NodeNumbering& nodes) {
   std::vector<SkinPiece> free;
-  for (const auto& [on_face, pieces] : by_nodes)
+  for (const auto& [on_face, pieces] : faces_by_nodes(patches, nodes))
     if (pieces.size() == 1) free.push_back(pieces.front());
   std::sort(free.begin(), free.end(), [](const SkinPiece& a, const SkinPiece& b) {
     return std::pair(a.patch, a.face) < std::pair(b.patch, b.face);
   });
   return free;
+}
+
+std::vector<std::pair<SkinPiece, SkinPiece>> welded_faces(const std::vector<nurbs::Space<3>>& patches,
+                                                          const NodeNumbering& nodes) {
+  std::vector<std::pair<SkinPiece, SkinPiece>> welded;
+  for (const auto& [on_face, pieces] : faces_by_nodes(patches, nodes))
+    for (std::size_t k = 0; k < pieces.size() && pieces.size() > 1; ++k)
+      welded.emplace_back(pieces[k], pieces[(k + 1) % pieces.size()]);
+  return welded;
 }
 
 int welded_face_count(const std::vector<nurbs::Volume>& patches, const NodeNumbering& nodes) {

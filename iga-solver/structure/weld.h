@@ -2,6 +2,7 @@
 // Which control points of volume patches are one node.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "nurbs/patch.h"
@@ -22,6 +23,10 @@ NodeNumbering without_welds(const std::vector<nurbs::Volume>& patches);
 
 /// The faces that are not welded to another one.
 std::vector<SkinPiece> free_faces(const std::vector<nurbs::Space<3>>& patches, const NodeNumbering& nodes);
+
+/// The others, each with the one that it is welded to.
+std::vector<std::pair<SkinPiece, SkinPiece>> welded_faces(const std::vector<nurbs::Space<3>>& patches,
+                                                          const NodeNumbering& nodes);
 
 /// How many pairs of faces are welded.
 int welded_face_count(const std::vector<nurbs::Volume>& patches, const NodeNumbering& nodes);

@@ -73,6 +73,16 @@ class WeldedSolids(unittest.TestCase):
         self.assertNotEqual(run.code, 0)
         self.assertIn("surface 'outside' lies on patches of two materials (0 and 3)", " ".join(run.errors))
 
+    def test_a_surface_inside_the_body_is_refused(self):
+        deck = bob.prelude() + bob.wall(rest="structure tube.yaml surface outside") + "run 1\n"
+        for model, seam in (
+            (quarters().replace("3 zeta+", "3 xi-"), "patch 3 xi-, which is inside the body: welded to patch 2 xi+"),
+            (one_patch("yes").replace("[zeta+]", "[zeta+, xi+]"), "patch 0 xi+, which is inside the body: welded to patch 0 xi-"),
+        ):
+            run = decks.run(deck, files={"tube.yaml": model}, ranks=1)
+            self.assertNotEqual(run.code, 0)
+            self.assertIn(f"tube.yaml: surface 'outside' is on {seam}, expected faces that particles can reach", " ".join(run.errors))
+
     def test_ranks(self):
         for ranks in (2,):
             found = hit(quarters(), steps=300, ranks=ranks)

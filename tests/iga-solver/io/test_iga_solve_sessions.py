@@ -323,6 +323,30 @@ class Check(Sessions):
             self.assertEqual(told(gap, "--check"), (", 2 pieces that are not welded to each other", []))
         self.assertEqual(told(0.0, "--check", more="weld: no\n")[1], [])
 
+    def test_faces_inside_the_body(self):
+        def told(text: str, *words: str) -> list:
+            (self.folder / "two.yaml").write_text(text)
+            command = [PROGRAM, "two.yaml", *words]
+            done = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, timeout=60, check=True)
+            return [line for line in (done.stdout + done.stderr).splitlines() if "inside" in line]
+
+        loads = "loads: {tractions: [{face: zeta+, patch: 1, value: [0, 0, 1]}, {face: xi-, patch: 1, value: [0, 0, 1]}], " \
+                "pressures: [{face: xi+, patch: 0, value: 1}]}"
+        two = TWO_BOXES.replace("GAP", "0.1").replace("loads: {gravity: [0, 0, -9.81]}", loads)
+        two = two.replace("patch: 0}]", "patch: 0}, {symmetry: xi+, patch: 0}, {symmetry: eta-, patch: 1}]")
+        two += "surfaces: {top: [0 zeta+, 1 zeta+], middle: [0 zeta-, 1 xi-]}\n"
+        zero, one = ("patch 0 xi+, which is inside the body: welded to patch 1 xi-",
+                     "patch 1 xi-, which is inside the body: welded to patch 0 xi+")  # fmt: skip
+        named = (("loads.tractions[1]", one), ("loads.pressures[0]", zero), ("boundary[1].symmetry", zero), ("surface 'middle'", one))
+        expected = [f"WARNING: two.yaml: {what} is on {where}" for what, where in named]
+        for words in ("--check",), (), ("--quiet",):
+            self.assertEqual(told(two, *words), expected)
+        self.assertEqual(told(two + "weld: no\n", "--check"), [])
+        for angle, seam in (360, ["WARNING: two.yaml: surface 'side' is on patch 0 xi+, which is inside the body: welded to patch 0 xi-"]), (350, []):
+            tube = f"{{origin: [0, 0, 0], axis: [0, 0, 1], inner_radius: 1, outer_radius: 2, length: 1, angle: [0, {angle}], elements: [4, 1, 1]}}"
+            text = f"units: si\ngeometry: {{tube: {tube}}}\n{TWO_BOXES.splitlines()[5]}\nsurfaces: {{side: xi+, outside: zeta+}}\n"
+            self.assertEqual(told(text, "--check", "--end", "1e-6"), seam)
+
     def test_a_piece_that_nothing_holds(self):
         (self.folder / "two.yaml").write_text(TWO_BOXES.replace("GAP", "1"))
         self.assertIn(
