@@ -179,6 +179,7 @@ void Substeps::begin_step() {
     return place_surface();
   }
   x_ = body_->positions();
+  solver_.follow_spin();
   body_->begin_step();
   for (int i = 1; i < count_; ++i) {
     body_->end_step(no_forces_);

@@ -62,6 +62,7 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
   local_flag = 1;
   size_local_cols = liggghts_pkg::WallColumns::kLocalColumns;
   local_freq = 1;
+  peratom_freq = 1;  // of local data, too, to compute reduce
   restart_global = 1;
   can_create_mesh_ = true;
   meshwall_ = may_pose_as_mesh();
@@ -327,6 +328,12 @@ void FixWallNurbs::post_run() {
 /* ---------------------------------------------------------------------- */
 
 double FixWallNurbs::compute_vector(int column) {
+  // Thermo and fix ave/time look at the size once, and find the fix by its number or name ever after.
+  if (column >= size_vector)
+    messages_.fail(
+        fmt::format("f_ID[{}] is asked for, this wall has 1 to {}: it came in the place of another one after "
+                    "the line that asks was read, so give it another ID, or give that line once more",
+                    column + 1, size_vector));
   double value = 0.0;
   or_fail([&] { value = columns_[column]; });
   return value;

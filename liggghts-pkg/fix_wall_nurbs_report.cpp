@@ -7,7 +7,6 @@
 #include "compute_pair_gran_local.h"
 #include "compute_reduce.h"
 #include "dump_local.h"
-#include "fix_ave_histo.h"
 #include "fix_wall_nurbs.h"
 #include "modify.h"
 #include "output.h"
@@ -39,8 +38,6 @@ bool FixWallNurbs::may_be_read_locally() const {
     if (dynamic_cast<DumpLocal*>(output->dump[k])) return true;
   for (int k = 0; k < modify->ncompute; ++k)
     if (dynamic_cast<ComputeReduce*>(modify->compute[k])) return true;
-  for (int k = 0; k < modify->nfix; ++k)
-    if (dynamic_cast<FixAveHisto*>(modify->fix[k])) return true;
   return false;
 }
 

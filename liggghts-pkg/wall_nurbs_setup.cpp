@@ -11,6 +11,7 @@
 
 #include "atom.h"
 #include "deck_variable.h"
+#include "domain.h"
 #include "error.h"
 #include "geometry_io/geometry_io.h"
 #include "lammps.h"
@@ -66,6 +67,13 @@ std::optional<geometry_io::Units> units_of_deck(const char* name) {
 std::optional<geometry_io::Format> format_of_wall(const WallNurbsOptions& options) {
   if (options.body != WallNurbsOptions::Body::rigid) return std::nullopt;
   return geometry_io::format_of_path(options.file);
+}
+
+void check_box(const Domain& box) {
+  if (box.triclinic && (box.xperiodic || box.yperiodic || box.zperiodic))
+    throw std::invalid_argument(
+        "the simulation box is triclinic and periodic, expected an orthogonal one ('region ID block'), or "
+        "boundaries that are not periodic");
 }
 
 void check_units(const WallNurbsOptions& options, geometry_io::Units units, const char* deck_units) {
@@ -148,6 +156,7 @@ int WallNurbsSetup::modify_drive(LAMMPS* lmp, const char* id, int narg, char** a
 WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
   try {
     check_particles(*lmp->atom);
+    check_box(*lmp->domain);
     options_ = liggghts_pkg::parse_wall_nurbs(std::vector<std::string>(arg + 3, arg + narg),
                                               variables_of(lmp, arg[0]));
     if (options_.drive.servo) complete_servo(lmp, *options_.drive.servo);

@@ -30,7 +30,7 @@ bool any_inside(const coupling::ContactSurface& surface) {
 Wall::Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange& exchange, double edge_angle)
     : structure_(structure),
       exchange_(exchange),
-      is_closed_(any_inside(structure.surface())),
+      has_inside_(structure.deforms() && any_inside(structure.surface())),
       surface_(structure.surface().topology),
       shape_(shape_of(structure.surface(), surface_, exchange.positions(), edge_angle)),
       patches_(dynamic_cast<const PatchShape*>(shape_.get())) {

@@ -90,7 +90,7 @@ class Wall {
   /// +1 where dS/dxi x dS/deta points, -1 on the other side.
   int side_of(const Foot& foot, const Vector3& delta) const;
   /// Whether a centre on this side of a patch, above a foot inside it, is inside the body.
-  bool is_inside(int patch, int side) const { return is_closed_ && shape_->outward_sign(patch) * side < 0; }
+  bool is_inside(int patch, int side) const { return has_inside_ && shape_->outward_sign(patch) * side < 0; }
   /// The same above any foot; outside an edge's or a corner's neither side of the patch is the inside.
   bool is_inside(const Foot& foot, int side) const {
     return foot.status == search::FootStatus::interior && is_inside(foot.patch, side);
@@ -114,7 +114,7 @@ class Wall {
 
   const coupling::StructureSolver& structure_;
   coupling::SurfaceExchange& exchange_;
-  bool is_closed_;             // some patch has an inside
+  bool has_inside_;            // where no particle may be; a rigid wall may be a container
   nurbs::MultiPatch surface_;  // of the structure; welded across periodic faces, too
   std::unique_ptr<WallShape> shape_;
   const PatchShape* patches_;  // the same; null: of faces, which do not deform

@@ -8,6 +8,7 @@ import numpy as np
 
 import ball_on_block as bob
 import decks
+from test_wall_output import FLOOR
 
 FILES = {"block.yaml": bob.block()}
 COLUMNS = (3, 7, 8, 11, 15, 16, 20)  # force, contacts, overlap, momentum, energies, probe
@@ -72,6 +73,16 @@ class LifeCycle(unittest.TestCase):
             with self.subTest(column=column):
                 np.testing.assert_array_equal(third[column], reference)
                 np.testing.assert_array_equal(second[column], reference)
+
+    def test_a_column_that_the_wall_in_its_place_has_not_ends_in_one_line(self):
+        """Thermo asks for the columns of its line, whatever wall has the name by now."""
+        other = bob.wall().replace("structure block.yaml surface top", "geometry floor.yaml surface floor")
+        self.assertNotEqual(other, bob.wall())
+        deck = START + f"thermo_style custom step f_plate[27]\nrun 10\nunfix plate\n{other}run 10\n"
+        run = decks.run(deck, files={**FILES, "floor.yaml": FLOOR})
+        self.assertEqual(run.code, 1, run.text[-2000:])
+        (error,) = run.errors
+        self.assertRegex(error, r"\(id plate\): f_ID\[27\] is asked for, this wall has 1 to \d+: .*another ID")
 
     def test_restart_continues_a_contact_to_the_last_bit(self):
         files = dict(FILES)

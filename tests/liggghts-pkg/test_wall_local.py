@@ -129,6 +129,20 @@ thermo 100
         self.assertGreater(np.abs(np.concatenate(stock)[:, FIRST["vel"] : FIRST["vel"] + 3]).max(), 0.1)
         self.assert_same(self.contacts(wall(f"temperature 400. motion {verb}") + local()), stock, 1e-9)
 
+    def test_the_largest_overlap_by_compute_reduce(self):
+        """Of the fix's own local array."""
+        deck = bob.prelude() + bob.wall() + """
+compute deepest all reduce max f_plate[11]
+thermo 50
+thermo_style custom step c_deepest f_plate[8]
+thermo_modify format float %.17g norm no
+run 150
+"""
+        for ranks in (1, 2):
+            table = decks.good(deck, files={"block.yaml": bob.block()}, ranks=ranks).table
+            self.assertGreater(table["deepest"].max(), 1e-6)
+            np.testing.assert_array_equal(table["deepest"], table["plate[8]"])
+
     def test_a_solid(self):
         """Without damping and friction nothing depends on velocities: foot, particle, force and overlap are those of f_plate."""
         of_compute, of_fix = (1, 2, 3, 15, 16, 17, 18, 20), (5, 6, 7, 1, 8, 9, 10, 11)

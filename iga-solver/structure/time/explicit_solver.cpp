@@ -147,12 +147,6 @@ void ExplicitSolver::add_strain_energy() {
   });
 }
 
-const NodalVectors& ExplicitSolver::led_displacements() {
-  if (lead_ == 0.0) return u_;
-  led_u_ = u_ + lead_ * v_;
-  return led_u_;
-}
-
 void ExplicitSolver::end_step(const NodalVectors& F) {
   check_size(F, "forces");
   body_->evolve(led_displacements(), dt_, f_int_, [this] { halo_->begin_sum(f_int_); });

@@ -79,8 +79,11 @@ class ExplicitSolver {
   /// kinetic energy as their work.  The displacements must live until end_step.
   void add_motion(const NodalVectors& displacements, const NodalVectors& velocities);
   /// Internal forces are those of the displacements u + lead v from now on: a mode of frequency omega is
-  /// damped by the ratio omega lead/2.
-  void set_lead(double lead) { lead_ = lead; }
+  /// damped by the ratio omega lead/2.  Collective.
+  void set_lead(double lead);
+  /// With a lead: a body that nothing holds turns as it does now, and v is without that, which no strain
+  /// comes of; it would brake the spin by the rate lead spin^2.  Collective.
+  void follow_spin();
   /// From now on steps go on where the stable step has come down to dt; somebody sees that and sets another.
   void go_on_when_strained() { goes_on_when_strained_ = true; }
   bool is_too_strained() const { return is_too_strained_; }
@@ -215,13 +218,15 @@ class ExplicitSolver {
   double dt_ = 0.0, time_ = 0.0;
   std::optional<double> held_at_;  // the time of loads and supports, if it does not go on
   double lead_ = 0.0;
+  bool turns_freely_ = false;  // nothing holds it, and there is a lead
+  Vector3 led_spin_ = Vector3::Zero();
   double damping_ = 0.0;  // rate
   NodalVectors f_ext_, f_int_, u_, x_, v_, a_;
   NodalVectors f_dead_;  // what does not change of f_ext, if something does
   std::vector<std::unique_ptr<const ChangingLoad>> loads_;
   std::vector<std::string> load_names_;
   Springs springs_;
-  NodalVectors led_u_;           // u + lead v, where there is a lead
+  NodalVectors led_u_;           // u + lead (v - spin x), where there is a lead
   double largest_u_ = 0.0;       // of all components that the part holds
   std::vector<ForceSums> sums_;  // of the last kick, for each run of nodes that the part owns
   WorkLedger ledger_;

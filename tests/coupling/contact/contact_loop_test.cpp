@@ -328,7 +328,7 @@ TEST(ContactLoop, LeavesOtherGroupsAlone) {
 
 // Inside a solid, and faster than its radius per step.
 TEST(ContactLoop, RaisesAlarms) {
-  RigidSurface wall({floor()}, {1});  // the top of a solid below z = 0
+  test::RisingSheet wall(floor(), 0.0, 1);  // the top of a solid below z = 0
   Balls balls;
   balls.add({0, 0, -0.1}, kRadius, {0, 0, 0.05});
   balls.add({2, 0, 0.3}, kRadius, {0, 0, -0.4});
@@ -343,11 +343,21 @@ TEST(ContactLoop, RaisesAlarms) {
   EXPECT_EQ(scene.loop.inside().count, 0);
 }
 
+// What is drawn as a solid may be the tank that particles are in.
+TEST(ContactLoop, RaisesNoneInARigidContainer) {
+  RigidSurface wall({floor()}, {1});
+  Balls balls;
+  balls.add({0, 0, -0.1}, kRadius, {0, 0, 0.05});
+  BallsOnWall scene(wall, balls, 0.0, 1.0);
+  EXPECT_EQ(scene.loop.contacts().size(), 1u);
+  EXPECT_EQ(scene.loop.inside().count, 0);
+}
+
 // Its contact goes on, and keeps its slot: on a curved patch, whose feet are followed.
 TEST(ContactLoop, ABallThatIsPutElsewhereHasAnotherSide) {
   nurbs::Surface hill = floor();
   hill.control_points(2, hill.control_points.cols() / 2) += 0.1;
-  RigidSurface wall({hill}, {1});
+  test::RisingSheet wall(hill, 0.0, 1);
   Balls balls(1);
   balls.add({0.3, 0.2, 0.4}, kRadius);
   BallsOnWall scene(wall, balls, 1.0, 1.0);

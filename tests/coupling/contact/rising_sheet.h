@@ -16,10 +16,10 @@ using nurbs::Vector3;
 /// A sheet whose control points rise at a speed: to contact, a body that deforms.
 class RisingSheet final : public coupling::StructureSolver {
  public:
-  RisingSheet(const nurbs::Surface& sheet, double speed)
+  RisingSheet(const nurbs::Surface& sheet, double speed, int outward_sign = 0)
       : surface_{nurbs::join({sheet}).topology,
                  coupling::SurfaceMap::identity(sheet.control_points.cols()),
-                 {0}},
+                 {outward_sign}},
         positions_(sheet.control_points),
         velocities_(Vector3(0, 0, speed).replicate(1, positions_.cols())),
         nodes_(positions_.cols()) {
