@@ -111,28 +111,22 @@ void TrianglesInPlane::fill(const Grid& grid, const std::vector<Box>& boxes) {
                   [&](int cell) { pieces_[next[cell - grid.first_cell]++] = grid.first_piece + k; });
 }
 
-template <class Pieces>
-int TrianglesInPlane::deepest(const Pieces& pieces, const Parameter<2>& xi) const {
+int TrianglesInPlane::deepest(const int* pieces, const int* end, const Parameter<2>& xi) const {
   int found = -1;
   double most = -std::numeric_limits<double>::infinity();
-  for (const int piece : pieces)
-    if (const double depth = triangles_[piece].depth(xi); depth > most) most = depth, found = piece;
+  for (; pieces != end; ++pieces)
+    if (const double depth = triangles_[*pieces].depth(xi); depth > most) most = depth, found = *pieces;
   return found;
 }
 
 int TrianglesInPlane::at(int face, const Parameter<2>& xi) const {
-  struct Cell {
-    const int *first, *last;
-    const int* begin() const { return first; }
-    const int* end() const { return last; }
-  };
   const Grid& grid = grids_[face];
   const int cell = grid.first_cell + grid.column(0, xi[0]) + grid.count[0] * grid.column(1, xi[1]);
-  const int found = deepest(Cell{&pieces_[begin_[cell]], &pieces_[begin_[cell + 1]]}, xi);
+  const int found = deepest(pieces_.data() + begin_[cell], pieces_.data() + begin_[cell + 1], xi);
   if (found >= 0) return found;
   std::vector<int> all(grid.piece_count);
   std::iota(all.begin(), all.end(), grid.first_piece);
-  return deepest(all, xi);
+  return deepest(all.data(), all.data() + all.size(), xi);
 }
 
 }  // namespace brep

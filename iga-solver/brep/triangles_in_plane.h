@@ -33,8 +33,7 @@ class TrianglesInPlane {
   struct Box;
   Grid grid_over(const std::vector<Box>& boxes) const;
   void fill(const Grid& grid, const std::vector<Box>& boxes);
-  template <class Pieces>
-  int deepest(const Pieces& pieces, const Parameter<2>& xi) const;
+  int deepest(const int* pieces, const int* end, const Parameter<2>& xi) const;
 
   std::vector<Triangle> triangles_;  // by piece
   std::vector<Grid> grids_;          // by face
