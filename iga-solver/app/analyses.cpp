@@ -104,9 +104,11 @@ void run(const io::StaticAnalysis& analysis, const io::ModelFile& model, Fields&
          ExplicitSolver& solver, Talk talk) {
   RestOutput output(model, fields);
   const auto loads = [&](const NodalVectors& u, NodalVectors& f) { solver.external_forces(u, kFullTime, f); };
+  if (prints(talk)) fmt::print("  static       preconditioner ");
+  std::fflush(stdout);  // to make one takes minutes of large solids of high degree
   structure::StaticEquilibrium statics(solver.body(), solver.supports(), loads, analysis.options,
                                        solver.springs());
-  if (prints(talk)) fmt::print("  static       preconditioner {}\n", statics.preconditioner());
+  if (prints(talk)) fmt::print("{}\n", statics.preconditioner());
   const auto tell = [&](const structure::NewtonIteration& done) {
     fmt::print("  load {:.6g}, iteration {}: out of balance {:.2e}, {} products{}\n", done.load_factor,
                done.iteration, done.residual, done.products,

@@ -66,6 +66,12 @@ class Report(unittest.TestCase):
         self.assertTrue(ratio.passes)
         self.assertFalse(walls.rows(self.PAIR, Measured([3.3e-4], [1000]), Measured([4e-4], [800]))[-1].passes)
 
+    def test_the_other_is_named(self):
+        pair = Pair("beyond", Wall("nurbs", "wider.yaml"), Wall("nurbs", "box.yaml"), walls.LEVEL, 1.2, "box_wide")
+        found = walls.rows(pair, Measured([2.5e-4], [1000]), Measured([2e-4], [1000]))
+        self.assertEqual([row.quantity for row in found], ["ours_per_step", "box_wide_per_step", "ours_over_box_wide"])
+        self.assertFalse(found[-1].passes)  # 1.25 of 1.2
+
     def test_reading(self):
         seconds, peak = {"nurbs": 3.0, "triangles": 2.0}, {"nurbs": 2.0 * 2**20, "triangles": 2**20}
         found = {row.quantity: row for row in walls.reading_rows(seconds, peak)}
@@ -81,7 +87,7 @@ class Report(unittest.TestCase):
 
 class Decks(unittest.TestCase):
     def test_each_wall_has_a_deck(self):
-        for wall in (wall for pair in walls.PAIRS for wall in (pair.ours, pair.stock)):
+        for wall in (wall for pair in walls.PAIRS for wall in (pair.ours, pair.other)):
             text = (DECKS / f"in.{wall.deck}").read_text(encoding="utf-8")
             self.assertTrue(re.search(r"^fix (wall|\$\{id\}) all wall/.*\$\{store\}", text, re.MULTILINE), wall.deck)
 
@@ -90,6 +96,7 @@ class Decks(unittest.TestCase):
         moving = [aims[f"{n} triangles, moving"] for n in (12, 92, 1616, 30752, 123008)]
         self.assertEqual(moving, [0.8, 0.8, 0.8, 0.15, 0.15])
         self.assertEqual({aims[case] for case in ("plane, by words", "plane, 2 triangles", "cylinder, by words")}, {1.5})
+        self.assertEqual(aims["plane beyond a periodic box"], 1.2)
 
 
 if __name__ == "__main__":

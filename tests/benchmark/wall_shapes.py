@@ -16,12 +16,23 @@ SPACING = 1.25e-3  # of the spheres, which have diameters of 0.8 to 1.2 mm
 ABOVE = 0.65e-3  # of their centres
 VELOCITY = "0 0.2 0"  # they slide and roll over the wall
 
+Point2 = tuple[float, float]
 Triangle = tuple[Point, Point, Point]
 LOW, LENGTHS = (-MARGIN, -RADIUS - MARGIN), (SIDE + 2 * MARGIN, 2 * (RADIUS + MARGIN))  # of the plane, along x and y
-PLANE = (
-    f"units: si\ngeometry: {{plane: {{origin: [{LOW[0]}, {LOW[1]}, 0], "
-    f"edges: [[{LENGTHS[0]}, 0, 0], [0, {LENGTHS[1]}, 0]], elements: [31, 31], degree: 2}}}}\nsurfaces: {{wall: all}}\n"
-)
+
+
+def plane_words(low: Point2, lengths: Point2, elements: int) -> str:
+    """Model file of a plane z = 0 from `low`, of so many elements in a row."""
+    return (
+        f"units: si\ngeometry: {{plane: {{origin: [{low[0]}, {low[1]}, 0], edges: [[{lengths[0]}, 0, 0], [0, {lengths[1]}, 0]], "
+        f"elements: [{elements}, {elements}], degree: 2}}}}\nsurfaces: {{wall: all}}\n"
+    )
+
+
+PLANE = plane_words(LOW, LENGTHS, 31)
+# Of a periodic box, and beyond it.
+BOX_PLANE = plane_words((0.0, 0.0), (SIDE, SIDE), 62)
+WIDER_PLANE = plane_words((-MARGIN, -MARGIN), (SIDE + 2 * MARGIN, SIDE + 2 * MARGIN), 62)
 PIPE = (
     f"units: si\ngeometry: {{cylinder: {{origin: [{-MARGIN}, 0, {RADIUS}], axis: [1, 0, 0], radius: {RADIUS}, "
     f"length: {SIDE + 2 * MARGIN}, elements: [32, 8]}}}}\nsurfaces: {{wall: all}}\n"

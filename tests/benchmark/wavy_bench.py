@@ -35,14 +35,14 @@ class Layers:
 LAYERS = {3500: Layers(59, 1, 4000, 100, 400), 50000: Layers(49, 21, 16000, 50, 100)}
 
 
-def spheres(layers: Layers, around: float = 0.0) -> str:
-    """LIGGGHTS data file: a jittered grid 0.9 mm above the surface, radii 0.4 to 0.6 mm; the box is wider than the grid
+def spheres(layers: Layers, around: float = 0.0, amplitude: float = AMPLITUDE) -> str:
+    """LIGGGHTS data file: a jittered grid 0.9 mm above the surface of this amplitude [m], radii 0.4 to 0.6 mm; the box is wider than the grid
     by `around` [m] on each side."""
     random = np.random.default_rng(1)
     n = layers.per_row
     i, j, layer = (a.ravel() for a in np.mgrid[0:n, 0:n, 0 : layers.layers])
     x, y = (SIDE / n * (a + 0.5 + random.uniform(-0.05, 0.05, a.size)) for a in (i, j))
-    z = AMPLITUDE * np.sin(K * x) * np.sin(K * y) + 0.9e-3 + 1.25e-3 * layer
+    z = amplitude * np.sin(K * x) * np.sin(K * y) + 0.9e-3 + 1.25e-3 * layer
     radii = random.uniform(0.4e-3, 0.6e-3, x.size)
     z = lift(x, y, z, radii)
     box = [(-around, SIDE + around), (-around, SIDE + around), (-0.004, float(z.max()) + 4e-3)]

@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 import shutil
 import subprocess
+import tempfile
 import time
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -61,7 +62,9 @@ class Run:
     seconds: float = 0.0
     process: subprocess.Popen | None = field(default=None, repr=False)
 
-    def start(self, solver: Solver) -> None:
+    def start(self, solver: Solver, sessions: Path) -> None:
+        """`sessions`: a folder of its own for those of Open MPI, which may not be there: in a common one a run that ends may
+        take away what another has just begun."""
         ignored = shutil.ignore_patterns("*.py", "*.md", "__pycache__")
         shutil.copytree(self.source, self.folder, ignore=ignored)
         files = self.files()
@@ -77,7 +80,7 @@ class Run:
             self.process = subprocess.Popen(
                 solver.command(self.deck, self.variables),
                 cwd=self.folder,
-                env={**solver.environment(), **self.environment},
+                env={**solver.environment(), "OMPI_MCA_orte_tmpdir_base": str(sessions), **self.environment},
                 stdin=subprocess.DEVNULL,
                 stdout=log,
                 stderr=subprocess.STDOUT,
@@ -121,13 +124,14 @@ def run_all(
             return len(running) < jobs
         return not running or sum(map(ranks, [*running, run])) <= cores()
 
+    sessions = tempfile.mkdtemp()
     try:
         while waiting or running:
             busy = [id(run) for run in waiting + running]
             for run in [run for run in waiting if id(run.after) not in busy]:
                 if room(run):
                     waiting.remove(run)
-                    run.start(solver)
+                    run.start(solver, Path(sessions, str(id(run))))
                     running.append(run)
             watch(done, running)
             time.sleep(0.1)
@@ -140,3 +144,4 @@ def run_all(
             run.process.terminate()
         for run in running:
             run.process.wait()
+        shutil.rmtree(sessions, ignore_errors=True)
