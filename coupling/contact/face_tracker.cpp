@@ -146,20 +146,41 @@ void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
     *count++ =
         search_.activate_with_feet(d, state.reach, margin, pieces, number, pieces_.data() + (image++)->first);
   });
-  state.alone = -1;
   state.margin = margin;
+  state.alone = -1;
+  if (candidate.image_count > 1) leave_out_repeats(query);
   const PiecesHere pieces = pieces_of_wall_itself(query);
   if (pieces.count > 0 &&
       search_.is_well_inside(pieces.first, pieces.count, query.centre, state.reach, margin))
     state.alone = *pieces.first;
 }
 
-// Those chosen, if no image of the wall is near.
+// A wall that is longer than a periodic box lies on itself: an image has no other feet there.
+void FaceTracker::leave_out_repeats(const Query& query) {
+  const State& state = states_[query.candidate];
+  const Candidate& candidate = candidates_.candidates()[query.candidate];
+  const ImageElements* const images = candidates_.image_elements(candidate);
+  int* const counts = &piece_counts_[candidate.first_image];
+  const int* const own = pieces_.data() + images->first;
+  if (!candidates_.images()[images->image].isZero(0.0) || counts[0] == 0 ||
+      !search_.is_well_inside(own, counts[0], query.centre, state.reach, state.margin))
+    return;
+  for (int k = 1; k < candidate.image_count; ++k)
+    if (search_.is_repeated(*own, candidates_.images()[images[k].image], pieces_.data() + images[k].first,
+                            counts[k]))
+      counts[k] = 0;
+}
+
+// Those chosen, if none of its images is near.
 FaceTracker::PiecesHere FaceTracker::pieces_of_wall_itself(const Query& query) const {
   const Candidate& candidate = candidates_.candidates()[query.candidate];
-  if (!is_near_wall_itself(candidate)) return {};
-  return {pieces_.data() + candidates_.image_elements(candidate)->first,
-          piece_counts_[candidate.first_image]};
+  const ImageElements* const images = candidates_.image_elements(candidate);
+  const int* const counts = &piece_counts_[candidate.first_image];
+  const auto is_near = [](int count) { return count > 0; };
+  if (!candidates_.images()[images->image].isZero(0.0) ||
+      std::any_of(counts + 1, counts + candidate.image_count, is_near))
+    return {};
+  return {pieces_.data() + images->first, *counts};
 }
 
 bool FaceTracker::is_near_wall_itself(const Candidate& candidate) const {

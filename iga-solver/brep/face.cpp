@@ -168,6 +168,11 @@ double Face::distance_of_whole(const Vector3& d) const {
   }
 }
 
+bool Face::stays(const Vector3& shift, double within) const {
+  if (kind == Kind::plane) return std::abs(shift.dot(frame.z)) <= within;
+  return kind == Kind::cylinder && shift.cross(frame.z).squaredNorm() <= within * within;
+}
+
 // Of a cone, its tip is on the axis.
 double Face::distance_of_focus(const Vector3& d) const {
   if (kind == Kind::plane) return std::numeric_limits<double>::infinity();

@@ -71,6 +71,9 @@ struct Face {
   /// From the axes, centres and circles that have several feet on the surface that the face is cut from: a
   /// point that moves by less has a foot that does not jump [length].
   double distance_of_focus(const Vector3& d) const;
+  /// Whether the plane or cylinder that the face is cut from, moved by this, is where it was, to `within`; of
+  /// other kinds not known [length].
+  bool stays(const Vector3& shift, double within) const;
   /// Whether the range of an angle is a whole turn, to 1e-9.
   bool whole_turn(int direction) const;
   double middle(int direction) const { return 0.5 * (low[direction] + high[direction]); }

@@ -130,6 +130,14 @@ bool FootSearch::is_well_inside(const int* pieces, int count, const Vector3& d, 
   return true;
 }
 
+// On the rim of the moved face there may be feet, but in the plane that touches the face at a nearer one.
+bool FootSearch::is_repeated(int piece, const Vector3& shift, const int* pieces, int count) const {
+  const int number = surface_.pieces[piece].face;
+  const Face& face = surface_.faces[number];
+  return std::all_of(pieces, pieces + count, [&](int p) { return surface_.pieces[p].face == number; }) &&
+         face.stays(shift, same_point_);
+}
+
 // Which feet there are depends on which sides of triangles and ends of edges d is beyond, and on nothing else
 // as long as d does not pass through a face.
 double FootSearch::room_of_feet(const Vector3& d, double reach, const int* pieces, int count,

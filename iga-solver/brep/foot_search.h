@@ -54,6 +54,9 @@ class FootSearch {
   /// and it stays over them while it moves by less than `margin`.  If no other piece is within reach either,
   /// d has one foot at most, as long as it moves by less than that.
   bool is_well_inside(const int* pieces, int count, const Vector3& d, double reach, double margin) const;
+  /// Whether a point that is well inside the face of `piece` has no other feet on the wall moved by `shift`,
+  /// of which these pieces, in the wall's frame, are all that are within reach.
+  bool is_repeated(int piece, const Vector3& shift, const int* pieces, int count) const;
   /// How far d may move at least until feet begin or end within `reach`, but for those that are farther now,
   /// if it has these alone and all are inside plane faces, or trimmed ones in closed form; 0 where that is
   /// not known [length].  Given all pieces within `reach`; below[k] becomes the one that foot k is on.

@@ -87,7 +87,7 @@ class Report(unittest.TestCase):
 
 class Decks(unittest.TestCase):
     def test_each_wall_has_a_deck(self):
-        for wall in (wall for pair in walls.PAIRS for wall in (pair.ours, pair.other)):
+        for wall in (wall for pair in walls.PAIRS for wall in pair.walls):
             text = (DECKS / f"in.{wall.deck}").read_text(encoding="utf-8")
             self.assertTrue(re.search(r"^fix (wall|\$\{id\}) all wall/.*\$\{store\}", text, re.MULTILINE), wall.deck)
 

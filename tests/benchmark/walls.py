@@ -43,10 +43,14 @@ class Wall:
     deck: str
     geometry: str
 
+    @property
+    def is_ours(self) -> bool:
+        return self.deck.startswith("nurbs")
+
 
 @dataclass(frozen=True)
 class Pair:
-    """A wall of ours and another in its place, with the same spheres, from the same state: that of ours at rest."""
+    """A wall of ours and another in its place, with the same spheres; LIGGGHTS' from the state of ours at rest."""
 
     case: str
     ours: Wall
@@ -54,6 +58,14 @@ class Pair:
     spheres: str
     aim: float | None  # of ours over the other
     name: str = "stock"  # of the other: LIGGGHTS' own
+
+    @property
+    def walls(self) -> tuple[Wall, Wall]:
+        return self.ours, self.other
+
+    def state(self, wall: Wall) -> str:
+        """Restart file that it starts from."""
+        return state(wall.geometry if wall.is_ours else self.ours.geometry)
 
 
 def stl_pairs(count: int) -> list[Pair]:
@@ -104,13 +116,14 @@ def write_files(folder: Path) -> None:
 def settle(runs: WallRuns, pairs: Sequence[Pair]) -> None:
     """Lets the spheres come down on each wall of ours; not timed, so all cores may work."""
 
-    def run(pair: Pair) -> None:
-        file, sides = pair.ours.geometry, "p" if pair.spheres in PERIODIC else "f"
-        variables = dict(wall="nurbs", geometry=file, spheres=pair.spheres, sides=sides, state=state(file))
+    def run(settled: tuple[str, str]) -> None:
+        file, spheres = settled
+        sides = "p" if spheres in PERIODIC else "f"
+        variables = dict(wall="nurbs", geometry=file, spheres=spheres, sides=sides, state=state(file))
         runs.run("in.settle", steps=SETTLE, **variables)
 
     with ThreadPoolExecutor(len(os.sched_getaffinity(0))) as pool:
-        list(pool.map(run, {pair.ours.geometry: pair for pair in pairs}.values()))
+        list(pool.map(run, {(wall.geometry, pair.spheres) for pair in pairs for wall in pair.walls if wall.is_ours}))
 
 
 def state(geometry: str) -> str:
@@ -122,7 +135,7 @@ def measure(runs: WallRuns, pairs: Sequence[Pair], repeats: int) -> list[Row]:
     """Rows of all pairs; walls take turns."""
     settle(runs, pairs)
     # Walls, and what they start from: pairs share runs.
-    timed = dict.fromkeys((wall, state(pair.ours.geometry)) for pair in pairs for wall in (pair.ours, pair.other))
+    timed = dict.fromkeys((wall, pair.state(wall)) for pair in pairs for wall in pair.walls)
     words = {
         key: dict(wall=key[0].deck, geometry=key[0].geometry, state=key[1], before=BEFORE, amplitude=AMPLITUDE)
         for key in timed
@@ -135,7 +148,7 @@ def measure(runs: WallRuns, pairs: Sequence[Pair], repeats: int) -> list[Row]:
     return [
         row
         for pair in pairs
-        for row in rows(pair, *(found[wall, state(pair.ours.geometry)] for wall in (pair.ours, pair.other)))
+        for row in rows(pair, *(found[wall, pair.state(wall)] for wall in pair.walls))
     ]
 
 
