@@ -35,10 +35,14 @@ class CandidateList {
   /// frame, where that particle is, or an image of it.
   using Near =
       std::function<void(int particle, const nurbs::Vector3& point, double reach, std::vector<int>& out)>;
+  /// Whether all of these elements that are within `reach` of a point in the wall's frame are others of the
+  /// wall when they are moved by `shift`.
+  using Repeats = std::function<bool(const nurbs::Vector3& shift, const nurbs::Vector3& point, double reach,
+                                     const int* elements, int count)>;
   /// Each particle becomes a candidate of the elements that, moved by one of the images, are within its
-  /// reach.
+  /// reach; images all of whose elements near it repeat those of another are left out.
   void build(const coupling::RigidFrame& frame, const std::vector<nurbs::Vector3>& images,
-             const Surroundings& particles, const Near& near);
+             const Surroundings& particles, const Near& near, const Repeats& repeats);
 
   const std::vector<Candidate>& candidates() const { return candidates_; }
   const std::vector<nurbs::Vector3>& images() const { return images_; }  ///< in space [length]
@@ -59,6 +63,8 @@ class CandidateList {
   const coupling::RigidFrame& frame_at_build() const { return frame_at_build_; }
 
  private:
+  void leave_out_repeats(int first_image, const nurbs::Vector3& centre, double reach, const Repeats& repeats);
+
   std::vector<Candidate> candidates_;
   std::vector<ImageElements> image_elements_;
   std::vector<int> elements_;

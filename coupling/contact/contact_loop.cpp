@@ -16,6 +16,7 @@ ContactLoop::ContactLoop(const coupling::StructureSolver& structure, coupling::S
                          const Options& options)
     : options_(options),
       wall_(structure, exchange, options.edge_angle),
+      repeated_(wall_.shape()),
       tracker_(wall_.shape().track(candidates_, options.search, searches_)),
       mesh_(MeshEstimate::of(structure, exchange.positions())),
       kernel_(feet_kernel(nurbs::simd_level())) {
@@ -45,11 +46,15 @@ void ContactLoop::build_list(const ParticleView& particles, const ListReach& rea
   }
   const std::vector<Vector3> images = wall_images(reach.box, wall_.bounds(), wall_.frame(), largest);
   expect_images_to_stay(images);
-  candidates_.build(wall_.frame(), images, {particles.count, particles.x, list_reach_.data()},
-                    [&](int particle, const Vector3& point, double near, std::vector<int>& elements) {
-                      if (images.size() > 1) return wall_.shape().near(point, near, elements);
-                      wall_.shape().near_particle(particle, point, near, elements);
-                    });
+  candidates_.build(
+      wall_.frame(), images, {particles.count, particles.x, list_reach_.data()},
+      [&](int particle, const Vector3& point, double near, std::vector<int>& elements) {
+        if (images.size() > 1) return wall_.shape().near(point, near, elements);
+        wall_.shape().near_particle(particle, point, near, elements);
+      },
+      [&](const Vector3& shift, const Vector3& point, double near, const int* elements, int count) {
+        return !wall_.deforms() && repeated_.all(shift, point, near, elements, count);
+      });
   if (wall_.deforms()) wall_.follow(candidates_.all_elements());
   tracker_->list_is_new();
   tracker_->go_on({particles.tag, particles.x, list_reach_.data()});

@@ -24,6 +24,7 @@
 #include "coupling/contact/mesh_estimate.h"
 #include "coupling/contact/particle_view.h"
 #include "coupling/contact/periodic_images.h"
+#include "coupling/contact/repeated_elements.h"
 #include "coupling/contact/run_alarm.h"
 #include "coupling/contact/wall.h"
 
@@ -155,6 +156,7 @@ class ContactLoop {
 
   Options options_;
   Wall wall_;
+  RepeatedElements repeated_;
   CandidateList candidates_;
   SearchCounts searches_;
   std::unique_ptr<FeetTracker> tracker_;

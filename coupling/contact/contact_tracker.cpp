@@ -86,15 +86,46 @@ void ContactTracker::find_all(const Candidate& candidate, const Query& query, do
                               const ParticleSlots& slots, std::vector<TrackedFoot>& out) {
   found_.clear();
   const ImageElements* images = candidates_.image_elements(candidate);
-  for (int k = 0; k < candidate.image_count; ++k)
+  for (int k = 0; k < candidate.image_count; ++k) {
+    of_image_.clear();
     search_.add_minima(query.centre, candidates_.images()[images[k].image], reach,
                        kSameFoot * query.touch_reach, candidates_.elements(images[k]), images[k].count,
-                       found_);
+                       of_image_);
+    for (const Foot& foot : of_image_) {
+      const auto is_same = [&](const Foot& known) { return same(known, foot, query.touch_reach); };
+      if (candidate.image_count == 1 ||
+          (!is_covered(candidate, query, foot) && std::none_of(found_.begin(), found_.end(), is_same)))
+        found_.push_back(foot);
+    }
+  }
   keep_one_of_each_valley(query);
   keep_nearer_across_smooth_edges(query);
   out.clear();
   for (const Foot& foot : found_) out.push_back({foot, -1});
-  match_slots(candidate, query, slots, out.data(), static_cast<int>(out.size()));
+  match_slots(query, slots, out.data(), static_cast<int>(out.size()));
+}
+
+bool ContactTracker::is_on_rim(const Foot& foot) const {
+  const nurbs::MultiPatch& surface = search_.projector().surface();
+  for (int side = 0; side < nurbs::kSideCount; ++side)
+    if (surface.border(foot.patch, side).kind == nurbs::Border::free && surface.on_side(foot.at(), side))
+      return true;
+  return false;
+}
+
+// Where a wall goes on beyond a periodic face its rim lies on one of its images, or that on the wall: nothing
+// ends there.
+bool ContactTracker::is_covered(const Candidate& candidate, const Query& query, const Foot& foot) {
+  if (foot.status == search::FootStatus::interior || !is_on_rim(foot)) return false;
+  const ImageElements* images = candidates_.image_elements(candidate);
+  beside_.clear();
+  for (int k = 0; k < candidate.image_count; ++k) {
+    const Vector3& image = candidates_.images()[images[k].image];
+    if (image != foot.image)
+      search_.projector().add_minima(foot.point, image, kCovered * query.touch_reach, 0.0,
+                                     candidates_.elements(images[k]), images[k].count, beside_);
+  }
+  return std::any_of(beside_.begin(), beside_.end(), [&](const Foot& other) { return !is_on_rim(other); });
 }
 
 // Whether the distance does not rise along the surface to second order, as the particle is on a centre of
@@ -146,14 +177,13 @@ void ContactTracker::keep_nearer_across_smooth_edges(const Query& query) {
 }
 
 // A slot goes with its branch: to the foot that is reached from where the branch was last.
-void ContactTracker::match_slots(const Candidate& candidate, const Query& query, const ParticleSlots& slots,
-                                 TrackedFoot* feet, int count) {
+void ContactTracker::match_slots(const Query& query, const ParticleSlots& slots, TrackedFoot* feet,
+                                 int count) {
   for (int s = 0; s < slots.used(); ++s) {
     ContactSlot slot = slots.slot(s);
     if (slot.empty()) continue;
     const SurfacePoint last = slot.foot();
-    const Foot now =
-        search_.projector().follow(query.centre, last, nearest_image(candidate, last, query.centre));
+    const Foot now = search_.projector().follow(query.centre, last, nearest_image(last, query.centre));
     TrackedFoot* const end = feet + count;
     TrackedFoot* const found =
         std::find_if(feet, end, [&](const TrackedFoot& f) { return same(f.foot, now, query.touch_reach); });
@@ -164,22 +194,17 @@ void ContactTracker::match_slots(const Candidate& candidate, const Query& query,
   }
 }
 
-// Of the images of the wall near the candidate, the one whose point `at` is nearest to it.
-Vector3 ContactTracker::nearest_image(const Candidate& candidate, const SurfacePoint& at,
-                                      const Vector3& centre) const {
-  const ImageElements* images = candidates_.image_elements(candidate);
-  if (candidate.image_count == 1) return candidates_.images()[images[0].image];
+// The one on which the point `at` is nearest to the centre; it may be left out of the list, as another
+// repeats it.
+Vector3 ContactTracker::nearest_image(const SurfacePoint& at, const Vector3& centre) const {
+  const std::vector<Vector3>& images = candidates_.images();
+  if (images.size() == 1) return images.front();
   nurbs::RationalBasis<2> basis;
   nurbs::evaluate(search_.projector().surface(), at, 0, basis);
   const Vector3 S = nurbs::interpolate(basis, search_.projector().control_points());
-  const ImageElements* nearest = std::min_element(
-      images, images + candidate.image_count, [&](const ImageElements& a, const ImageElements& b) {
-        const auto distance = [&](const ImageElements& e) {
-          return (S + candidates_.images()[e.image] - centre).squaredNorm();
-        };
-        return distance(a) < distance(b);
-      });
-  return candidates_.images()[nearest->image];
+  return *std::min_element(images.begin(), images.end(), [&](const Vector3& a, const Vector3& b) {
+    return (S + a - centre).squaredNorm() < (S + b - centre).squaredNorm();
+  });
 }
 
 }  // namespace contact

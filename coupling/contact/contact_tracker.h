@@ -43,17 +43,17 @@ class ContactTracker final : public FeetTracker {
   bool in_valley(const Query& query, const search::Foot& foot) const;
   void keep_one_of_each_valley(const Query& query);
   void keep_nearer_across_smooth_edges(const Query& query);
-  void match_slots(const Candidate& candidate, const Query& query, const ParticleSlots& slots,
-                   TrackedFoot* feet, int count);
-  nurbs::Vector3 nearest_image(const Candidate& candidate, const nurbs::SurfacePoint& at,
-                               const nurbs::Vector3& centre) const;
+  void match_slots(const Query& query, const ParticleSlots& slots, TrackedFoot* feet, int count);
+  bool is_on_rim(const search::Foot& foot) const;
+  bool is_covered(const Candidate& candidate, const Query& query, const search::Foot& foot);
+  nurbs::Vector3 nearest_image(const nurbs::SurfacePoint& at, const nurbs::Vector3& centre) const;
 
   LocalSearch search_;
   double edge_angle_;
   std::vector<State> states_;          // per candidate
   std::vector<TrackedFoot> feet_;      // of regular candidates
   std::vector<TrackedFoot> all_feet_;  // of one that is not, this step
-  std::vector<search::Foot> found_;
+  std::vector<search::Foot> found_, of_image_, beside_;
 };
 
 }  // namespace contact

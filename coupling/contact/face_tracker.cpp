@@ -95,21 +95,6 @@ FeetRange FaceTracker::none(const Query& query, const ParticleSlots& slots, doub
   return {feet_.data(), 0};
 }
 
-// f(centre less the image, pieces, their number, image) for each image near the candidate.
-template <class Function>
-void FaceTracker::for_each_image(const Query& query, Of of, Function f) const {
-  const Candidate& candidate = candidates_.candidates()[query.candidate];
-  const ImageElements* images = candidates_.image_elements(candidate);
-  for (int k = 0; k < candidate.image_count; ++k) {
-    const ImageElements& at = images[k];
-    const Vector3& image = candidates_.images()[at.image];
-    if (of == Of::list)
-      f(query.centre - image, candidates_.elements(at), at.count, image);
-    else
-      f(query.centre - image, pieces_.data() + at.first, piece_counts_[candidate.first_image + k], image);
-  }
-}
-
 double FaceTracker::nearest(const Query& query, double reach, Of of) const {
   for_each_image(query, of, [&](const Vector3& d, const int* pieces, int count, const Vector3&) {
     reach = search_.nearest(d, reach, pieces, count);
@@ -155,39 +140,6 @@ void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
     state.alone = *pieces.first;
 }
 
-// A wall that is longer than a periodic box lies on itself: an image has no other feet there.
-void FaceTracker::leave_out_repeats(const Query& query) {
-  const State& state = states_[query.candidate];
-  const Candidate& candidate = candidates_.candidates()[query.candidate];
-  const ImageElements* const images = candidates_.image_elements(candidate);
-  int* const counts = &piece_counts_[candidate.first_image];
-  const int* const own = pieces_.data() + images->first;
-  if (!candidates_.images()[images->image].isZero(0.0) || counts[0] == 0 ||
-      !search_.is_well_inside(own, counts[0], query.centre, state.reach, state.margin))
-    return;
-  for (int k = 1; k < candidate.image_count; ++k)
-    if (search_.is_repeated(*own, candidates_.images()[images[k].image], pieces_.data() + images[k].first,
-                            counts[k]))
-      counts[k] = 0;
-}
-
-// Those chosen, if none of its images is near.
-FaceTracker::PiecesHere FaceTracker::pieces_of_wall_itself(const Query& query) const {
-  const Candidate& candidate = candidates_.candidates()[query.candidate];
-  const ImageElements* const images = candidates_.image_elements(candidate);
-  const int* const counts = &piece_counts_[candidate.first_image];
-  const auto is_near = [](int count) { return count > 0; };
-  if (!candidates_.images()[images->image].isZero(0.0) ||
-      std::any_of(counts + 1, counts + candidate.image_count, is_near))
-    return {};
-  return {pieces_.data() + images->first, *counts};
-}
-
-bool FaceTracker::is_near_wall_itself(const Candidate& candidate) const {
-  return candidate.image_count == 1 &&
-         candidates_.images()[candidates_.image_elements(candidate)->image].isZero(0.0);
-}
-
 void FaceTracker::find(const Query& query, double reach) {
   found_.clear();
   for_each_image(query, Of::chosen,
@@ -203,6 +155,7 @@ void FaceTracker::find(const Query& query, double reach) {
   if (found_.size() > 1) {
     std::sort(found_.begin(), found_.end(),
               [](const brep::Foot& a, const brep::Foot& b) { return a.distance < b.distance; });
+    if (candidates_.candidates()[query.candidate].image_count > 1) drop_covered_rims(query);
     keep_one_at_seams();
   }
   for (const brep::Foot& foot : found_) counts_.add_direct(foot);
@@ -219,9 +172,13 @@ bool FaceTracker::may_be_behind(const Query& query, const ParticleSlots& slots) 
     const Vector3 point = brep::point_on(search_.surface(), face, last.xi),
                   out = outward * brep::normal_on(search_.surface(), face, last.xi);
     bool is_deep = false;
-    for_each_image(query, Of::chosen, [&](const Vector3& d, const int*, int, const Vector3&) {
-      is_deep |= out.dot(d - point) < kDeep * query.touch_reach;
-    });
+    double nearest = kNoWay;
+    for (const Vector3& image : candidates_.images()) {
+      const Vector3 from = query.centre - image - point;
+      if (from.squaredNorm() >= nearest) continue;
+      nearest = from.squaredNorm();
+      is_deep = out.dot(from) < kDeep * query.touch_reach;
+    }
     if (is_deep) return true;
   }
   return false;
@@ -260,30 +217,11 @@ void FaceTracker::drop_feet_through_bodies(const Query& query) {
   feet_.erase(feet_.begin() + static_cast<std::ptrdiff_t>(kept), feet_.end());
 }
 
-// Where the wall goes on with one of its images, across a periodic face of the box, neither knows the other:
-// a foot on the rim of the one is none if it lies in the plane that touches the other at a nearer foot, or in
-// that foot.
-void FaceTracker::keep_one_at_seams() {
-  const auto repeats = [&](const brep::Foot& rim, const brep::Foot& nearer) {
-    if (rim.image == nearer.image) return false;
-    const double apart2 = (rim.point - nearer.point).squaredNorm(), same = search_.same_point();
-    if (apart2 <= same * same) return true;
-    const double out_of_plane = rim.distance * rim.distance - nearer.distance * nearer.distance - apart2;
-    return rim.status != search::FootStatus::interior && std::abs(out_of_plane) <= 2.0 * rim.distance * same;
-  };
-  auto end = found_.begin() + 1;
-  for (auto foot = end; foot != found_.end(); ++foot)
-    if (std::none_of(found_.begin(), end, [&](const brep::Foot& kept) { return repeats(*foot, kept); }))
-      *end++ = *foot;
-  found_.erase(end, found_.end());
-}
-
 // Squared distance of a foot from where a branch was last, on the image that was the nearest to it.
-double FaceTracker::squared_way(const Query& query, const Vector3& last, const Vector3& now) const {
+double FaceTracker::squared_way(const Vector3& last, const Vector3& now) const {
   double least = kNoWay;
-  for_each_image(query, Of::chosen, [&](const Vector3&, const int*, int, const Vector3& image) {
+  for (const Vector3& image : candidates_.images())
     least = std::min(least, (last + image - now).squaredNorm());
-  });
   return least;
 }
 
@@ -294,7 +232,7 @@ double FaceTracker::squared_way(const Query& query, const ContactSlot& slot, con
   const int face = names_.face_at(last);
   if (surface.sheet(face, names_.side(face, slot.side())) != foot.sheet) return kNoWay;
   const brep::Parameter<2> xi = names_.charts ? (*names_.charts)[face].to_face(last.xi) : last.xi;
-  const double way2 = squared_way(query, brep::point_on(surface, face, xi), foot.point);
+  const double way2 = squared_way(brep::point_on(surface, face, xi), foot.point);
   // On one face a particle may have been displaced, however far.
   return face == foot.patch || way2 <= query.touch_reach * query.touch_reach ? way2 : kNoWay;
 }

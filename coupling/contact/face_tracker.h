@@ -59,8 +59,20 @@ class FaceTracker : public FeetTracker {
     int first, count;       // its range in pieces_ and in piece_counts_; -1: images of the wall are near
   };
   enum class Of { list, chosen };
+  /// f(centre less the image, pieces, their number, image) for each image near the candidate.
   template <class Function>
-  void for_each_image(const Query& query, Of of, Function f) const;
+  void for_each_image(const Query& query, Of of, Function f) const {
+    const Candidate& candidate = candidates_.candidates()[query.candidate];
+    const ImageElements* images = candidates_.image_elements(candidate);
+    for (int k = 0; k < candidate.image_count; ++k) {
+      const ImageElements& at = images[k];
+      const nurbs::Vector3& image = candidates_.images()[at.image];
+      if (of == Of::list)
+        f(query.centre - image, candidates_.elements(at), at.count, image);
+      else
+        f(query.centre - image, pieces_.data() + at.first, piece_counts_[candidate.first_image + k], image);
+    }
+  }
   double nearest(const Query& query, double reach, Of of) const;
   double nearest_of_chosen(const Query& query) const;
   struct PiecesHere {
@@ -83,7 +95,8 @@ class FaceTracker : public FeetTracker {
   void add_feet_behind(const Query& query, const ParticleSlots& slots);
   void drop_feet_through_bodies(const Query& query);
   void keep_one_at_seams();
-  double squared_way(const Query& query, const nurbs::Vector3& last, const nurbs::Vector3& now) const;
+  void drop_covered_rims(const Query& query);
+  double squared_way(const nurbs::Vector3& last, const nurbs::Vector3& now) const;
   double squared_way(const Query& query, const ContactSlot& slot, const brep::Foot& foot) const;
   void match_slots(const Query& query, const ParticleSlots& slots);
   bool is_last_foot(const Query& query, const ParticleSlots& slots) const;
@@ -104,6 +117,7 @@ class FaceTracker : public FeetTracker {
   std::vector<int> pieces_before_, counts_before_;
   std::vector<brep::Foot> found_;   // of one candidate, in this step; so are the next two
   std::vector<brep::Foot> within_;  // the same
+  std::vector<brep::Foot> beside_;  // a rim's point, the same
   std::vector<TrackedFoot> feet_;   // the same
   struct Pair {
     double way2;

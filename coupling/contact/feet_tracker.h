@@ -77,6 +77,10 @@ class FeetTracker {
   virtual FeetRange feet(const Query& query, const ParticleSlots& slots) = 0;
 
  protected:
+  /// A rim that is not farther from the surface of another image than this does not end there, of the
+  /// particle's reach.
+  static constexpr double kCovered = 1e-4;
+
   static double nearest_distance(const FeetRange& feet, const Query& query) {
     double nearest = query.list_reach;
     for (const TrackedFoot& f : feet) nearest = std::min(nearest, f.foot.distance);

@@ -14,6 +14,48 @@ using nurbs::SurfaceShape;
 using nurbs::Vector3;
 using search::Foot;
 
+namespace {
+
+/// Of an element, enough to know a patch of this degree by.
+template <class ControlPoints>
+void points_on(const nurbs::Space<2>& space, const ControlPoints& control_points, int element,
+               std::vector<Vector3>& points) {
+  const nurbs::Indices<2> at = space.element_indices(element);
+  int count[2];
+  for (int d = 0; d < 2; ++d) count[d] = space.knots(d).degree() + 2;
+  for (int j = 0; j < count[1]; ++j)
+    for (int i = 0; i < count[0]; ++i) {
+      nurbs::Parameter<2> xi;
+      for (const auto& [d, k] : {std::pair{0, i}, std::pair{1, j}}) {
+        const double low = space.knots(d).breaks()[at[d]], high = space.knots(d).breaks()[at[d] + 1];
+        xi[d] = low + (high - low) * k / (count[d] - 1);
+      }
+      points.push_back(nurbs::interpolate(space, control_points, xi));
+    }
+}
+
+}  // namespace
+
+void PatchShape::points_of(int element, std::vector<Vector3>& points) const {
+  points.clear();
+  const int p = surface_.patch_of_element(element);
+  points_on(projector_.patch(p).space(), projector_.patch(p).control_points(),
+            element - surface_.first_element(p), points);
+}
+
+// Of trimmed faces, borders and what lies between them do not go by pieces.
+void ShapeOnFaces::points_of(int piece, std::vector<Vector3>& points) const {
+  points.clear();
+  const brep::Surface& surface = search_.surface();
+  const brep::Piece& of = surface.pieces[piece];
+  if (of.triangle()) {
+    for (const int vertex : of.vertex) points.push_back(surface.vertices[vertex].point);
+  } else if (of.kind == brep::Piece::Kind::element) {
+    const nurbs::Surface& patch = surface.patches->patch(surface.faces[of.face].patch);
+    points_on(patch.space, patch.control_points, of.element(), points);
+  }
+}
+
 void PatchShape::changed() { projector_.surface_moved(); }
 
 void PatchShape::begin_list(bool moved) {

@@ -33,6 +33,9 @@ class WallShape {
                              std::vector<int>& elements) const {
     near(point, reach, elements);
   }
+  /// Points that tell an element of a rigid wall from others: one that has them too, in any order, is the
+  /// same piece of the surface.  None where nobody knows.
+  virtual void points_of(int element, std::vector<nurbs::Vector3>& points) const = 0;
   /// Both must outlive the tracker.
   virtual std::unique_ptr<FeetTracker> track(const CandidateList& candidates, SearchMethod method,
                                              SearchCounts& counts) const = 0;
@@ -61,6 +64,7 @@ class PatchShape final : public WallShape {
   void near(const nurbs::Vector3& point, double reach, std::vector<int>& elements) const override {
     tree_.query(point, reach, elements);
   }
+  void points_of(int element, std::vector<nurbs::Vector3>& points) const override;
   std::unique_ptr<FeetTracker> track(const CandidateList& candidates, SearchMethod method,
                                      SearchCounts& counts) const override;
   nurbs::Vector3 normal_at(const search::Foot& foot) const override;
@@ -90,6 +94,7 @@ class ShapeOnFaces : public WallShape {
                      std::vector<int>& elements) const final {
     lists_.near(particle, point, reach, elements);
   }
+  void points_of(int piece, std::vector<nurbs::Vector3>& points) const final;
 
  protected:
   /// Keeps a reference.

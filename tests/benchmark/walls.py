@@ -19,7 +19,7 @@ import wall_shapes
 import wavy_bench
 from bounds import AtMost
 from study.build.stl import stl
-from study.build.waves import triangles
+from study.build.waves import SplineWave, model_file, triangles
 from study.run.summary import Row, table, write_json
 from wall_runs import DECKS, WallRuns, fix_times, touching_rows
 from wavy_memory import memory
@@ -86,6 +86,7 @@ PAIRS = [
     Pair("plane, 2 triangles, beside mesh", Wall("nurbs", "plane.stl"), Wall("triangles", "plane.stl"), FLAT, 0.8),
     Pair("cylinder, by words", Wall("nurbs", "pipe.yaml"), XCYLINDER, HOLLOW, 1.5),
     Pair("plane beyond a periodic box", Wall("nurbs", "wider.yaml"), Wall("nurbs", "box.yaml"), LEVEL, 1.2, "box_wide"),
+    Pair("waves beyond a periodic box", Wall("nurbs", "more_waves.yaml"), Wall("nurbs", "waves.yaml"), WAVY, 1.2, "box_wide"),
     *(pair for count in (*DRUMS, *PLATES) for pair in stl_pairs(count)),
 ]
 
@@ -102,6 +103,8 @@ class Measured:
 def write_files(folder: Path) -> None:
     """Walls and spheres."""
     files = {"plane.yaml": wall_shapes.PLANE, "pipe.yaml": wall_shapes.PIPE, "plane.stl": stl(wall_shapes.plane())}
+    wave = SplineWave(wavy_bench.DEGREE, wavy_bench.ELEMENTS)
+    files |= {f"{name}.yaml": model_file(wave, wavy_bench.AMPLITUDE, n) for name, n in (("waves", 0), ("more_waves", 10))}
     files |= {"box.yaml": wall_shapes.BOX_PLANE, "wider.yaml": wall_shapes.WIDER_PLANE}
     files |= {f"{count}.stl": stl(wall_shapes.drum(*of)) for count, of in DRUMS.items()}
     files |= {f"{count}.stl": triangles(n, wavy_bench.AMPLITUDE) for count, n in PLATES.items()}

@@ -39,10 +39,12 @@ class Scene {
       slots_.push_back(rows.data());
     }
     const std::vector<double> reach(centres_.size(), list_);
-    candidates_.build({}, images, {static_cast<int>(centres_.size()), centres_[0].data(), reach.data()},
-                      [this](int, const Vector3& point, double near, std::vector<int>& elements) {
-                        shape_.near(point, near, elements);
-                      });
+    candidates_.build(
+        {}, images, {static_cast<int>(centres_.size()), centres_[0].data(), reach.data()},
+        [this](int, const Vector3& point, double near, std::vector<int>& elements) {
+          shape_.near(point, near, elements);
+        },
+        [](const Vector3&, const Vector3&, double, const int*, int) { return false; });
     tracker_->list_is_new();
   }
 

@@ -8,18 +8,33 @@
 #include "brep/builder.h"
 #include "brep/faced_patches.h"
 #include "coupling/rigid/rigid_surface.h"
+#include "nurbs/curvature.h"
 #include "nurbs/primitives.h"
+#include "nurbs/refinement.h"
 
 namespace {
 
 using coupling::RigidSurface;
+using nurbs::KnotVector;
 using nurbs::Vector3;
 using test::Balls;
 using test::BallsOnWall;
 using test::kRadius;
 
-constexpr double kPressed = 1e-3, kRise = 0.02;
+constexpr double kPressed = 1e-3, kRise = 0.02, kPeriod = 6.0;
 const contact::PeriodicBox kShortBox{{-3, -9, -9}, {3, 9, 9}, {true, false, false}};
+
+/// How far a wall reaches along x, to both sides, and in how many elements: some lie on others, some do not,
+/// as they are no whole number to a period; of some the rim is within a ball's reach from the box.
+const std::pair<double, int> kLong[] = {{4.0, 8}, {4.0, 5}, {3.1, 5}, {7.0, 14}};
+
+RigidSurface wall_of_faces(const nurbs::NodalVectors& points, const std::vector<int>& triangles) {
+  return RigidSurface(std::make_shared<brep::Surface>(brep::from_triangles(points, triangles)));
+}
+RigidSurface wall_of_faces(const std::vector<nurbs::Surface>& patches,
+                           std::optional<brep::FacedPatches> faced) {
+  return RigidSurface(patches, {}, std::make_shared<brep::FacedPatches>(std::move(faced.value())));
+}
 
 /// A strip from x = -4 to 4 that rises by `slope`, and at its end, if that is above 0, a wall of this height.
 RigidSurface long_strip(double slope, double height) {
@@ -27,54 +42,182 @@ RigidSurface long_strip(double slope, double height) {
   points << -4, 4, 4, -4, 4, 4,  //
       -4, -4, -4, 4, 4, 4,       //
       -4 * slope, 4 * slope, 4 * slope + height, -4 * slope, 4 * slope, 4 * slope + height;
-  const std::vector<int> floor{0, 1, 3, 1, 4, 3}, both{0, 1, 3, 1, 4, 3, 1, 2, 4, 2, 5, 4};
-  if (height == 0.0) points.col(2) = points.col(1), points.col(5) = points.col(4);
-  return RigidSurface(
-      std::make_shared<brep::Surface>(brep::from_triangles(points, height > 0.0 ? both : floor)));
+  if (height > 0.0) return wall_of_faces(points, {0, 1, 3, 1, 4, 3, 1, 2, 4, 2, 5, 4});
+  return wall_of_faces(points, {0, 1, 3, 1, 4, 3});
 }
 
 /// About the x axis, from x = -4 to 4.
 RigidSurface long_pipe(double radius) {
-  const std::vector<nurbs::Surface> patches{nurbs::cylinder(nurbs::frame({-4, 0, 0}, {1, 0, 0}), radius, 8.0,
-                                                            nurbs::arc(0.0, 360.0),
-                                                            nurbs::KnotVector::uniform(1, 1))};
-  brep::FacedPatches faced = brep::closed_forms(patches, brep::kEdgeAngle).value();
-  return RigidSurface(patches, {}, std::make_shared<brep::FacedPatches>(std::move(faced)));
+  const std::vector<nurbs::Surface> patches{nurbs::cylinder(
+      nurbs::frame({-4, 0, 0}, {1, 0, 0}), radius, 8.0, nurbs::arc(0.0, 360.0), KnotVector::uniform(1, 1))};
+  return wall_of_faces(patches, brep::closed_forms(patches, brep::kEdgeAngle));
 }
 
-/// Moved along a wall that goes on for ever, over all rims of its images: one contact, which keeps its slot.
-void expect_no_end(RigidSurface& wall, const Vector3& from, double force, const Vector3& along) {
+/// A smooth patch with waves along x, three elements each, that repeats itself with the box: x is its
+/// parameter.
+nurbs::Surface waves() {
+  constexpr int kElements = 24;
+  const KnotVector across = KnotVector::uniform(2, 1);
+  nurbs::Surface patch =
+      nurbs::plane({0, -4, 0}, {kElements, 0, 0}, {0, 8, 0}, {KnotVector::uniform(2, kElements), across});
+  const int n = patch.space.knots(0).control_point_count();
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < across.control_point_count(); ++j)
+      patch.control_points(2, i + n * j) = 1.6 * std::cos(2.0 * M_PI / kPeriod * i);
+  return patch;
+}
+
+/// A floor with a slope at each side, in triangles of so many rows along x.
+RigidSurface channel(double end, int rows) {
+  nurbs::NodalVectors points(3, 4 * (rows + 1));
+  std::vector<int> triangles;
+  for (int i = 0; i <= rows; ++i) {
+    const double x = -end + 2.0 * end * i / rows;
+    points.middleCols<4>(4 * i) << x, x, x, x, -4, -1, 1, 4, 3, 0, 0, 3;
+    for (int k = 4 * i; i < rows && k < 4 * i + 3; ++k)
+      for (const int corner : {k, k + 4, k + 1, k + 4, k + 5, k + 1}) triangles.push_back(corner);
+  }
+  return wall_of_faces(points, triangles);
+}
+
+/// Triangles in strips across x, which go up and down three times in the length of the box.
+RigidSurface zigzag(double end, int strips) {
+  nurbs::NodalVectors points(3, 2 * (strips + 1));
+  std::vector<int> triangles;
+  for (int i = 0; i <= strips; ++i) {
+    const double x = -end + 2.0 * end * i / strips, z = 0.3 * std::abs(std::remainder(x, 2.0));
+    points.middleCols<2>(2 * i) << x, x, -4, 4, z, z;
+    for (int k = 2 * i; i < strips && k < 2 * i + 1; ++k)
+      for (const int corner : {k, k + 2, k + 1, k + 2, k + 3, k + 1}) triangles.push_back(corner);
+  }
+  return wall_of_faces(points, triangles);
+}
+
+/// z = -(y / 4)^2 / 2 for y < 0 and a slope beyond, which meet in an edge: faces without a closed form.
+RigidSurface ridge(double end, int elements) {
+  const KnotVector along = KnotVector::uniform(2, elements), across = KnotVector::uniform(2, 1);
+  std::vector<nurbs::Surface> patches{
+      nurbs::plane({-end, -4, 0}, {2 * end, 0, 0}, {0, 4, 0}, {along, across}),
+      nurbs::plane({-end, 0, 0}, {2 * end, 0, 0}, {0, 4, -2}, {along, across})};
+  for (int i = 0; i < along.control_point_count(); ++i) patches[0].control_points(2, i) = -0.5;
+  return wall_of_faces(patches, brep::faced_patches(patches, false, brep::kEdgeAngle));
+}
+
+/// A ball whose centre is centre(x), x = 0.1, 0.102, ... over all rims of the wall's images: one contact,
+/// which keeps its slot.
+template <class Centre>
+void expect_one_contact(RigidSurface& wall, const Centre& centre) {
   constexpr double kStep = 2e-3;
   Balls balls(2, 1);
-  balls.add(from, kRadius);
+  balls.add(centre(0.1), kRadius);
   BallsOnWall scene(wall, balls, 1.0, 1.0, kShortBox);
   for (int step = 2; step <= 4000; ++step) {
-    Eigen::Map<Vector3> centre = scene.balls.centre(0);
-    centre += kStep * along;
-    if (centre[0] > 3.0) centre[0] -= 6.0;
-    if (step % 50 == 0 || centre[0] < -3.0 + kStep) scene.build_list();
+    const double x = 0.1 + kStep * step, shift = std::floor((x + 3.0) / kPeriod) * kPeriod;
+    scene.balls.centre(0) = centre(x) - shift * Vector3::UnitX();
+    if (step % 50 == 0 || scene.balls.x[0] < -3.0 + kStep) scene.build_list();
     scene.evaluate();
-    ASSERT_EQ(scene.spring.seen.size(), 1u) << centre[0];
-    EXPECT_NEAR(scene.balls.force(0).norm(), force, 1e-12) << centre[0];
-    EXPECT_EQ(scene.spring.seen[0].history[0], step) << centre[0];
+    ASSERT_EQ(scene.spring.seen.size(), 1u) << x;
+    EXPECT_NEAR(scene.balls.force(0).norm(), kPressed, 1e-10) << x;
+    EXPECT_EQ(scene.spring.seen[0].history[0], step) << x;
+  }
+}
+/// The same of a wall that is straight along x.
+void expect_no_end(RigidSurface wall, double y, double z) {
+  expect_one_contact(wall, [=](double x) { return Vector3(x, y, z); });
+}
+
+TEST(OverlappingImages, OfAPlaneAddNothing) { expect_no_end(long_strip(0.0, 0.0), 0.1, kRadius - kPressed); }
+TEST(OverlappingImages, OfAPipeAddNothing) { expect_no_end(long_pipe(2.0), 2.0 - kRadius + kPressed, 0.0); }
+
+TEST(OverlappingImages, OfTrianglesAddNothing) {
+  for (const auto& [end, rows] : kLong) expect_no_end(channel(end, rows), 0.2, kRadius - kPressed);
+}
+
+TEST(OverlappingImages, OfPatchesWithAnEdgeAddNothing) {
+  for (const auto& [end, elements] : kLong)
+    for (const double y : {-2.0, 2.0}) {
+      const Vector3 foot(0.1, y, y < 0.0 ? -0.125 : -1.0),
+          n = Vector3(0.0, y < 0.0 ? -0.125 : 0.5, 1.0).normalized();
+      const Vector3 centre = foot + (kRadius - kPressed) * n;
+      expect_no_end(ridge(end, elements), centre[1], centre[2]);
+    }
+}
+
+/// On waves: `wall_of` makes one of the patch and its range.
+template <class WallOf>
+void expect_no_end_of_waves(const WallOf& wall_of) {
+  constexpr double kMiddle = 12.0;
+  const nurbs::Surface all = waves();
+  for (const auto& [begin, end] :
+       {std::pair{8.0, 16.0}, std::pair{8.3, 15.9}, std::pair{8.9, 15.1}, std::pair{5.0, 19.0}}) {
+    nurbs::Surface part = nurbs::part_between(all, 0, begin / 24.0, end / 24.0);
+    part.control_points.row(0).array() -= kMiddle;
+    RigidSurface wall = wall_of(part);
+    expect_one_contact(wall, [&](double x) {
+      const double in_first = x - std::floor((x + 3.0) / kPeriod) * kPeriod;
+      const auto at = nurbs::shape_near(all.space, all.control_points, {(in_first + kMiddle) / 24.0, 0.5});
+      const Vector3 up = at.normal[2] < 0.0 ? Vector3(-at.normal) : at.normal;
+      return Vector3(at.point + (kRadius - kPressed) * up + (x - in_first - kMiddle) * Vector3::UnitX());
+    });
   }
 }
 
-TEST(OverlappingImages, OfAPlaneAddNothing) {
-  RigidSurface wall = long_strip(0.0, 0.0);
-  expect_no_end(wall, {0.1, 0.1, kRadius - kPressed}, kPressed, Vector3(1, 0.2, 0).normalized());
+TEST(OverlappingImages, OfASmoothPatchAddNothing) {
+  expect_no_end_of_waves([](const nurbs::Surface& patch) { return RigidSurface({patch}); });
 }
 
-TEST(OverlappingImages, OfAPipeAddNothing) {
-  RigidSurface wall = long_pipe(2.0);
-  expect_no_end(wall, {0.1, 2.0 - kRadius + kPressed, 0.0}, kPressed, Vector3::UnitX());
+// Beyond the edge it goes down.
+TEST(OverlappingImages, OfWavesWithAnEdgeAddNothing) {
+  expect_no_end_of_waves([](const nurbs::Surface& patch) {
+    std::vector<nurbs::Surface> patches{patch, patch};
+    nurbs::NodalVectors& points = patches[1].control_points;
+    for (int k = 0; k < points.cols(); ++k) points(2, k) -= points(1, k) + 4.0;
+    points.row(1).array() += 8.0;
+    return wall_of_faces(patches, brep::faced_patches(patches, false, brep::kEdgeAngle));
+  });
+}
+
+/// Contacts: their number, what they sum to, and how long they last.
+struct Seen {
+  explicit Seen(const BallsOnWall& scene) : count(scene.spring.seen.size()), force(scene.balls.force(0)) {
+    for (const contact::Contact& contact : scene.spring.seen) steps += contact.history[0];
+  }
+  std::size_t count;
+  Vector3 force;
+  double steps = 0.0;
+};
+
+// Up and down, as on the same wall without a periodic box.
+TEST(OverlappingImages, OfAFoldedSheetAddNothing) {
+  for (const auto& [end, strips] : {std::pair{4.0, 8}, std::pair{4.0, 16}, std::pair{3.5, 14}}) {
+    RigidSurface wall = zigzag(end, strips), longer = zigzag(14.0, 28);
+    Balls balls(4, 1), others(4, 1);
+    const Vector3 from(-0.9, 0.3, kRadius);
+    balls.add(from, kRadius), others.add(from, kRadius);
+    BallsOnWall scene(wall, balls, 1.0, 1.0, kShortBox),
+        reference(longer, others, 1.0, 1.0, {{-20, -9, -9}, {20, 9, 9}, {}});
+    std::size_t most = 0;
+    for (int step = 2; step <= 5000; ++step) {
+      double &x = scene.balls.x[0], &further = reference.balls.x[0];
+      further += 2e-3;
+      x = std::remainder(further, kPeriod);
+      if (step % 50 == 0 || std::abs(x + 3.0) < 2e-3) scene.build_list(), reference.build_list();
+      scene.evaluate(), reference.evaluate();
+      const Seen seen(scene), there(reference);
+      ASSERT_EQ(seen.count, there.count) << end << ' ' << further;
+      EXPECT_LT((seen.force - there.force).norm(), 1e-12) << end << ' ' << further;
+      EXPECT_EQ(seen.steps, there.steps) << end << ' ' << further;
+      most = std::max(most, seen.count);
+    }
+    EXPECT_EQ(most, 2u);
+  }
 }
 
 // Of two that lie one above the other a ball feels both.
 TEST(OverlappingImages, OfASlopeCountBesideIt) {
   RigidSurface wall = long_strip(kRise, 0.0);
   Balls balls(3, 1);
-  const double up = 1.0 / std::hypot(1.0, kRise), below = 6.0 * kRise * up;
+  const double up = 1.0 / std::hypot(1.0, kRise), below = kPeriod * kRise * up;
   balls.add(Vector3(2.5, 0.0, 2.5 * kRise) + (kRadius - 0.2) * up * Vector3(-kRise, 0, 1), kRadius);
   BallsOnWall scene(wall, balls, 1.0, 1.0, kShortBox);
   for (int step = 0; step < 5; ++step) {
