@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -15,7 +16,8 @@ namespace {
 using geometry_io::GeometryFile;
 
 struct Options {
-  std::string in, out, surface, units = "si";
+  std::string in, out, surface;
+  std::optional<std::string> units;
   double tolerance = 0.0;
 };
 
@@ -42,8 +44,11 @@ void run(const Options& options) {
     return options.tolerance > 0.0 ? geometry_io::read_fitted(path, options.tolerance)
                                    : geometry_io::read_file(path);
   };
-  GeometryFile geometry =
-      geometry_io::read_geometry(options.in, read_and_note, geometry_io::units_from_name(options.units));
+  const geometry_io::Units units = geometry_io::units_from_name(options.units.value_or("si"));
+  GeometryFile geometry = geometry_io::read_geometry(options.in, read_and_note, units);
+  if (options.units && geometry.units != units)
+    fmt::print(stderr, "warning: {} says that its units are {}; --units {} is for files that say nothing\n",
+               options.in, geometry_io::units_name(geometry.units), *options.units);
   if (!options.surface.empty()) geometry = only(geometry, options.surface, options.in);
   fmt::print("{}: units {}{}\n{}", options.in, geometry_io::units_name(geometry.units),
              patches_text(geometry), geometry_io::summary(geometry));

@@ -4,12 +4,13 @@ side.  Every number survives to the last bit; what is printed is known from geom
 
 import math
 import re
+import subprocess
 import unittest
 from pathlib import Path
 
 import h5py
 import numpy
-from convert_case import FACES, SURFACES, VOLUME, ConvertCase, write_hdf5, write_xml
+from convert_case import FACES, PROGRAM, SURFACES, VOLUME, ConvertCase, write_hdf5, write_xml
 
 
 class NurbsConvert(ConvertCase):
@@ -39,6 +40,17 @@ class NurbsConvert(ConvertCase):
         write_xml(self.folder / "in.xml", [VOLUME])
         self.convert("in.xml", "out.h5", "--units", "cgs")
         self.check_hdf5("out.h5", [VOLUME], {face: [face.encode()] for face in FACES})
+
+    def test_units_that_a_file_has_stay(self):
+        write_hdf5(self.folder / "in.h5", [VOLUME], {"top": ["zeta+"]})
+        said = {}
+        for units in ("cgs", "si"):
+            words = [PROGRAM, "in.h5", "--units", units]
+            done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True, check=True)
+            self.assertIn("in.h5: units cgs", done.stdout)
+            said[units] = done.stderr
+        warning = "warning: in.h5 says that its units are cgs; --units si is for files that say nothing\n"
+        self.assertEqual(said, {"cgs": "", "si": warning})
 
     def test_integers_and_single_precision_are_numbers(self):
         with h5py.File(self.folder / "floor.h5", "w") as file:
