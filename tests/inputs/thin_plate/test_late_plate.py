@@ -49,7 +49,7 @@ def run(steps_per_contact: int, late: int, folder: Path) -> Impact:
     words = {"plate": "glass_36mm", **{name: repr(value) for name, value in values.items()}}
     program = Path(os.environ["LIGGGHTS_NURBS_LATE" if late else "LIGGGHTS_NURBS"])
     job = Run(folder.name, DECK, "in.thin_plate", words, folder, environment={"LATE_STEPS": str(late)})
-    job.start(Solver(program))
+    job.start(Solver(program), folder.with_suffix(".sessions"))
     job.process.wait()
     job.finished()
     assert not job.failure(), job.failure()
