@@ -218,10 +218,15 @@ void FaceTracker::drop_feet_through_bodies(const Query& query) {
 }
 
 // Squared distance of a foot from where a branch was last, on the image that was the nearest to it.
-double FaceTracker::squared_way(const Vector3& last, const Vector3& now) const {
+double FaceTracker::squared_way(const Query& query, const Vector3& last, const Vector3& now) const {
   double least = kNoWay;
-  for (const Vector3& image : candidates_.images())
+  const auto look_at = [&](const Vector3& image) {
     least = std::min(least, (last + image - now).squaredNorm());
+  };
+  for_each_image(query, Of::chosen,
+                 [&](const Vector3&, const int*, int, const Vector3& image) { look_at(image); });
+  if (least > query.touch_reach * query.touch_reach)  // one that is left out, as others repeat it
+    for (const Vector3& image : candidates_.images()) look_at(image);
   return least;
 }
 
@@ -232,7 +237,7 @@ double FaceTracker::squared_way(const Query& query, const ContactSlot& slot, con
   const int face = names_.face_at(last);
   if (surface.sheet(face, names_.side(face, slot.side())) != foot.sheet) return kNoWay;
   const brep::Parameter<2> xi = names_.charts ? (*names_.charts)[face].to_face(last.xi) : last.xi;
-  const double way2 = squared_way(brep::point_on(surface, face, xi), foot.point);
+  const double way2 = squared_way(query, brep::point_on(surface, face, xi), foot.point);
   // On one face a particle may have been displaced, however far.
   return face == foot.patch || way2 <= query.touch_reach * query.touch_reach ? way2 : kNoWay;
 }

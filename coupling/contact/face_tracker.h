@@ -96,7 +96,7 @@ class FaceTracker : public FeetTracker {
   void drop_feet_through_bodies(const Query& query);
   void keep_one_at_seams();
   void drop_covered_rims(const Query& query);
-  double squared_way(const nurbs::Vector3& last, const nurbs::Vector3& now) const;
+  double squared_way(const Query& query, const nurbs::Vector3& last, const nurbs::Vector3& now) const;
   double squared_way(const Query& query, const ContactSlot& slot, const brep::Foot& foot) const;
   void match_slots(const Query& query, const ParticleSlots& slots);
   bool is_last_foot(const Query& query, const ParticleSlots& slots) const;
