@@ -133,7 +133,7 @@ void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
   });
   state.margin = margin;
   state.alone = -1;
-  if (candidate.image_count > 1) leave_out_repeats(query);
+  if (candidate.image_count > 1) leave_out_images_in_its_face(query);
   const PiecesHere pieces = pieces_of_wall_itself(query);
   if (pieces.count > 0 &&
       search_.is_well_inside(pieces.first, pieces.count, query.centre, state.reach, margin))

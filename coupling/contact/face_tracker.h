@@ -79,7 +79,7 @@ class FaceTracker : public FeetTracker {
     const int* first = nullptr;
     int count = 0;
   };
-  void leave_out_repeats(const Query& query);
+  void leave_out_images_in_its_face(const Query& query);
   PiecesHere pieces_of_wall_itself(const Query& query) const;
   bool is_near_wall_itself(const Candidate& candidate) const;
   void go_on(int candidate, int before);

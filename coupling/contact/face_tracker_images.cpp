@@ -10,7 +10,7 @@ namespace contact {
 using nurbs::Vector3;
 
 // A wall that is longer than a periodic box lies on itself: an image has no other feet there.
-void FaceTracker::leave_out_repeats(const Query& query) {
+void FaceTracker::leave_out_images_in_its_face(const Query& query) {
   const State& state = states_[query.candidate];
   const Candidate& candidate = candidates_.candidates()[query.candidate];
   const ImageElements* const images = candidates_.image_elements(candidate);

@@ -32,12 +32,12 @@ bool is_file_of(int descriptor, const std::string& path) {
 
 }  // namespace
 
-FileLock::FileLock(const std::string& path) {
+FileLock::FileLock(const std::string& path, const std::string& to_become) {
   do {
     open(path);
     if (!lock(descriptor_, F_WRLCK)) {
       close();
-      throw std::runtime_error(in_use(path));
+      throw std::runtime_error(in_use(to_become));
     }
   } while (descriptor_ >= 0 && !is_file_of(descriptor_, path));  // renamed since it was opened
 }
@@ -58,7 +58,7 @@ void FileLock::close() {
 }
 
 std::string in_use(const std::string& path) {
-  return fmt::format("{}: another run or program has this file open", path);
+  return fmt::format("{} is being written by another solid or run, expected another name", path);
 }
 
 // Who only reads it has a shared lock.

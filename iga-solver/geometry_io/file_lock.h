@@ -11,8 +11,10 @@ namespace geometry_io {
 /// not locked.
 class FileLock {
  public:
-  /// Makes the file if it is not there.  Throws std::runtime_error, in_use, if somebody else has it.
-  explicit FileLock(const std::string& path);
+  /// Makes the file if it is not there.  Throws std::runtime_error, in_use, if somebody else has it: of what
+  /// it is to become, if that has another name.
+  explicit FileLock(const std::string& path) : FileLock(path, path) {}
+  FileLock(const std::string& path, const std::string& to_become);
   FileLock(FileLock&& other) noexcept;
   ~FileLock();
   FileLock& operator=(FileLock&&) = delete;

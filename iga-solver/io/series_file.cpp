@@ -26,7 +26,7 @@ using SilentErrors = geometry_io::SilentHdf5Errors;
 geometry_io::FileLock lock_new(const std::string& path) {
   const std::string problem = geometry_io::problem_as_output(path);
   if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
-  geometry_io::FileLock lock(geometry_io::unfinished_name(path));
+  geometry_io::FileLock lock(geometry_io::unfinished_name(path), path);
   if (!geometry_io::is_locked(path)) return lock;
   geometry_io::discard_file(path);
   throw std::runtime_error(geometry_io::in_use(path));

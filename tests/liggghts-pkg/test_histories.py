@@ -161,14 +161,13 @@ class Histories(unittest.TestCase):
             self.good(one_after_the_other + ending)
 
     def test_partitions_do_not_share_a_file(self):
-        """LIGGGHTS ends all of its partitions if one fails; each has a log of its own.  The second may see the other's file
-        while it reads the deck, or when it begins its own."""
+        """LIGGGHTS ends all of its partitions if one fails; each has a log of its own."""
         self.write(model())
         (self.folder / "in.deck").write_text(deck("run 200000\n", **FAR))
         launcher = ["mpirun", "-n", "2", decks.NURBS, "-partition", "2x1"]
         self.start([*launcher, "-in", "in.deck", "-log", "log"]).communicate(timeout=120)
         logs = "".join(log.read_text(errors="replace") for log in self.folder.glob("log.*"))
-        self.assertRegex(logs, r"block.h5( is being written by another solid or run|\.part: another run or program has this file open)")
+        self.assertRegex(logs, "block.h5 is being written by another solid or run")
 
     def test_a_killed_run_keeps_its_rows(self):
         self.write(model())

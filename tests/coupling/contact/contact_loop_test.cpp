@@ -12,12 +12,12 @@
 #include <numeric>
 
 #include "balls.h"
-#include "brep/builder.h"
 #include "coupling/contact/contact_totals.h"
 #include "coupling/force_distribution.h"
 #include "coupling/rigid/rigid_surface.h"
 #include "nurbs/primitives.h"
 #include "rising_sheet.h"
+#include "walls.h"
 
 namespace {
 
@@ -127,8 +127,7 @@ TEST(ContactLoop, SteadyContactsGrow) {
   points << 0, 4, 4, 0, 0, 0,  //
       -4, -4, 4, 4, -4, 4,     //
       0, 0, 0, 0, 4, 4;
-  RigidSurface wall(
-      std::make_shared<brep::Surface>(brep::from_triangles(points, {0, 1, 2, 0, 2, 3, 0, 3, 5, 0, 5, 4})));
+  RigidSurface wall = test::wall_of(points, {0, 1, 2, 0, 2, 3, 0, 3, 5, 0, 5, 4});
   constexpr double kBeside = kRadius + 0.35 * BallsOnWall::kSkin;
   Balls balls(8, 1);
   balls.add({kBeside, 0.0, 0.9 * kRadius}, kRadius);

@@ -11,6 +11,7 @@
 #include "brep/face_shape.h"
 #include "coupling/rigid/rigid_surface.h"
 #include "nurbs/primitives.h"
+#include "walls.h"
 
 namespace {
 
@@ -19,11 +20,7 @@ using nurbs::Vector3;
 using test::Balls;
 using test::BallsOnWall;
 using test::kRadius;
-
-/// Of triangles between these points.
-RigidSurface wall_of(const nurbs::NodalVectors& points, const std::vector<int>& triangles) {
-  return RigidSurface(std::make_shared<brep::Surface>(brep::from_triangles(points, triangles)));
-}
+using test::wall_of;
 
 /// Two strips along y that meet at x = 0: left of it z = 0, right of it z = slope x.
 RigidSurface bent_sheet(double slope) {
@@ -41,8 +38,7 @@ RigidSurface bent_patches(double slope) {
   std::vector<nurbs::Surface> patches{nurbs::plane({-4, -4, 0}, {4, 0, 0}, {0, 8, 0}, {knots, knots}),
                                       nurbs::plane({0, -4, 0}, {4, 0, 4 * slope}, {0, 8, 0}, {knots, knots})};
   for (nurbs::Surface& patch : patches) patch.control_points(1, 2 + 2 * knots.control_point_count()) += 0.3;
-  auto faced = brep::faced_patches(patches, false, brep::kEdgeAngle);
-  return RigidSurface(patches, {}, std::make_shared<brep::FacedPatches>(std::move(*faced)));
+  return wall_of(patches);
 }
 
 // m x'' = -k x for half a period, on the diagonal of two triangles.

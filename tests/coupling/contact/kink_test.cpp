@@ -7,10 +7,9 @@
 #include <cmath>
 
 #include "balls.h"
-#include "brep/builder.h"
-#include "coupling/rigid/rigid_surface.h"
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
+#include "walls.h"
 
 namespace {
 
@@ -20,11 +19,7 @@ using nurbs::Vector3;
 using test::Balls;
 using test::BallsOnWall;
 using test::kRadius;
-
-RigidSurface faced(const std::vector<nurbs::Surface>& patches) {
-  auto faces = brep::faced_patches(patches, false, brep::kEdgeAngle);
-  return RigidSurface(patches, {}, std::make_shared<brep::FacedPatches>(std::move(*faces)));
-}
+using test::wall_of;
 
 /// Strips along y, 8 wide: a valley, a ridge, a valley and a step down.
 const std::vector<Vector3> kProfile = {{-6, -4, 1.5}, {-3, -4, 0},  {0, -4, 1},   {2, -4, 0},
@@ -56,7 +51,7 @@ RigidSurface triangles() {
     points.col(i + n) = kProfile[i] + 8.0 * Vector3::UnitY();
     if (i + 1 < n) numbers.insert(numbers.end(), {i, i + 1, i + 1 + n, i, i + 1 + n, i + n});
   }
-  return RigidSurface(std::make_shared<brep::Surface>(brep::from_triangles(points, numbers)));
+  return wall_of(points, numbers);
 }
 
 /// How long each contact lasts, and its force, in an order of their own.
@@ -70,7 +65,7 @@ std::vector<std::pair<double, double>> contacts_of(const BallsOnWall& scene) {
 
 // Along the profile, pressed by up to 0.1 r, above and below.
 void expect_same_as_on_triangles(bool in_closed_form) {
-  RigidSurface patch = faced(one_patch(in_closed_form)), mesh = triangles();
+  RigidSurface patch = wall_of(one_patch(in_closed_form)), mesh = triangles();
   for (const double side : {1.0, -1.0}) {
     Balls balls(3, 1);
     balls.add(Vector3::Zero(), kRadius);
@@ -125,7 +120,7 @@ void expect_contacts_go_on(RigidSurface& wall, const BallsOnWall& scene, std::si
 TEST(Kinks, ContactsThatStayOnThemGoOnAfterARestart) {
   for (const bool in_closed_form : {true, false})
     for (const double way : {0.22, -0.15}) {
-      RigidSurface wall = faced(one_patch(in_closed_form));
+      RigidSurface wall = wall_of(one_patch(in_closed_form));
       Balls balls(3, 1);
       balls.add({-3.0, 0.0, 0.4}, kRadius);  // in the valley
       BallsOnWall scene(wall, balls, 1.0, 1.0);
@@ -155,7 +150,7 @@ TEST(Kinks, AContactThatComesToTheOtherSideOfThePatchGoesOn) {
       patch.control_points.col(i) = profile[i];
       patch.control_points.col(i + 5) = profile[i] + Vector3(0, 8.0 + skew * profile[i][0], 0);
     }
-    RigidSurface wall = faced({patch});
+    RigidSurface wall = wall_of(std::vector<nurbs::Surface>{patch});
     Balls balls(3, 1);
     balls.add({-1.0, 0.0, -0.48}, kRadius);
     BallsOnWall scene(wall, balls, 1.0, 1.0);
@@ -177,7 +172,7 @@ TEST(Kinks, AContactThatComesToTheOtherSideOfThePatchGoesOn) {
 TEST(Kinks, EnergyIsKept) {
   constexpr double kStiffness = 400.0, kStep = 5e-5;
   for (const bool in_closed_form : {true, false}) {
-    RigidSurface wall = faced(one_patch(in_closed_form));
+    RigidSurface wall = wall_of(one_patch(in_closed_form));
     Balls balls(4, 1);
     for (int k = 0; k < 12; ++k)
       for (const double side : {1.0, -1.0})

@@ -5,12 +5,10 @@
 #include <cmath>
 
 #include "balls.h"
-#include "brep/builder.h"
-#include "brep/faced_patches.h"
-#include "coupling/rigid/rigid_surface.h"
 #include "nurbs/curvature.h"
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
+#include "walls.h"
 
 namespace {
 
@@ -20,6 +18,7 @@ using nurbs::Vector3;
 using test::Balls;
 using test::BallsOnWall;
 using test::kRadius;
+using test::wall_of;
 
 constexpr double kPressed = 1e-3, kRise = 0.02, kPeriod = 6.0;
 const contact::PeriodicBox kShortBox{{-3, -9, -9}, {3, 9, 9}, {true, false, false}};
@@ -28,29 +27,22 @@ const contact::PeriodicBox kShortBox{{-3, -9, -9}, {3, 9, 9}, {true, false, fals
 /// as they are no whole number to a period; of some the rim is within a ball's reach from the box.
 const std::pair<double, int> kLong[] = {{4.0, 8}, {4.0, 5}, {3.1, 5}, {7.0, 14}};
 
-RigidSurface wall_of_faces(const nurbs::NodalVectors& points, const std::vector<int>& triangles) {
-  return RigidSurface(std::make_shared<brep::Surface>(brep::from_triangles(points, triangles)));
-}
-RigidSurface wall_of_faces(const std::vector<nurbs::Surface>& patches,
-                           std::optional<brep::FacedPatches> faced) {
-  return RigidSurface(patches, {}, std::make_shared<brep::FacedPatches>(std::move(faced.value())));
-}
-
 /// A strip from x = -4 to 4 that rises by `slope`, and at its end, if that is above 0, a wall of this height.
 RigidSurface long_strip(double slope, double height) {
   nurbs::NodalVectors points(3, 6);
   points << -4, 4, 4, -4, 4, 4,  //
       -4, -4, -4, 4, 4, 4,       //
       -4 * slope, 4 * slope, 4 * slope + height, -4 * slope, 4 * slope, 4 * slope + height;
-  if (height > 0.0) return wall_of_faces(points, {0, 1, 3, 1, 4, 3, 1, 2, 4, 2, 5, 4});
-  return wall_of_faces(points, {0, 1, 3, 1, 4, 3});
+  if (height > 0.0) return wall_of(points, {0, 1, 3, 1, 4, 3, 1, 2, 4, 2, 5, 4});
+  return wall_of(points, {0, 1, 3, 1, 4, 3});
 }
 
 /// About the x axis, from x = -4 to 4.
 RigidSurface long_pipe(double radius) {
   const std::vector<nurbs::Surface> patches{nurbs::cylinder(
       nurbs::frame({-4, 0, 0}, {1, 0, 0}), radius, 8.0, nurbs::arc(0.0, 360.0), KnotVector::uniform(1, 1))};
-  return wall_of_faces(patches, brep::closed_forms(patches, brep::kEdgeAngle));
+  brep::FacedPatches faced = brep::closed_forms(patches, brep::kEdgeAngle).value();
+  return RigidSurface(patches, {}, std::make_shared<brep::FacedPatches>(std::move(faced)));
 }
 
 /// A smooth patch with waves along x, three elements each, that repeats itself with the box: x is its
@@ -77,7 +69,7 @@ RigidSurface channel(double end, int rows) {
     for (int k = 4 * i; i < rows && k < 4 * i + 3; ++k)
       for (const int corner : {k, k + 4, k + 1, k + 4, k + 5, k + 1}) triangles.push_back(corner);
   }
-  return wall_of_faces(points, triangles);
+  return wall_of(points, triangles);
 }
 
 /// Triangles in strips across x, which go up and down three times in the length of the box.
@@ -90,7 +82,7 @@ RigidSurface zigzag(double end, int strips) {
     for (int k = 2 * i; i < strips && k < 2 * i + 1; ++k)
       for (const int corner : {k, k + 2, k + 1, k + 2, k + 3, k + 1}) triangles.push_back(corner);
   }
-  return wall_of_faces(points, triangles);
+  return wall_of(points, triangles);
 }
 
 /// z = -(y / 4)^2 / 2 for y < 0 and a slope beyond, which meet in an edge: faces without a closed form.
@@ -100,7 +92,7 @@ RigidSurface ridge(double end, int elements) {
       nurbs::plane({-end, -4, 0}, {2 * end, 0, 0}, {0, 4, 0}, {along, across}),
       nurbs::plane({-end, 0, 0}, {2 * end, 0, 0}, {0, 4, -2}, {along, across})};
   for (int i = 0; i < along.control_point_count(); ++i) patches[0].control_points(2, i) = -0.5;
-  return wall_of_faces(patches, brep::faced_patches(patches, false, brep::kEdgeAngle));
+  return wall_of(patches);
 }
 
 /// A ball whose centre is centre(x), x = 0.1, 0.102, ... over all rims of the wall's images: one contact,
@@ -173,7 +165,7 @@ TEST(OverlappingImages, OfWavesWithAnEdgeAddNothing) {
     nurbs::NodalVectors& points = patches[1].control_points;
     for (int k = 0; k < points.cols(); ++k) points(2, k) -= points(1, k) + 4.0;
     points.row(1).array() += 8.0;
-    return wall_of_faces(patches, brep::faced_patches(patches, false, brep::kEdgeAngle));
+    return wall_of(patches);
   });
 }
 

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "balls.h"
-#include "brep/builder.h"
 #include "coupling/rigid/rigid_surface.h"
+#include "walls.h"
 
 namespace {
 
@@ -23,7 +23,7 @@ RigidSurface corner() {
       0, 0, 4, 0, 4, 0, 4,        //
       0, 0, 0, 4, 0, 4, 4;
   const std::vector<int> triangles = {0, 1, 4, 0, 4, 2, 0, 3, 5, 0, 5, 1, 0, 2, 6, 0, 6, 3};
-  return RigidSurface(std::make_shared<brep::Surface>(brep::from_triangles(points, triangles)));
+  return test::wall_of(points, triangles);
 }
 
 // More of them than a block has lines for their feet: all have the forces of the first.
