@@ -20,6 +20,12 @@ struct FaceNames {
 
   int patch_of(int face) const { return parts ? parts->patch_of(face) : face; }
   int face_at(const nurbs::SurfacePoint& at) const { return parts ? parts->part_at(at) : at.patch; }
+  /// Parameters of a point of the face on its patch.
+  nurbs::Parameter<2> on_patch(int face, const nurbs::Parameter<2>& xi) const {
+    nurbs::Parameter<2> on = charts ? (*charts)[face].to_patch(xi) : xi;
+    if (parts) parts->keep_in(face, on);
+    return on;
+  }
   /// A side of the face as one of the patch, and back.
   int side(int face, int side) const { return charts ? (*charts)[face].side * side : side; }
 };

@@ -61,7 +61,7 @@ FeetRange FaceTracker::feet(const Query& query, const ParticleSlots& slots) {
     if (++state.looks == kCalm) choose_fewer_pieces(query);
   }
   if (distance >= beyond(query)) return none(query, slots, distance);
-  find(query, beyond(query));
+  find(query, beyond(query), margin_to_rest(query));
   match_slots(query, slots);
   if (found_.empty()) return none(query, slots, nearest_of_chosen(query));
   keep_clearance(query, 0.0);
@@ -140,23 +140,37 @@ void FaceTracker::choose_pieces(const Query& query, Of of, double margin) {
     state.alone = *pieces.first;
 }
 
-void FaceTracker::find(const Query& query, double reach) {
-  found_.clear();
-  for_each_image(query, Of::chosen,
-                 [&](const Vector3& d, const int* pieces, int count, const Vector3& image) {
-                   const std::size_t first = found_.size();
-                   search_.feet(d, reach, pieces, count, found_);
-                   brep::Foot* const end = found_.data() + found_.size();
-                   for (brep::Foot* foot = found_.data() + first; foot != end; ++foot) {
-                     foot->image = image;
-                     foot->point += image;
-                   }
-                 });
+// Feet within `reach`; with a margin also those that others come to while the centre moves by less (near_),
+// and how far it may move until they are not all (room_).
+void FaceTracker::find(const Query& query, double reach, double margin) {
+  found_.clear(), near_.clear();
+  room_ = 0.0;
+  if (margin > 0.0) {
+    const PiecesHere pieces = pieces_of_wall_itself(query);
+    room_ = search_.feet_for_a_while(query.centre, reach, margin, pieces.first, pieces.count, found_);
+    const auto far = std::find_if(found_.begin(), found_.end(),
+                                  [&](const brep::Foot& foot) { return foot.distance >= reach; });
+    near_.assign(far, found_.end());
+    found_.erase(far, found_.end());
+  } else {
+    for_each_image(query, Of::chosen,
+                   [&](const Vector3& d, const int* pieces, int count, const Vector3& image) {
+                     const std::size_t first = found_.size();
+                     search_.feet(d, reach, pieces, count, found_);
+                     brep::Foot* const end = found_.data() + found_.size();
+                     for (brep::Foot* foot = found_.data() + first; foot != end; ++foot) {
+                       foot->image = image;
+                       foot->point += image;
+                     }
+                   });
+  }
   if (found_.size() > 1) {
+    const std::size_t all = found_.size();
     std::sort(found_.begin(), found_.end(),
               [](const brep::Foot& a, const brep::Foot& b) { return a.distance < b.distance; });
     if (candidates_.candidates()[query.candidate].image_count > 1) drop_covered_rims(query);
     keep_one_at_seams();
+    if (found_.size() < all) room_ = 0.0;
   }
   for (const brep::Foot& foot : found_) counts_.add_direct(foot);
 }
@@ -245,11 +259,8 @@ double FaceTracker::squared_way(const Query& query, const ContactSlot& slot, con
 TrackedFoot FaceTracker::tracked(const brep::Foot& foot) const {
   const search::Foot& on_surface = foot;
   TrackedFoot tracked{on_surface, -1, names_.side(foot.patch, foot.side), foot.patch};
-  if (names_.charts) tracked.foot.xi = (*names_.charts)[foot.patch].to_patch(foot.xi);
-  if (names_.parts) {
-    tracked.foot.patch = names_.parts->patch_of(foot.patch);
-    names_.parts->keep_in(foot.patch, tracked.foot.xi);
-  }
+  tracked.foot.patch = names_.patch_of(foot.patch);
+  tracked.foot.xi = names_.on_patch(foot.patch, foot.xi);
   return tracked;
 }
 
@@ -274,27 +285,44 @@ void FaceTracker::match_slots(const Query& query, const ParticleSlots& slots) {
     steady_.forget(query.candidate);
 }
 
-// Feet inside plane faces stay what they are while the centre does not come to where others begin or end.
-// That is worth finding out if it lasts for some steps; where it does not, it is left for a while.
+// Feet inside plane faces and on edges stay what they are while the centre does not come to where others
+// begin or end.  That is worth finding out if it lasts for some steps (lasts); where it does not, it is left
+// for a while.
+bool FaceTracker::lasts(const Query& query, double room) {
+  constexpr double kSteps = 4.0;
+  return room > 0.0 && room * room > kSteps * kSteps * query.squared_travel;
+}
+
+// How far the centre may move while those chosen are enough; 0: it is not time to ask.
+double FaceTracker::margin_to_rest(const Query& query) const {
+  const State& state = states_[query.candidate];
+  if (state.alone >= 0 || state.looks < state.next_try || pieces_of_wall_itself(query).count == 0) return 0.0;
+  const double margin = state.reach - (query.centre - state.centre).norm() - query.touch_reach;
+  return lasts(query, margin) ? margin : 0.0;
+}
+
 bool FaceTracker::may_rest(const Query& query) {
   constexpr int kWhile = 8;
-  constexpr double kSteps = 4.0;
   State& state = states_[query.candidate];
-  if (state.looks < state.next_try || found_.size() > SteadyFeet::kMostFeet) return false;
+  if (state.looks < state.next_try) return false;
   state.next_try = state.looks + kWhile;
+  if (!lasts(query, room_) || found_.size() > SteadyFeet::kMostFeet) return false;
   const PiecesHere pieces = pieces_of_wall_itself(query);
-  const double reach = state.reach - (query.centre - state.centre).norm(), margin = reach - query.touch_reach;
-  const auto enough = [&](double room) { return room * room > kSteps * kSteps * query.squared_travel; };
-  if (pieces.count == 0 || !(margin > 0.0) || !enough(margin)) return false;
   int below[SteadyFeet::kMostFeet];
-  double room =
-      std::min(margin, search_.room_of_feet(query.centre, reach, pieces.first, pieces.count, found_, below));
-  if (!(room > 0.0) || !enough(room)) return false;
-  within_.clear();  // others may come nearer meanwhile
-  search_.feet(query.centre, query.touch_reach + room, pieces.first, pieces.count, within_);
-  if (within_.size() > found_.size()) room = within_[found_.size()].distance - query.touch_reach;
-  if (within_.size() < found_.size() || !enough(room)) return false;
-  steady_.keep(query.candidate, {query.centre, query.touch_reach + room, room}, found_, below);
+  const int touching = static_cast<int>(found_.size());
+  for (const brep::Foot& foot : near_) {
+    if (found_.size() < SteadyFeet::kMostFeet)
+      found_.push_back(foot);
+    else
+      room_ = std::min(room_, foot.distance - query.touch_reach);
+  }
+  const double room =
+      search_.room_of_feet(query.centre, query.touch_reach, room_, pieces.first, pieces.count, found_, below);
+  const bool lasting = lasts(query, room);
+  if (lasting)
+    steady_.keep(query.candidate, {query.centre, query.touch_reach + room, room}, found_, touching, below);
+  found_.resize(touching);
+  if (!lasting) return false;
   state.next_try = 0;
   return true;
 }

@@ -90,7 +90,7 @@ class FaceTracker : public FeetTracker {
   static bool has_moved_less(const Query& query, const State& state, double than);
   void prefetch(const Query& query) const;
   FeetRange feet_of_fast(const Query& query, const ParticleSlots& slots);
-  void find(const Query& query, double reach);
+  void find(const Query& query, double reach, double margin = 0.0);
   bool may_be_behind(const Query& query, const ParticleSlots& slots) const;
   void add_feet_behind(const Query& query, const ParticleSlots& slots);
   void drop_feet_through_bodies(const Query& query);
@@ -101,6 +101,8 @@ class FaceTracker : public FeetTracker {
   void match_slots(const Query& query, const ParticleSlots& slots);
   bool is_last_foot(const Query& query, const ParticleSlots& slots) const;
   void match_nearest(const Query& query, const ParticleSlots& slots);
+  static bool lasts(const Query& query, double room);
+  double margin_to_rest(const Query& query) const;
   bool may_rest(const Query& query);
   TrackedFoot tracked(const brep::Foot& foot) const;
   FeetRange none(const Query& query, const ParticleSlots& slots, double clearance);
@@ -116,7 +118,8 @@ class FaceTracker : public FeetTracker {
   std::vector<int> piece_counts_;  // of these, per image of each candidate
   std::vector<int> pieces_before_, counts_before_;
   std::vector<brep::Foot> found_;   // of one candidate, in this step; so are the next two
-  std::vector<brep::Foot> within_;  // the same
+  std::vector<brep::Foot> near_;    // the same, but that do not touch
+  double room_ = 0.0;               // how far it may move until others come near them; 0: not known
   std::vector<brep::Foot> beside_;  // a rim's point, the same
   std::vector<TrackedFoot> feet_;   // the same
   struct Pair {

@@ -53,7 +53,7 @@ struct OnePlane {
 };
 
 struct EachItsPlane {
-  const FeetBlock& of;
+  const KeptFeet& of;
   double origin(int d, int k) const { return of.origin[d][k]; }
   double x(int d, int k) const { return of.x[d][k]; }
   double y(int d, int k) const { return of.y[d][k]; }
@@ -92,7 +92,7 @@ void over_one_plane(FeetBlock& block, const KeptFeet& kept, const PlaneNumbers& 
   find_over(block, kept, OnePlane{own});
 }
 
-void over_planes(FeetBlock& block, const KeptFeet& kept) { find_over(block, kept, EachItsPlane{block}); }
+void over_planes(FeetBlock& block, const KeptFeet& kept) { find_over(block, kept, EachItsPlane{kept}); }
 
 // As brep::Face::polar_foot and brep::Chart::place have it.
 void over_one_cylinder(FeetBlock& __restrict block, const KeptFeet& __restrict kept,

@@ -18,7 +18,9 @@ using FeetLanes = double[kFeetCapacity + 8];
 struct KeptFeet {
   alignas(64) FeetLanes centre[3] = {};  // where it was looked at, in the frame
   FeetLanes reach = {}, margin = {};
-  FeetLanes sign = {};  // of its height over the face
+  FeetLanes sign = {};                             // of its height over the face
+  FeetLanes origin[3] = {}, x[3] = {}, y[3] = {};  // of the planes below; else they may hold anything
+  FeetLanes scale[2] = {}, shift[2] = {};          // from their parameters to the patch's
 };
 
 /// Centres and their feet, likewise.  Lengths have one unit throughout; `xi` is the patch's.
@@ -27,14 +29,12 @@ struct FeetBlock {
   using Lanes = FeetLanes;
 
   int count = 0;
-  alignas(64) Lanes centre[3] = {};            // in space; then in the wall's frame
-  Lanes squared_speed = {};                    // in space
-  Lanes touch_reach = {};                      // how far it touches
-  Lanes origin[3] = {}, x[3] = {}, y[3] = {};  // of their planes
-  Lanes scale[2] = {}, shift[2] = {};          // from the face's to the patch's parameters
-  Lanes cos = {}, sin = {}, length = {};       // of cylinders
-  Lanes room = {};                             // > 0: the foot is what it was kept as, and touches
-  Lanes delta[3] = {};                         // from the foot to the centre
+  alignas(64) Lanes centre[3] = {};       // in space; then in the wall's frame
+  Lanes squared_speed = {};               // in space
+  Lanes touch_reach = {};                 // how far it touches
+  Lanes cos = {}, sin = {}, length = {};  // of cylinders
+  Lanes room = {};                        // > 0: the foot is what it was kept as, and touches
+  Lanes delta[3] = {};                    // from the foot to the centre
   Lanes distance = {}, xi[2] = {};
 };
 

@@ -24,6 +24,7 @@ struct SearchCounts {
     iterations += foot.iterations;
   }
   void add_direct(const search::Foot& foot) { ++by_status[static_cast<int>(foot.status)]; }  ///< no iteration
+  void add_on_edges(int count) { by_status[static_cast<int>(search::FootStatus::edge)] += count; }
   void add_interior(int count) { by_status[static_cast<int>(search::FootStatus::interior)] += count; }
 };
 

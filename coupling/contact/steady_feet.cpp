@@ -10,7 +10,6 @@ SteadyFeet::SteadyFeet(const brep::FootSearch& search, const FaceNames& names)
     : search_(search),
       names_(names),
       charts_(names.charts),
-      waits_for_memory_(search.outgrows_cache()),
       kernel_(feet_kernel(nurbs::simd_level())),
       face_kernel_(face_kernel(nurbs::simd_level())) {
   if (!charts_ && search.surface().trimmed())
@@ -38,6 +37,24 @@ void SteadyFeet::Page::set(int k, const Room& room, int piece_below, int face_be
   below.is_known = false;
 }
 
+void SteadyFeet::set_plane(KeptFeet& kept, int k, int piece, int face) const {
+  const brep::PlaneTriangle& plane = search_.triangle(piece);
+  for (int d = 0; d < 3; ++d) {
+    kept.origin[d][k] = plane.origin()[d];
+    kept.x[d][k] = plane.x()[d], kept.y[d][k] = plane.y()[d];
+  }
+  for (int i = 0; i < 2; ++i) {
+    kept.scale[i][k] = charts_ ? (*charts_)[face].line[i].scale() : 1.0;
+    kept.shift[i][k] = charts_ ? (*charts_)[face].line[i].shift() : 0.0;
+  }
+}
+
+void SteadyFeet::set(Page& page, int k, const Room& room, int piece, int face, int side,
+                     const Marks& marks) const {
+  page.set(k, room, piece, face, side, marks);
+  if (marks.on == On::plane) set_plane(page.kept, k, piece, face);
+}
+
 void SteadyFeet::Page::forget(int k) {
   if (piece[k] < 0) return;
   piece[k] = kNone;
@@ -51,8 +68,8 @@ void SteadyFeet::Page::look_below() {
            static_cast<int>(std::find_if(piece, piece + kBlock, [](int of) { return of >= 0; }) - piece)};
   for (int k = below.first; k < kBlock; ++k) {
     if (piece[k] < 0) continue;
-    below.is_one_face &= face[k] == face[below.first];
-    (marks[k].is_curved ? below.has_curved : below.has_planes) = true;
+    below.is_one_face &= face[k] == face[below.first] && marks[k].on == marks[below.first].on;
+    (marks[k].on == On::plane ? below.has_planes : below.has_others) = true;
   }
 }
 
@@ -65,8 +82,9 @@ void SteadyFeet::forget_all(std::size_t candidates) {
 
 void SteadyFeet::keep(int candidate, const Room& room, int piece, const brep::Foot& foot,
                       const nurbs::Vector3& centre) {
-  page_of(candidate).set(line_of(candidate), room, piece, foot.patch, foot.side,
-                         {of_patch(foot.patch, foot.side), kNone, 1, !search_.triangle(piece).exists()});
+  set(page_of(candidate), line_of(candidate), room, piece, foot.patch, foot.side,
+      {of_patch(foot.patch, foot.side), kNone, 1, 1,
+       search_.triangle(piece).exists() ? On::plane : On::curved});
   if (!followed_.empty()) followed_[candidate] = {foot.xi, centre - foot.point};
 }
 
@@ -77,15 +95,17 @@ int SteadyFeet::room_for_others() {
   return static_cast<int>(first);
 }
 
-void SteadyFeet::keep(int candidate, const Room& room, const std::vector<brep::Foot>& feet,
+void SteadyFeet::keep(int candidate, const Room& room, const std::vector<brep::Foot>& feet, int touching,
                       const int* pieces) {
   const int count = static_cast<int>(feet.size()), k = line_of(candidate);
-  NURBS_ASSERT(0 < count && count <= kMostFeet, count);
+  NURBS_ASSERT(0 < touching && touching <= count && count <= kMostFeet, touching, count);
   Page& page = page_of(candidate);
   const auto marks = [&](const brep::Foot& foot) {
-    return Marks{of_patch(foot.patch, foot.side), kNone, static_cast<std::int8_t>(count), false};
+    return Marks{of_patch(foot.patch, foot.side), kNone, static_cast<std::int8_t>(touching),
+                 static_cast<std::int8_t>(count),
+                 foot.status == search::FootStatus::edge ? On::edge : On::plane};
   };
-  page.set(k, room, pieces[0], feet[0].patch, feet[0].side, marks(feet[0]));
+  set(page, k, room, pieces[0], feet[0].patch, feet[0].side, marks(feet[0]));
   if (count > 1 && page.further[k] < 0) page.further[k] = room_for_others();
   for (int n = 1; n < count; ++n)
     further_[page.further[k] + n - 1] = {
@@ -102,11 +122,11 @@ void SteadyFeet::go_on(int candidate, int before, const nurbs::Vector3& centre, 
   Page& page = page_of(candidate);
   Marks marks = old.marks[from];
   marks.slot = kNone;  // somebody may have looked at the particle's memory meanwhile
-  page.set(k, {then, reach, old.kept.margin[from]}, old.piece[from], old.face[from],
-           static_cast<int>(old.kept.sign[from]), marks);
-  if (marks.feet == 1) return;
+  set(page, k, {then, reach, old.kept.margin[from]}, old.piece[from], old.face[from],
+      static_cast<int>(old.kept.sign[from]), marks);
+  if (marks.kept == 1) return;
   page.further[k] = room_for_others();
-  for (int n = 0; n < marks.feet - 1; ++n) {
+  for (int n = 0; n < marks.kept - 1; ++n) {
     Further& own = further_[page.further[k] + n] = further_before_[old.further[from] + n];
     own.reach = reach;
     own.marks.slot = kNone;
@@ -124,12 +144,13 @@ bool SteadyFeet::begin_block(int first, int count, const coupling::RigidFrame& f
   block_.count = count;
   std::fill_n(block_.touch_reach, count, kAway);
   others_.count = several_count_ = 0;
+  has_other_edges_ = false;
   return page_->count > 0;
 }
 
 // Those for which there is no room are not there.
 void SteadyFeet::add_others(int k, const double* x, const double* v, double touch_reach) {
-  const int count = page_->marks[k].feet - 1;
+  const int count = page_->marks[k].kept - 1;
   if (others_.count + count > kBlock) {
     block_.touch_reach[k] = kAway;
     return;
@@ -144,16 +165,18 @@ void SteadyFeet::add_others(int k, const double* x, const double* v, double touc
     others_kept_.reach[line] = own.reach, others_kept_.margin[line] = own.margin;
     others_kept_.sign[line] = own.sign;
     other_piece_[line] = own.piece, other_face_[line] = own.face;
-    if (waits_for_memory_) nurbs::prefetch(search_.triangle(own.piece));
+    other_marks_[line] = own.marks;
+    has_other_edges_ |= own.marks.on == On::edge;
+    if (own.marks.on == On::plane) set_plane(others_kept_, line, own.piece, own.face);
   }
 }
 
 void SteadyFeet::find(const StepNumbers& step) {
-  static constexpr Below kPlanes = {true, false, true, false, 0};
   if (!page_->below.is_known) page_->look_below();
   find({block_, page_->kept, page_->piece, page_->face, page_->marks, page_->below}, step);
   if (others_.count == 0) return;
-  find({others_, others_kept_, other_piece_, other_face_, nullptr, kPlanes}, step);
+  const Below below = {true, false, true, has_other_edges_, 0};
+  find({others_, others_kept_, other_piece_, other_face_, other_marks_, below}, step);
   for (int n = 0; n < several_count_; ++n) bring_together(several_[n]);
 }
 
@@ -165,15 +188,22 @@ void SteadyFeet::find(const Lines& lines, const StepNumbers& step) {
   kernel_.stay_outside(lines.block, step);
 }
 
-// Of a candidate all feet are there, or none.  Their order is that of a search, which forces are added in:
-// the nearest is the first.
+// Of a candidate all feet are there, or none, and those that do not touch stay away.  Their order is that of
+// a search, which forces are added in: the nearest is the first.
 void SteadyFeet::bring_together(int k) {
+  constexpr double kJustTouches = 1.0 + 1e-15;
+  const Marks& marks = page_->marks[k];
   double room = block_.room[k], distance = block_.distance[k];
   const int first = first_other_[k];
-  for (int line = first; line < first + page_->marks[k].feet - 1; ++line) {
-    room = std::min(room, others_.room[line]);
-    if (!(distance < others_.distance[line])) room = 0.0;
-    distance = others_.distance[line];
+  for (int n = 1; n < marks.kept; ++n) {
+    const int line = first + n - 1;
+    if (n < marks.feet) {
+      room = std::min(room, others_.room[line]);
+      if (!(distance < others_.distance[line])) room = 0.0;
+      distance = others_.distance[line];
+    } else if (!(others_.distance[line] > kJustTouches * others_.touch_reach[line])) {
+      room = 0.0;
+    }
   }
   block_.room[k] = room;
 }
@@ -182,9 +212,15 @@ void SteadyFeet::find_in_frame(const Lines& lines) {
   kernel_.room_to_move(lines.block, lines.kept);
   if (!faces_.empty()) return find_on_faces(lines);
   if (lines.below.has_planes) find_on_planes(lines);
-  if (!lines.below.has_curved || (!lines.below.has_planes && find_on_one_cylinder(lines))) return;
-  for (int k = 0; k < lines.block.count; ++k)
-    if (lines.marks[k].is_curved || !lines.has(k)) find_on_chart(lines, k);
+  if (!lines.below.has_others || (!lines.below.has_planes && find_on_one_cylinder(lines))) return;
+  for (int k = 0; k < lines.block.count; ++k) {
+    if (!lines.has(k))
+      lines.block.room[k] = 0.0;
+    else if (lines.marks[k].on == On::curved)
+      find_on_chart(lines, k);
+    else if (lines.marks[k].on == On::edge)
+      find_on_edge(lines, k);
+  }
 }
 
 namespace {
@@ -207,18 +243,6 @@ void SteadyFeet::find_on_planes(const Lines& lines) {
     }
     return kernel_.over_one_plane(block, lines.kept, all);
   }
-  for (int k = 0; k < block.count; ++k) {
-    if (!lines.has(k) || (lines.below.has_curved && lines.marks[k].is_curved)) continue;
-    const brep::PlaneTriangle& plane = search_.triangle(lines.piece[k]);
-    for (int d = 0; d < 3; ++d) {
-      block.origin[d][k] = plane.origin()[d];
-      block.x[d][k] = plane.x()[d], block.y[d][k] = plane.y()[d];
-    }
-    for (int i = 0; i < 2; ++i) {
-      block.scale[i][k] = charts_ ? (*charts_)[lines.face[k]].line[i].scale() : 1.0;
-      block.shift[i][k] = charts_ ? (*charts_)[lines.face[k]].line[i].shift() : 0.0;
-    }
-  }
   kernel_.over_planes(block, lines.kept);
 }
 
@@ -236,21 +260,35 @@ bool SteadyFeet::find_on_one_cylinder(const Lines& lines) {
   return true;
 }
 
-// What planes have made of its room is not meant for it.
+// What planes have made of their room is not meant for them.
 void SteadyFeet::find_on_chart(const Lines& lines, int k) {
-  FeetBlock& block = lines.block;
-  block.room[k] = 0.0;
-  if (!lines.has(k)) return;
-  const nurbs::Vector3 centre(block.centre[0][k], block.centre[1][k], block.centre[2][k]),
-      then(lines.kept.centre[0][k], lines.kept.centre[1][k], lines.kept.centre[2][k]);
-  const double margin = std::min(lines.kept.reach[k] - block.touch_reach[k], lines.kept.margin[k]);
-  const double room = margin * std::abs(margin) - (centre - then).squaredNorm();
-  if (!(room > 0.0)) return;
+  const nurbs::Vector3 centre = lines.centre(k);
   search::Foot foot;
-  const int side = search_.foot_inside_curved(lines.piece[k], centre, block.touch_reach[k], charts_, foot);
-  if (side != lines.kept.sign[k]) return;
+  const int side =
+      search_.foot_inside_curved(lines.piece[k], centre, lines.block.touch_reach[k], charts_, foot);
+  set_foot(lines, k, side == lines.kept.sign[k] ? lines.room_to_move(k) : 0.0, centre - foot.point, foot);
+}
+
+void SteadyFeet::find_on_edge(const Lines& lines, int k) {
+  const nurbs::Vector3 centre = lines.centre(k);
+  search::Foot foot = search_.foot_on_edge(lines.piece[k], lines.face[k], centre);
+  foot.xi = names_.on_patch(lines.face[k], foot.xi);
+  const double left = lines.block.touch_reach[k] - foot.distance;
+  set_foot(lines, k, std::min(lines.room_to_move(k), left), centre - foot.point, foot);
+}
+
+// As the kernel has it for all.
+double SteadyFeet::Lines::room_to_move(int k) const {
+  const nurbs::Vector3 then(kept.centre[0][k], kept.centre[1][k], kept.centre[2][k]);
+  const double margin = std::min(kept.reach[k] - block.touch_reach[k], kept.margin[k]);
+  return margin * std::abs(margin) - (centre(k) - then).squaredNorm();
+}
+
+void SteadyFeet::set_foot(const Lines& lines, int k, double room, const nurbs::Vector3& delta,
+                          const search::Foot& foot) {
+  FeetBlock& block = lines.block;
   block.room[k] = room;
-  for (int d = 0; d < 3; ++d) block.delta[d][k] = centre[d] - foot.point[d];
+  for (int d = 0; d < 3; ++d) block.delta[d][k] = delta[d];
   block.distance[k] = foot.distance;
   for (int i = 0; i < 2; ++i) block.xi[i][k] = foot.xi[i];
 }
@@ -290,7 +328,7 @@ void SteadyFeet::find_on_faces(const Lines& lines) {
 void SteadyFeet::find_on_patch(const Lines& lines, int k) {
   FeetBlock& block = lines.block;
   if (!(block.room[k] > 0.0)) return;
-  const nurbs::Vector3 centre(block.centre[0][k], block.centre[1][k], block.centre[2][k]);
+  const nurbs::Vector3 centre = lines.centre(k);
   Followed& followed = followed_[first_ + k];
   const search::Foot foot = search_.foot_on_patch(lines.face[k], centre, followed.xi);
   const nurbs::Vector3 up = centre - foot.point;
@@ -300,9 +338,7 @@ void SteadyFeet::find_on_patch(const Lines& lines, int k) {
     return;
   }
   followed.xi = foot.xi;
-  for (int d = 0; d < 3; ++d) block.delta[d][k] = up[d];
-  block.distance[k] = foot.distance;
-  for (int i = 0; i < 2; ++i) block.xi[i][k] = foot.xi[i];
+  set_foot(lines, k, block.room[k], up, foot);
 }
 
 }  // namespace contact

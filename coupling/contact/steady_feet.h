@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contacts inside faces that stay there: what most contacts do in most steps.  Who has looked at all pieces
-// near a candidate says how far it may move until it can have other feet than these (keep); until then its
-// heights over their faces are all that is asked for: no search, no matching of slots, no question to anybody
-// else.  Feet over planes and on one cylinder are found a block at a time (feet_kernel.h), beside what they
-// were kept with, which stands in the order of the candidates; their digits are those of a search.
+// Contacts that stay inside faces or on edges: what most contacts do in most steps.  Who has looked at all
+// pieces near a candidate says how far it may move until it can have other feet than these (keep); until then
+// its heights over their faces and its ways from the edges are all that is asked for: no search, no matching
+// of slots, no question to anybody else.  Feet over planes and on one cylinder are found a block at a time
+// (feet_kernel.h), beside what they were kept with, which stands in the order of the candidates; their digits
+// are those of a search.
 #pragma once
 
 #include <algorithm>
@@ -44,8 +45,10 @@ class SteadyFeet {
   };
   /// One foot, over this piece.
   void keep(int candidate, const Room& room, int piece, const brep::Foot& foot, const nurbs::Vector3& centre);
-  /// Up to kMostFeet feet over plane faces, the nearest first; pieces[k] is below foot k.
-  void keep(int candidate, const Room& room, const std::vector<brep::Foot>& feet, const int* pieces);
+  /// Feet over plane faces, those that touch first, of these the nearest first; pieces[k] is below foot k, or
+  /// the number of its edge if it is on one.  No more than kMostFeet, of which `touching` are contacts.
+  void keep(int candidate, const Room& room, const std::vector<brep::Foot>& feet, int touching,
+            const int* pieces);
 
   /// Begins the block of candidates from number `first` on, a multiple of kBlock, which are its lines;
   /// centres are in space that `frame` has in the wall's.  Whether any of them has such feet.
@@ -55,8 +58,7 @@ class SteadyFeet {
   void add(int k, const double* x, const double* v, double touch_reach) {
     NURBS_ASSERT(has(k) && k < block_.count, k, block_.count);
     set_centre(block_, k, x, v, touch_reach);
-    if (waits_for_memory_) nurbs::prefetch(search_.triangle(page_->piece[k]));  // find() looks at it
-    if (page_->marks[k].feet > 1) add_others(k, x, v, touch_reach);
+    if (page_->marks[k].kept > 1) add_others(k, x, v, touch_reach);
   }
 
   /// Finds the feet of those that were added.
@@ -64,12 +66,20 @@ class SteadyFeet {
   /// Whether the candidate still has those feet alone, and the step leaves them as they are (StepNumbers).
   bool is_there(int k) const { return block_.room[k] > 0.0; }
   int feet(int k) const { return page_->marks[k].feet; }
+  bool any_on_edges() const { return page_->below.has_others || has_other_edges_; }  ///< or curved faces
+  int on_edges(int k) const {                                                        ///< of these
+    int count = page_->marks[k].on == On::edge;
+    for (int n = 0; n < feet(k) - 1; ++n) count += further_[page_->further[k] + n].marks.on == On::edge;
+    return count;
+  }
 
-  struct Marks {       // copied as one number
-    std::int8_t side;  ///< of the patch, where the centre is: +1 or -1
+  enum class On : std::int8_t { plane, curved, edge };  ///< what the foot is on
+  struct alignas(8) Marks {                             // copied as one number
+    std::int8_t side;                                   ///< of the patch, where the centre is: +1 or -1
     std::int8_t slot;  ///< of the particle's memory; -1: settle() was not told yet
     std::int8_t feet;  ///< of the candidate
-    bool is_curved;    ///< the face below
+    std::int8_t kept;  ///< these, and those that do not touch
+    On on;
   };
   /// One of them, in space; for as long as its block lasts.
   class Foot {
@@ -85,6 +95,9 @@ class SteadyFeet {
     double distance() const { return block_.distance[line_]; }  ///< [length]
     int side() const { return marks_.side; }
     int slot() const { return marks_.slot; }
+    search::FootStatus status() const {
+      return marks_.on == On::edge ? search::FootStatus::edge : search::FootStatus::interior;
+    }
 
    private:
     const FeetBlock& block_;
@@ -117,7 +130,7 @@ class SteadyFeet {
 
   // What the faces below lines have in common.
   struct Below {
-    bool is_known = false, is_one_face = false, has_planes = false, has_curved = false;
+    bool is_known = false, is_one_face = false, has_planes = false, has_others = false;
     int first = 0;  // a line that has one
   };
   // The nearest feet of kBlock candidates, number by number.
@@ -129,7 +142,7 @@ class SteadyFeet {
     void look_below();
 
     KeptFeet kept;
-    std::int32_t piece[kBlock], face[kBlock];
+    std::int32_t piece[kBlock], face[kBlock];  // or edge, and the face that has it
     Marks marks[kBlock];
     std::int32_t further[kBlock];  // in further_, of candidates that ever had several feet
     int count = 0;                 // of those that have a foot
@@ -150,8 +163,14 @@ class SteadyFeet {
     const Marks* marks;
     const Below& below;
     bool has(int k) const { return piece[k] >= 0 && block.touch_reach[k] >= 0.0; }
+    nurbs::Vector3 centre(int k) const {
+      return {block.centre[0][k], block.centre[1][k], block.centre[2][k]};
+    }
+    double room_to_move(int k) const;
   };
 
+  void set(Page& page, int k, const Room& room, int piece, int face, int side, const Marks& marks) const;
+  void set_plane(KeptFeet& kept, int k, int piece, int face) const;
   Page& page_of(int candidate) {
     NURBS_ASSERT(candidate < static_cast<int>(pages_.size()) * kBlock, candidate, pages_.size());
     return pages_[candidate / kBlock];
@@ -171,13 +190,15 @@ class SteadyFeet {
   void find_on_faces(const Lines& lines);
   bool find_on_one_cylinder(const Lines& lines);
   void find_on_chart(const Lines& lines, int k);
+  void find_on_edge(const Lines& lines, int k);
   void find_on_patch(const Lines& lines, int k);
+  static void set_foot(const Lines& lines, int k, double room, const nurbs::Vector3& delta,
+                       const search::Foot& foot);
   void bring_together(int k);
 
   const brep::FootSearch& search_;
   FaceNames names_;
-  const std::vector<brep::Chart>* charts_;  // of these
-  bool waits_for_memory_;
+  const std::vector<brep::Chart>* charts_;         // of these
   std::vector<Page> pages_, pages_before_;         // of the candidates, of this list and of the last
   std::vector<Further> further_, further_before_;  // kMostFeet - 1 for each that has had several feet
   struct Followed {
@@ -196,6 +217,8 @@ class SteadyFeet {
   FeetBlock others_;
   KeptFeet others_kept_;
   std::int32_t other_piece_[kBlock] = {}, other_face_[kBlock] = {};
+  Marks other_marks_[kBlock] = {};
+  bool has_other_edges_ = false;
   int first_other_[kBlock] = {}, several_[kBlock] = {}, several_count_ = 0;
   FaceKernel face_kernel_;
   std::vector<FaceNumbers> faces_;  // of walls whose faces have no charts

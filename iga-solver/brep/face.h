@@ -61,6 +61,11 @@ struct Face {
 
   Vector3 point(const Parameter<2>& xi) const;
   Vector3 normal(const Parameter<2>& xi) const;
+  /// Parameters of a point of a plane.
+  Parameter<2> in_plane(const Vector3& p) const {
+    const Vector3 from = p - frame.origin;
+    return {from.dot(frame.x), from.dot(frame.y)};
+  }
   /// Principal, along xi0 and along xi1, positive towards the normal (as nurbs/curvature.h) [1/length].
   Parameter<2> curvatures(const Parameter<2>& xi) const;
   /// On the axis, in the centre, on the circle of a torus: in the middle of the range.

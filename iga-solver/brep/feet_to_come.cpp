@@ -41,47 +41,6 @@ bool FootSearch::may_come_over(const Border& border, int face) const {
                      [&](const Corner& corner) { return corner.face == face; });
 }
 
-// A foot comes over an edge into a face, or leaves it, where the point is square above the edge; so does the
-// foot of the edge begin and end.  How far it is from there changes no faster than it moves, where faces
-// stand alike all along.
-double FootSearch::room_beside_edge(const Piece& piece, const Vector3& d, double reach) const {
-  constexpr double kAsAbove = 1000.0;  // slacks within which Minima looks twice
-  const Edge& edge = surface_.edges[piece.edge[0]];
-  if (edge.spline() || edge.varies || (!edge.line() && edge.R <= 2.0 * reach)) return 0.0;
-  const EdgeFoot foot(edge, d);
-  double room = reach;
-  for (int u = edge.first_use; u < edge.first_use + edge.use_count; ++u) {
-    const double* const m = surface_.uses[u].conormal;
-    room = std::min(room, std::abs(foot.q[0] * m[0] + foot.q[1] * m[1]));
-  }
-  return room - kAsAbove * surface_.slack_of_edge(piece.edge[0]);
-}
-
-double FootSearch::room_on_trimmed(const Vector3& d, double reach, const int* pieces, int count,
-                                   const std::vector<Foot>& feet, int* below) const {
-  double room = reach;
-  size_t found = 0;
-  for (const int* number = pieces; number < pieces + count && room > 0.0; ++number) {
-    const Piece& piece = surface_.pieces[*number];
-    if (piece.kind == Piece::Kind::edge) room = std::min(room, room_beside_edge(piece, d, reach));
-    if (piece.kind == Piece::Kind::edge) continue;
-    if (piece.kind != Piece::Kind::trimmed) return 0.0;
-    const Face& face = surface_.faces[piece.face];
-    const Projection at = face.project(d);
-    room = std::min(room, face.distance_of_focus(d));
-    if (std::abs(at.height) >= reach) continue;
-    if (face.outward * at.height < 0.0) room = std::min(room, std::abs(at.height));
-    if (face.outward * at.height < 0.0 || !surface_.domains[piece.face].inside(at.xi)) continue;
-    const auto foot = std::find_if(feet.begin(), feet.end(), [&](const Foot& f) {
-      return f.patch == piece.face && f.status == FootStatus::interior;
-    });
-    if (foot == feet.end()) return 0.0;  // one that gives way to another
-    below[foot - feet.begin()] = *number;
-    ++found;
-  }
-  return found == feet.size() ? room - 2.0 * border_slack_ : 0.0;
-}
-
 int FootSearch::activate_with_feet(const Vector3& d, double reach, double margin, const int* pieces,
                                    int count, int* active) const {
   const int near = activate(d, reach + 2.0 * border_slack_, pieces, count, active);

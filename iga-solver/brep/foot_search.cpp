@@ -91,6 +91,7 @@ void FootSearch::feet(const Vector3& d, double reach, const int* pieces, int cou
                       std::vector<Foot>& out) const {
   Minima minima(surface_, same_point_, d, reach, out);
   add_feet(minima, d, reach, pieces, count);
+  minima.leave_nearest(neighbours_);
 }
 
 // What is two-sided is in front, wherever d is.
@@ -99,6 +100,7 @@ void FootSearch::feet_behind(const Vector3& d, double reach, const int* pieces, 
   const auto begin = static_cast<std::ptrdiff_t>(out.size());
   Minima minima(surface_, same_point_, d, reach, out, Minima::Of::inside);
   add_feet(minima, d, reach, pieces, count);
+  minima.leave_nearest(neighbours_);
   const auto is_two_sided = [&](const Foot& foot) { return surface_.faces[foot.patch].outward == 0; };
   out.erase(std::remove_if(out.begin() + begin, out.end(), is_two_sided), out.end());
   for (auto foot = out.begin() + begin; foot != out.end(); ++foot) {
@@ -121,7 +123,7 @@ void FootSearch::add_feet(Minima& minima, const Vector3& d, double reach, const 
       for (int i = 0; i < maybe; ++i) minima.add_of_piece(kept[i], triangles_[kept[i]]);
     }
   }
-  minima.finish(neighbours_);
+  minima.finish();
 }
 
 // The point of these pieces that is nearest to a foot beside them would be on a border.
@@ -146,32 +148,6 @@ bool FootSearch::is_repeated(int piece, const Vector3& shift, const int* pieces,
   const Face& face = surface_.faces[number];
   return std::all_of(pieces, pieces + count, [&](int p) { return surface_.pieces[p].face == number; }) &&
          face.stays(shift, same_point_);
-}
-
-// Which feet there are depends on which sides of triangles and ends of edges d is beyond, and on nothing else
-// as long as d does not pass through a face.
-double FootSearch::room_of_feet(const Vector3& d, double reach, const int* pieces, int count,
-                                const std::vector<Foot>& feet, int* below) const {
-  if (surface_.trimmed()) return room_on_trimmed(d, reach, pieces, count, feet, below);
-  double room = reach;
-  size_t found = 0;
-  for (const int* number = pieces; number < pieces + count; ++number) {
-    const PlaneTriangle& triangle = triangles_[*number];
-    if (!triangle.exists()) return 0.0;
-    const double height = triangle.over(d).height;
-    if (std::abs(height) >= reach) continue;
-    const PlaneTriangle::Room here = triangle.room_beside_sides(d, surface_.pieces[*number]);
-    room = std::min(room, here.room);
-    if (!here.over || surface_.faces[triangle.face()].outward * height < 0.0) continue;
-    const auto foot = std::find_if(feet.begin(), feet.end(), [&](const Foot& f) {
-      return f.patch == triangle.face() && f.status == FootStatus::interior;
-    });
-    if (foot == feet.end()) return 0.0;  // one that gives way to another
-    below[foot - feet.begin()] = *number;
-    ++found;
-  }
-  constexpr double kRoundOff = 4.0;
-  return found == feet.size() ? room - kRoundOff * surface_.slack : 0.0;
 }
 
 // Of a trimmed face edges and vertices would be among the pieces.
@@ -210,6 +186,11 @@ int FootSearch::foot_inside_curved(int piece, const Vector3& d, double reach,
   foot.point = at.point;
   foot.distance = std::abs(at.height);
   return at.height < 0.0 ? -1 : 1;
+}
+
+search::Foot FootSearch::foot_on_edge(int edge, int face, const Vector3& d) const {
+  const Vector3 point = EdgeFoot(surface_.edges[edge], d).point();
+  return {surface_.faces[face].in_plane(point), point, (d - point).norm(), FootStatus::edge, 0, face};
 }
 
 search::Foot FootSearch::foot_on_patch(int face, const Vector3& d, const Parameter<2>& last) const {

@@ -59,10 +59,15 @@ class FootSearch {
   /// Whether a point that is well inside the face of `piece` has no other feet on the wall moved by `shift`,
   /// of which these pieces, in the wall's frame, are all that are within reach.
   bool is_repeated(int piece, const Vector3& shift, const int* pieces, int count) const;
-  /// How far d may move at least until feet begin or end within `reach`, but for those that are farther now,
-  /// if it has these alone and all are inside plane faces, or trimmed ones in closed form; 0 where that is
-  /// not known [length].  Given all pieces within `reach`; below[k] becomes the one that foot k is on.
-  double room_of_feet(const Vector3& d, double reach, const int* pieces, int count,
+  /// feet() and, behind them, those nearer than `reach` + `room` that room_of_feet() can be asked for; how
+  /// far d may move, by `room` at most, until others come nearer than `reach` or give way where they do not
+  /// now. Given all pieces within `reach` + `room` [length].
+  double feet_for_a_while(const Vector3& d, double reach, double room, const int* pieces, int count,
+                          std::vector<Foot>& out) const;
+  /// How far d may move, by that at most, until one of its feet within `reach` begins or ends, if it has
+  /// these alone and all are inside plane faces or on their edges, or inside trimmed ones in closed form; 0
+  /// where that is not known [length].  below[k] becomes the piece that foot k is on, or its edge.
+  double room_of_feet(const Vector3& d, double reach, double room, const int* pieces, int count,
                       const std::vector<Foot>& feet, int* below) const;
   /// That foot on a plane face: given any of these pieces, where its triangle says that d is.
   const PlaneTriangle& triangle(int piece) const { return triangles_[piece]; }
@@ -71,6 +76,8 @@ class FootSearch {
   /// for certain, ask feet().
   int foot_inside_curved(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
                          search::Foot& foot) const;
+  /// The same on an edge of a plane face.
+  search::Foot foot_on_edge(int edge, int face, const Vector3& d) const;
   /// The same on a face that is a patch, from where it was last; inside the face if its status is interior.
   search::Foot foot_on_patch(int face, const Vector3& d, const Parameter<2>& last) const;
 
@@ -94,6 +101,9 @@ class FootSearch {
   int without_patches(const Vector3& d, double reach, int* pieces, int count,
                       const std::vector<Border>& borders) const;
   bool has_no_foot_to_come(const int* elements, int count, const Vector3& d, double reach) const;
+  bool may_last(const Foot& foot) const;
+  double room_on_triangles(const Vector3& d, double reach, double room, const int* pieces, int count,
+                           const std::vector<Foot>& feet, int* below) const;
   double room_on_trimmed(const Vector3& d, double reach, const int* pieces, int count,
                          const std::vector<Foot>& feet, int* below) const;
   double room_beside_edge(const Piece& piece, const Vector3& d, double reach) const;

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "brep/edge_foot.h"
 #include "brep/sector.h"
@@ -149,14 +150,17 @@ void Minima::add_of_vertex(int v, int face) {
   if (w.squaredNorm() >= reach_ * reach_) return;
   corner_slack_ = surface_.slack_of_vertex(v);
   if (corner_slack_ > slack_) widen(corner_slack_);
+  std::optional<Region> here;
   for (int c = vertex.first_corner; c < vertex.first_corner + vertex.corner_count; ++c) {
     const Corner& corner = surface_.corners[c];
     if (face != kAll && corner.face != face) continue;
     for (int s = 0; s < 2; ++s) {
-      if (!corner.leads[s] || !in_group(vertex, corner.group[s], w)) continue;
-      const Region here = region_of(vertex, w);
+      const int group = corner.group[s];
+      if (!corner.leads[s] || !in_group(vertex, group, w)) continue;
+      if (!here) here = region_of(vertex, w);
       // What is a minimum only on the border, by the slack, is none for any point beside it.
-      if (corner.region[s] == here.number && in_group(vertex, corner.group[s], w + here.inward))
+      if (corner.region[s] == here->number &&
+          (here->inward.isZero(0.0) || in_group(vertex, group, w + here->inward)))
         add_of_corner(corner, s == 0 ? 1 : -1, v);
     }
   }
@@ -192,10 +196,10 @@ Minima::Region Minima::region_of(const Vertex& vertex, const Vector3& w) const {
   int nearest = -1;
   for (int c = 0; c < vertex.corner_count; ++c) {
     const Sector sector(surface_, vertex, corners[c]);
-    for (const int ray : corners[c].ray)
-      if (ray >= 0 && ray_direction(surface_, ray).dot(w) > steepest) {
-        steepest = ray_direction(surface_, ray).dot(w);
-        nearest = ray;
+    for (int k = 0; k < 2; ++k)
+      if (corners[c].ray[k] >= 0 && sector.ray(k).dot(w) > steepest) {
+        steepest = sector.ray(k).dot(w);
+        nearest = corners[c].ray[k];
       }
     const double inside = sector.steepest(w, -4.0 * w.norm());
     if (inside < steepest) continue;
@@ -225,8 +229,7 @@ void Minima::add(int face, int side, FootStatus status, int entity, const EdgePo
   const Face& shape = surface_.faces[face];
   Parameter<2> xi;
   if (shape.kind == Kind::plane) {
-    const Vector3 from = at.point - shape.frame.origin;
-    xi = {from.dot(shape.frame.x), from.dot(shape.frame.y)};
+    xi = shape.in_plane(at.point);
   } else if (shape.kind == Kind::nurbs) {
     xi = parameters_at(surface_, use, at);
   } else {

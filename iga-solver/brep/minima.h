@@ -42,10 +42,15 @@ class Minima {
     else if (at.where == OverTriangle::Where::beside)
       add_beside_triangle(surface_.pieces[piece]);
   }
+  /// After all pieces; feet that have given way to others are there still.
+  void finish() {
+    if (!elements().empty()) add_of_elements();
+  }
+  /// How far d may move until leave_nearest() chooses others, as far as these feet tell [length].
+  double room_to_choose(const SmoothNeighbours& neighbours);
   /// Leaves one foot of several at one point, and of those that slightly concave smooth edges join the
   /// nearest. Feet are by distance then.
-  void finish(const SmoothNeighbours& neighbours) {
-    if (!elements().empty()) add_of_elements();
+  void leave_nearest(const SmoothNeighbours& neighbours) {
     if (out_.size() > begin_ + 1) choose(neighbours);
   }
 
@@ -114,6 +119,9 @@ class Minima {
     return pieces;
   }
   void choose(const SmoothNeighbours& neighbours);
+  void sort_by_distance();
+  double angle_between(const Foot& foot, const Foot& other) const;
+  double turn(const Foot& foot) const;
   bool repeats(const Foot& foot, const Foot& other) const;
   bool gives_way(const Foot& foot, const Foot& nearer, const SmoothNeighbours& neighbours) const;
 

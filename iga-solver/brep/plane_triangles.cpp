@@ -39,22 +39,27 @@ double PlaneTriangle::from_border(const Vector3& d, const Piece& piece) const {
   return std::sqrt(least2);
 }
 
-PlaneTriangle::Room PlaneTriangle::room_beside_sides(const Vector3& d, const Piece& piece) const {
+PlaneTriangle::Region PlaneTriangle::region(const Vector3& d, const Piece& piece) const {
   using Point = Eigen::Vector2d;
+  constexpr double kNoBorder = std::numeric_limits<double>::infinity();
   const Parameter<2> xi = over(d).xi;
-  double beside = std::numeric_limits<double>::infinity(), ends = beside;
-  bool over = true;
+  double in[3], before[3], behind[3];  // of its sides, and how far before and behind their ends
   for (int i = 0; i < 3; ++i) {
     const Point a = Point::Map(corner_[i]), side = Point::Map(corner_[(i + 1) % 3]) - a;
     const double length = side.norm();
     const Point way = side / length, from = Point::Map(xi.data()) - a;
-    const double in = way[0] * from[1] - way[1] * from[0], along = way.dot(from);
-    over &= in > 0.0;
-    if (piece.edge[i] < 0) continue;
-    beside = std::min(beside, std::abs(in));
-    ends = std::min({ends, std::abs(along), std::abs(along - length)});
+    in[i] = way[0] * from[1] - way[1] * from[0];
+    before[i] = -way.dot(from), behind[i] = -before[i] - length;
   }
-  return {over ? beside : std::min(beside, ends), over};
+  const auto border = [&](int i) { return piece.edge[i] < 0 ? kNoBorder : std::abs(in[i]); };
+  if (in[0] > 0.0 && in[1] > 0.0 && in[2] > 0.0) return {std::min({border(0), border(1), border(2)}), 0.0};
+  for (int i = 0; i < 3; ++i)
+    if (in[i] <= 0.0 && before[i] <= 0.0 && behind[i] <= 0.0)
+      return {std::min({border(i), -before[i], -behind[i]}), -in[i]};
+  for (int i = 0; i < 3; ++i)
+    if (before[i] >= 0.0 && behind[(i + 2) % 3] >= 0.0)
+      return {std::min(before[i], behind[(i + 2) % 3]), std::hypot(in[i], before[i])};
+  return {0.0, 0.0};  // on a border of two, by round-off
 }
 
 std::vector<PlaneTriangle> plane_triangles(const Surface& surface) {

@@ -43,14 +43,13 @@ class alignas(64) PlaneTriangle {
   /// infinite if none does [length].
   double from_border(const Vector3& d, const Piece& piece) const;
 
-  /// How far a point may move at least until it is beyond a side of this piece, or within it, that it is not
-  /// beyond, or within, now; the same of the ends of these sides if it is not over the triangle [length].
-  /// Sides inside the face do not count.
-  struct Room {
-    double room;
-    bool over;
+  /// Of the space round the triangle, where one part of it is the nearest: its inside, a side or a corner.
+  struct Region {
+    double room;    ///< how far a point may move at least until it is in another one; sides inside the face
+                    ///< do not count [length]
+    double beside;  ///< of its foot on the plane from the triangle; 0: it is over it [length]
   };
-  Room room_beside_sides(const Vector3& d, const Piece& piece) const;
+  Region region(const Vector3& d, const Piece& piece) const;
 
   /// Too far is what is not nearer than `reach` for certain; over it is what is not farther than `slack`
   /// beyond a side [length].

@@ -41,6 +41,15 @@ void faces_at(const Surface& surface, const Foot& foot, std::vector<int>& faces)
   }
 }
 
+// Whether slightly concave smooth edges, one of them bent by so much [rad], lead from one to the other.
+bool are_joined(const Surface& surface, const Foot& foot, const Foot& other,
+                const SmoothNeighbours& neighbours, double bend) {
+  thread_local std::vector<int> from, to;
+  faces_at(surface, foot, from);
+  faces_at(surface, other, to);
+  return neighbours.joined(from, to, bend);
+}
+
 // By distance; feet that are as far by their places, so that pieces which are too far do not change the
 // order.
 bool comes_before(const Foot& a, const Foot& b) {
@@ -55,27 +64,74 @@ bool comes_before(const Foot& a, const Foot& b) {
 
 // Where the concave edge between them bends by much less than they are apart, as round-off in a plane does,
 // it is not the reason that there are two.
+constexpr double kLeastBend = 0.01;  // of the angle between the feet
+
 bool Minima::gives_way(const Foot& foot, const Foot& nearer, const SmoothNeighbours& neighbours) const {
-  constexpr double kLeastBend = 0.01;  // of the angle between the feet
   if (foot.sheet != nearer.sheet) return false;
   const Vector3 a = d_ - foot.point, b = d_ - nearer.point;
   if (a.dot(b) < std::cos(surface_.edge_angle) * foot.distance * nearer.distance) return false;
   const double angle = a.cross(b).norm() / (foot.distance * nearer.distance);
-  thread_local std::vector<int> from, to;
-  faces_at(surface_, foot, from);
-  faces_at(surface_, nearer, to);
-  return neighbours.joined(from, to, kLeastBend * angle);
+  return are_joined(surface_, foot, nearer, neighbours, kLeastBend * angle);
+}
+
+double Minima::angle_between(const Foot& foot, const Foot& other) const {
+  const Vector3 a = d_ - foot.point, b = d_ - other.point;
+  return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+// By how much the direction to a foot turns at most where d moves by less than half of the distance
+// [rad/length].
+double Minima::turn(const Foot& foot) const {
+  const bool is_over_plane =
+      foot.status == FootStatus::interior && surface_.faces[foot.patch].kind == Kind::plane;
+  return is_over_plane ? 0.0 : 2.0 / foot.distance;
+}
+
+// A foot that gives way does so as long as one to which it does is nearer, and they are not apart by more
+// than the angle of edges; one that does not as long as none is nearer that is less than this angle apart.
+double Minima::room_to_choose(const SmoothNeighbours& neighbours) {
+  constexpr double kNoEnd = std::numeric_limits<double>::infinity(), kNotGone = -1.0;
+  if (!neighbours.any() || out_.size() <= begin_ + 1) return kNoEnd;
+  sort_by_distance();
+  double room = kNoEnd;
+  for (size_t k = begin_; k < out_.size(); ++k) {
+    const Foot& foot = out_[k];
+    double stays = kNoEnd, gone = kNotGone;
+    for (size_t l = begin_; l < out_.size(); ++l) {
+      const Foot& other = out_[l];
+      if (l == k || other.sheet != foot.sheet) continue;
+      if (repeats(foot, other)) return 0.0;
+      const double until_nearer = 0.5 * std::abs(foot.distance - other.distance);
+      const double left = surface_.edge_angle - angle_between(foot, other),
+                   turning = turn(foot) + turn(other);
+      const double until_turned = turning > 0.0 ? std::abs(left) / turning : kNoEnd;
+      if (left < 0.0)
+        stays = std::min(stays, std::max(l > k ? until_nearer : 0.0, until_turned));
+      else if (l > k)
+        stays = std::min(stays, until_nearer);
+      else if (are_joined(surface_, foot, other, neighbours, kLeastBend * surface_.edge_angle))
+        gone = std::max(gone, std::min(until_nearer, until_turned));
+      else
+        return 0.0;
+    }
+    room = std::min(room, gone > kNotGone ? gone : stays);
+  }
+  return room;
 }
 
 bool Minima::repeats(const Foot& foot, const Foot& other) const {
   return foot.sheet == other.sheet && (foot.point - other.point).squaredNorm() <= same_point2_;
 }
 
+void Minima::sort_by_distance() {
+  std::sort(out_.begin() + static_cast<std::ptrdiff_t>(begin_), out_.end(), comes_before);
+}
+
 // On borders to within round-off a point can have the feet of a face, of its edge and of a vertex; which of
 // them may give way is not the same, so they are joined last.  The face's stays.
 void Minima::choose(const SmoothNeighbours& neighbours) {
   const auto begin = out_.begin() + static_cast<std::ptrdiff_t>(begin_);
-  std::sort(begin, out_.end(), comes_before);
+  sort_by_distance();
   auto end = begin;  // of those that stay; what has gone makes others go as well
   for (auto foot = begin; neighbours.any() && foot != out_.end(); ++foot) {
     bool gone = false;

@@ -3,11 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numeric>
-#include <random>
 
 #include "balls.h"
-#include "brep/builder.h"
 #include "brep/face_shape.h"
 #include "coupling/rigid/rigid_surface.h"
 #include "nurbs/primitives.h"
@@ -280,115 +277,6 @@ TEST(FaceWall, SteadyContactsKnowTheirFaces) {
       EXPECT_LT((scene.balls.force(k) - force).norm(), 1e-14) << step << ' ' << k;
     }
   }
-}
-
-/// Triangles between points of a grid, every other one of them `depth` lower than its neighbours, about.
-brep::Surface pits(std::mt19937& random, int squares, double size, double depth) {
-  std::uniform_real_distribution<double> up(-0.1 * depth, 0.1 * depth);
-  nurbs::NodalVectors points(3, (squares + 1) * (squares + 1));
-  std::vector<int> triangles;
-  for (int j = 0; j <= squares; ++j)
-    for (int i = 0; i <= squares; ++i) {
-      const int a = i + (squares + 1) * j, b = a + squares + 1;
-      points.col(a) = Vector3(size * i, size * j, up(random) - ((i + j) % 2 == 0 ? depth : 0.0));
-      if (i < squares && j < squares) triangles.insert(triangles.end(), {a, a + 1, b, a + 1, b + 1, b});
-    }
-  return brep::from_triangles(points, triangles);
-}
-
-/// Of a ball on springs at all feet that a search among all pieces finds, the nearest first.
-Vector3 force_by_search(const brep::FootSearch& search, const Vector3& centre, int& feet_count) {
-  std::vector<int> all(search.surface().pieces.size());
-  std::iota(all.begin(), all.end(), 0);
-  std::vector<brep::Foot> feet;
-  search.feet(centre, kRadius, all.data(), static_cast<int>(all.size()), feet);
-  Vector3 force = Vector3::Zero();
-  for (const brep::Foot& foot : feet)
-    force += (kRadius - foot.distance) / foot.distance * (centre - foot.point);
-  feet_count = static_cast<int>(feet.size());
-  return force;
-}
-
-/// Steps in which a ball touches three faces or more.
-int steps_with_three_feet(double depth_of_pits) {
-  std::mt19937 random(5);
-  const brep::Surface surface = pits(random, 12, 0.5, depth_of_pits);
-  const brep::FootSearch search(surface);
-  RigidSurface wall(std::make_shared<brep::Surface>(surface));
-  std::uniform_int_distribution<int> pit(2, 10);
-  std::uniform_real_distribution<double> off(-0.03, 0.03), way(-1.0, 1.0);
-  Balls balls(8, 1);
-  std::vector<Vector3> velocities;
-  constexpr int kBalls = 300;
-  for (int k = 0; k < kBalls; ++k) {
-    const int i = pit(random), j = i % 2 + 2 * (pit(random) / 2);
-    const double aside = k % 2 == 0 ? 1.0 : 0.1;
-    const double overlap = 0.05 * depth_of_pits + 0.5 * (off(random) + 0.03);
-    balls.add(
-        {0.5 * i + aside * off(random), 0.5 * j + aside * off(random), kRadius - depth_of_pits - overlap},
-        kRadius);
-    velocities.push_back(std::pow(10.0, 2.0 * way(random) - 5.1) *
-                         Vector3(way(random), way(random), way(random)));
-  }
-  BallsOnWall scene(wall, balls, 1.0, 1.0);
-  int with_three = 0;
-  for (int step = 1; step <= 300; ++step) {
-    for (int k = 0; k < kBalls; ++k) {
-      scene.balls.velocity(k) = velocities[k];
-      scene.balls.centre(k) += velocities[k];
-    }
-    if (step % 100 == 0) scene.build_list();
-    scene.evaluate();
-    size_t feet = 0;
-    for (int k = 0; k < kBalls; ++k) {
-      int count;
-      const Vector3 force = force_by_search(search, scene.balls.centre(k), count);
-      if (scene.balls.force(k) != force) ADD_FAILURE() << step << ' ' << k;
-      feet += count;
-      with_three += count > 2;
-    }
-    const std::vector<contact::Contact>& seen = scene.spring.seen;
-    EXPECT_EQ(seen.size(), feet) << step;
-    for (size_t n = 1; n < seen.size(); ++n)
-      EXPECT_TRUE(seen[n - 1].particle != seen[n].particle || seen[n - 1].distance <= seen[n].distance)
-          << step;
-    if (testing::Test::HasFailure()) break;
-  }
-  return with_three;
-}
-
-// In pits most balls touch several faces.  Whoever rests on these for some steps and then goes on has the
-// force, to the last digit, of who looks for all feet in each step, the nearest first.
-TEST(FaceWall, SeveralSteadyContactsAreAllThereAre) { EXPECT_GT(steps_with_three_feet(0.1), 1000); }
-// The same where edges are smooth, so that of several faces the nearest counts.
-TEST(FaceWall, SteadyContactsOverSmoothEdges) { steps_with_three_feet(0.004); }
-
-// In a plate with a notch of 60 degrees: who is over the one flank and comes past the tip's end of the other
-// edge has a second foot there, at once.
-TEST(FaceWall, SteadyContactsSeeEdgesBegin) {
-  nurbs::NodalVectors points(3, 7);
-  points.col(0).setZero();
-  std::vector<int> triangles;
-  for (int k = 1; k <= 6; ++k) {
-    points.col(k) = 4.0 * Vector3(std::cos(k * EIGEN_PI / 3.0), std::sin(k * EIGEN_PI / 3.0), 0.0);
-    if (k < 6) triangles.insert(triangles.end(), {0, k, k + 1});
-  }
-  const brep::Surface surface = brep::from_triangles(points, triangles);
-  const brep::FootSearch search(surface);
-  RigidSurface wall(std::make_shared<brep::Surface>(surface));
-  constexpr double kWay = 5e-4;
-  Balls balls(8, 1);
-  balls.add({-0.05, 0.2, 0.4}, kRadius, {kWay, 0.0, 0.0});
-  BallsOnWall scene(wall, balls, 1.0, 1.0);
-  size_t most = 0;
-  for (int step = 1; step <= 200; ++step) {
-    scene.balls.centre(0)[0] += kWay;
-    scene.evaluate();
-    int count;
-    ASSERT_EQ(scene.balls.force(0), force_by_search(search, scene.balls.centre(0), count)) << step;
-    most = std::max(most, scene.spring.seen.size());
-  }
-  EXPECT_EQ(most, 2u);
 }
 
 }  // namespace

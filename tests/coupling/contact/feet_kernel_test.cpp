@@ -125,7 +125,7 @@ TEST(FeetKernel, FeetOverPlanes) {
   for (const SimdLevel level : levels_here()) {
     const contact::FeetKernel kernel = contact::feet_kernel(level);
     FeetBlock block = random_block(random, 61);
-    const KeptFeet kept = kept_feet(random, block);
+    KeptFeet kept = kept_feet(random, block);
     block.touch_reach[17] = -1.0;
     std::vector<contact::PlaneNumbers> planes(block.count);
     for (int k = 0; k < block.count; ++k) {
@@ -135,10 +135,10 @@ TEST(FeetKernel, FeetOverPlanes) {
       copy(axes.col(0).cross(axes.col(1)), plane.normal);
       for (int i = 0; i < 2; ++i) plane.scale[i] = random(), plane.shift[i] = random();
       for (int d = 0; d < 3; ++d) {
-        block.origin[d][k] = plane.origin[d];
-        block.x[d][k] = plane.x[d], block.y[d][k] = plane.y[d];
+        kept.origin[d][k] = plane.origin[d];
+        kept.x[d][k] = plane.x[d], kept.y[d][k] = plane.y[d];
       }
-      for (int i = 0; i < 2; ++i) block.scale[i][k] = plane.scale[i], block.shift[i][k] = plane.shift[i];
+      for (int i = 0; i < 2; ++i) kept.scale[i][k] = plane.scale[i], kept.shift[i][k] = plane.shift[i];
     }
     FeetBlock each = block;
     kernel.room_to_move(each, kept);
