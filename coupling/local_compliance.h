@@ -23,9 +23,9 @@ class LocalCompliance {
     Component normal;                ///< along the normal, by a force along it
     std::array<Component, 3> along;  ///< along the surface, by forces along it: 11, 22, 12; 0: not asked for
   };
-  /// On an element that was not asked for before this takes some time.  Throws std::invalid_argument, with
-  /// the place, where it is not known.
-  virtual Value at(const nurbs::SurfacePoint& foot, bool with_shear) = 0;
+  /// `element`: of the patch, that the foot is on (KnotVector::element_at).  On one that was not asked for
+  /// before this takes some time.  Throws std::invalid_argument, with the place, where it is not known.
+  virtual Value at(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear) = 0;
 };
 
 }  // namespace coupling

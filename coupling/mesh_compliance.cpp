@@ -22,17 +22,16 @@ std::vector<nurbs::Space<2>> spaces_of(const structure::ReferenceBody& body,
 MeshCompliance::MeshCompliance(structure::ReferenceBody body, const std::vector<structure::SkinPiece>& skin)
     : spaces_(spaces_of(body, skin)), tables_(std::move(body), skin) {}
 
-LocalCompliance::Value MeshCompliance::at(const nurbs::SurfacePoint& foot, bool with_shear) {
+LocalCompliance::Value MeshCompliance::at(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element,
+                                          bool with_shear) {
   const nurbs::Space<2>& space = spaces_[foot.patch];
-  const nurbs::Indices<2> span = {space.knots(0).element_at(foot.xi[0]),
-                                  space.knots(1).element_at(foot.xi[1])};
   nurbs::Parameter<2> low, high;
   for (int d = 0; d < 2; ++d) {
-    low[d] = space.knots(d).breaks()[span[d]];
-    high[d] = space.knots(d).breaks()[span[d] + 1];
+    low[d] = space.knots(d).breaks()[element[d]];
+    high[d] = space.knots(d).breaks()[element[d] + 1];
   }
   using Table = structure::ComplianceTable;
-  const Table& table = tables_.of(foot.patch, space.element_index(span));
+  const Table& table = tables_.of(foot.patch, space.element_index(element));
   const auto component = [](const Table::Value& value) { return Component{value.c, value.change}; };
   if (!with_shear) return {component(table.at(Table::normal, low, high, foot.xi)), {}};
   const auto all = table.together(low, high, foot.xi);

@@ -106,8 +106,9 @@ void ComplianceCorrection::enter(const ParticleView& particles, const ContactMod
   const double* const memory = is_damped ? memory_of(particles, contact) : nullptr;
   if (!(contact.overlap > 0.0) && !(is_damped && held_gap(memory) > 0.0)) return;
   before.has_shear = model.shear_constant(i) > 0.0;
-  before.give = compliance_.at(contact.foot, before.has_shear);
   before.directions = SurfaceDirections::at(wall_, contact.foot, contact.delta);
+  const nurbs::Indices<2>& element = before.directions.element;
+  before.give = compliance_.at(contact.foot, element, before.has_shear);
   before.n = contact.delta / contact.distance;
   const double of_surface = before.n.dot(contact.wall_velocity);
   const double of_particle = -before.n.dot(particles.velocity(i));
@@ -123,7 +124,7 @@ void ComplianceCorrection::enter(const ParticleView& particles, const ContactMod
   if (!is_damped) return;
   block.damping[lane] = damping;
   block.inertia[lane] = mass_of(particles, i);
-  block.delay[lane] = mesh_ ? mesh_->delay(contact.foot) : 0.0;
+  block.delay[lane] = mesh_ ? mesh_->delay(contact.foot.patch, element) : 0.0;
   for (int m = 0; m < ApproachBlock::kMemory; ++m) block.memory[m][lane] = memory[m];
 }
 

@@ -61,7 +61,7 @@ double MeshEstimate::waves(const Contact& contact, double hertz_constant, double
   constexpr double kLayers = 3.0, kDuration = 2.943;
   const double K = hertz_constant * std::sqrt(contact.effective_radius),
                deepest = std::pow(1.25 * mass * speed * speed / K, 0.4);
-  const double waves = kLayers * delay(contact.foot);
+  const double waves = kLayers * (size(contact.foot) / solids_[contact.foot.patch].shear_speed);
   return std::max(0.0, waves * speed / (kDuration * deepest));
 }
 

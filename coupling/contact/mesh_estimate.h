@@ -25,7 +25,10 @@ class MeshEstimate {
   /// with delta = (5 m V^2 / (4 K))^(2/5) (Johnson 1985, sec. 11.4) [-]; 0 if the constant is not a number.
   double waves(const Contact& contact, double hertz_constant, double mass, double speed) const;
   /// h/c_s, how long a shear wave takes through that element [time].
-  double delay(const nurbs::SurfacePoint& foot) const { return size(foot) / solids_[foot.patch].shear_speed; }
+  double delay(int patch, const nurbs::Indices<2>& element) const {
+    const int number = surface_.first_element(patch) + surface_.patch(patch).element_index(element);
+    return size_[number] / solids_[patch].shear_speed;
+  }
   /// h: side of a square as large as the element that the foot is on [length].
   double size(const nurbs::SurfacePoint& foot) const { return size_[element(foot)]; }
 

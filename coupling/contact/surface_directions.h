@@ -17,12 +17,13 @@ namespace contact {
 struct SurfaceDirections {
   Eigen::Matrix<double, 3, 2> tangents;  ///< S_j of the patch, in space [length]
   Eigen::Matrix2d rates;                 ///< of the foot's parameters by S_i . d(centre) [1/length^2]
+  nurbs::Indices<2> element;             ///< of the patch, that the foot is on
 
   /// At a foot of a wall that deforms; `delta`: from there to the centre, in space [length].
   static SurfaceDirections at(const Wall& wall, const nurbs::SurfacePoint& foot, const Vector3& delta) {
     const Vector3 in_frame = wall.to_frame_direction(delta);
-    const auto [S_i, hessian] = wall.slopes(foot, in_frame);
-    SurfaceDirections directions{{}, rates_of(S_i, hessian, in_frame)};
+    const auto [S_i, hessian, element] = wall.slopes(foot, in_frame);
+    SurfaceDirections directions{{}, rates_of(S_i, hessian, in_frame), element};
     for (int j = 0; j < 2; ++j) directions.tangents.col(j) = wall.to_space_direction(S_i.col(j));
     return directions;
   }

@@ -99,6 +99,7 @@ class SurfaceProjector {
   struct Slopes {
     Eigen::Matrix<double, 3, 2> S_i;  ///< [length]
     Eigen::Matrix2d hessian;          ///< S_i . S_j - delta . S_ij [length^2]
+    Indices<2> element;               ///< that xi is in
   };
   Slopes slopes(const Parameter<2>& xi, const Vector3& delta) const {
     const Start at = start(xi);
@@ -106,6 +107,7 @@ class SurfaceProjector {
     Eigen::Vector2d scale;  // from the derivatives by local coordinates
     for (int i = 0; i < 2; ++i) scale[i] = elements_.axis(i, at.at.e[i]).per_half_width;
     Slopes slopes;
+    slopes.element = {at.at.e[0], at.at.e[1]};
     for (int i = 0; i < 2; ++i)
       for (int j = 0; j < 2; ++j)
         slopes.hessian(i, j) =
