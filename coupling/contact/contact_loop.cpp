@@ -123,21 +123,16 @@ inline int ContactLoop::take_steady(const ParticleView& particles, const StepInf
                                     FeetTracker::Query* queries) {
   const Candidate* const candidates = candidates_.candidates().data();
   SteadyFeet* const steady = find_steady(particles, step, begin, end);
-  const std::size_t before = contacts_.size();
-  const bool any_on_edges = steady && steady->any_on_edges();
-  int count = 0, on_edges = 0;
+  int count = 0;
   for (int candidate = begin; candidate < end; ++candidate) {
     const int i = candidates[candidate].particle, k = candidate - begin;
     if (steady && steady->is_there(k) && settle(particles, *steady, k, i)) {
       go_on(particles, step, i, steady->foot(k));
       if (steady->feet(k) > 1) go_on_with_others(particles, step, i, *steady, k);
-      if (any_on_edges) on_edges += steady->on_edges(k);
     } else if (may_touch(particles, step, candidate)) {
       queries[count++] = query_of(particles, step, candidate);
     }
   }
-  searches_.add_interior(static_cast<int>(contacts_.size() - before) - on_edges);
-  searches_.add_on_edges(on_edges);
   return count;
 }
 
@@ -241,6 +236,7 @@ bool ContactLoop::find_slots(const ParticleSlots& slots, SteadyFeet& steady, int
         wall_.effective_radius({xi, point, contact.distance, foot.status(), 0, foot.patch()}, contact.delta,
                                contact.effective_radius);
   }
+  searches_.add_direct(foot.status());
   ContactSlot slot = particles.memory.slot(i, foot.slot());
   slot.set_parameters({foot.patch(), xi});
   contact.history = slot.history();

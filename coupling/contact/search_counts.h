@@ -23,9 +23,8 @@ struct SearchCounts {
     add_direct(foot);
     iterations += foot.iterations;
   }
-  void add_direct(const search::Foot& foot) { ++by_status[static_cast<int>(foot.status)]; }  ///< no iteration
-  void add_on_edges(int count) { by_status[static_cast<int>(search::FootStatus::edge)] += count; }
-  void add_interior(int count) { by_status[static_cast<int>(search::FootStatus::interior)] += count; }
+  void add_direct(const search::Foot& foot) { add_direct(foot.status); }  ///< no iteration
+  void add_direct(search::FootStatus status) { ++by_status[static_cast<int>(status)]; }
 };
 
 /// Sum over all ranks (collective).

@@ -66,12 +66,6 @@ class SteadyFeet {
   /// Whether the candidate still has those feet alone, and the step leaves them as they are (StepNumbers).
   bool is_there(int k) const { return block_.room[k] > 0.0; }
   int feet(int k) const { return page_->marks[k].feet; }
-  bool any_on_edges() const { return page_->below.has_others || has_other_edges_; }  ///< or curved faces
-  int on_edges(int k) const {                                                        ///< of these
-    int count = page_->marks[k].on == On::edge;
-    for (int n = 0; n < feet(k) - 1; ++n) count += further_[page_->further[k] + n].marks.on == On::edge;
-    return count;
-  }
 
   enum class On : std::int8_t { plane, curved, edge };  ///< what the foot is on
   struct alignas(8) Marks {                             // copied as one number

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "brep/edge_foot.h"
 #include "brep/sector.h"
@@ -150,17 +149,14 @@ void Minima::add_of_vertex(int v, int face) {
   if (w.squaredNorm() >= reach_ * reach_) return;
   corner_slack_ = surface_.slack_of_vertex(v);
   if (corner_slack_ > slack_) widen(corner_slack_);
-  std::optional<Region> here;
   for (int c = vertex.first_corner; c < vertex.first_corner + vertex.corner_count; ++c) {
     const Corner& corner = surface_.corners[c];
     if (face != kAll && corner.face != face) continue;
     for (int s = 0; s < 2; ++s) {
-      const int group = corner.group[s];
-      if (!corner.leads[s] || !in_group(vertex, group, w)) continue;
-      if (!here) here = region_of(vertex, w);
+      if (!corner.leads[s] || !in_group(vertex, corner.group[s], w)) continue;
+      const Region here = region_of(vertex, w);
       // What is a minimum only on the border, by the slack, is none for any point beside it.
-      if (corner.region[s] == here->number &&
-          (here->inward.isZero(0.0) || in_group(vertex, group, w + here->inward)))
+      if (corner.region[s] == here.number && in_group(vertex, corner.group[s], w + here.inward))
         add_of_corner(corner, s == 0 ? 1 : -1, v);
     }
   }

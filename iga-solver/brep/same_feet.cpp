@@ -68,10 +68,8 @@ constexpr double kLeastBend = 0.01;  // of the angle between the feet
 
 bool Minima::gives_way(const Foot& foot, const Foot& nearer, const SmoothNeighbours& neighbours) const {
   if (foot.sheet != nearer.sheet) return false;
-  const Vector3 a = d_ - foot.point, b = d_ - nearer.point;
-  if (a.dot(b) < std::cos(surface_.edge_angle) * foot.distance * nearer.distance) return false;
-  const double angle = a.cross(b).norm() / (foot.distance * nearer.distance);
-  return are_joined(surface_, foot, nearer, neighbours, kLeastBend * angle);
+  const double angle = angle_between(foot, nearer);
+  return angle <= surface_.edge_angle && are_joined(surface_, foot, nearer, neighbours, kLeastBend * angle);
 }
 
 double Minima::angle_between(const Foot& foot, const Foot& other) const {

@@ -10,7 +10,6 @@ namespace brep {
 
 Vector3 ray_direction(const Surface& surface, int ray) {
   const Edge& edge = surface.edges[surface.uses[ray / 2].edge];
-  if (edge.line()) return ray % 2 == 0 ? edge.axis : Vector3(-edge.axis);
   if (edge.spline()) return (ray % 2 == 0 ? 1.0 : -1.0) * at_end(surface, edge, ray % 2).tangent;
   return ray % 2 == 0 ? edge.tangent(0.0) : Vector3(-edge.tangent(edge.length));
 }
