@@ -9,6 +9,7 @@
 
 #include "coupling/force_distribution.h"
 #include "nurbs/assert.h"
+#include "nurbs/processor.h"
 
 namespace contact {
 
@@ -103,13 +104,14 @@ void ContactLoop::step(const ParticleView& particles, const StepInfo& step, Cont
   forces_on_body_.clear();
   tracker_->begin_step(surface_motion_);
   body_squared_frequency_ = wall_.squared_frequency();
+  is_plain_ = wall_.stands() && !options_.curvature_radius;
   squared_time_ = 2.0 * step.dt * step.dt, squared_way_ = 2.0 * wall_travel_ * wall_travel_;
   FeetTracker::Query queries[FeetTracker::kBlock];  // found together, and still at hand afterwards
-  const int candidates = static_cast<int>(candidates_.candidates().size());
+  const int candidates = static_cast<int>(candidates_.candidates().size()), block = tracker_->block();
   searches_.near += candidates;
-  for (int begin = 0; begin < candidates; begin += FeetTracker::kBlock) {
+  for (int begin = 0; begin < candidates; begin += block) {
     const std::size_t first = contacts_.size();
-    const int end = std::min(begin + FeetTracker::kBlock, candidates);
+    const int end = std::min(begin + block, candidates);
     const int count = take_steady(particles, step, begin, end, queries);
     tracker_->follow(queries, count);
     for (int k = 0; k < count; ++k) find_contacts(particles, step, queries[k]);
@@ -123,16 +125,20 @@ inline int ContactLoop::take_steady(const ParticleView& particles, const StepInf
                                     FeetTracker::Query* queries) {
   const Candidate* const candidates = candidates_.candidates().data();
   SteadyFeet* const steady = find_steady(particles, step, begin, end);
+  const std::size_t before = contacts_.size();
+  if (steady) contacts_.resize(before + SteadyFeet::kMostFeet * SteadyFeet::kBlock);  // at most
+  Contact* next = contacts_.data() + before;
   int count = 0;
   for (int candidate = begin; candidate < end; ++candidate) {
     const int i = candidates[candidate].particle, k = candidate - begin;
     if (steady && steady->is_there(k) && settle(particles, *steady, k, i)) {
-      go_on(particles, step, i, steady->foot(k));
-      if (steady->feet(k) > 1) go_on_with_others(particles, step, i, *steady, k);
+      go_on(particles, step, i, steady->foot(k), *next++);
+      if (steady->feet(k) > 1) next = go_on_with_others(particles, step, i, *steady, k, next);
     } else if (may_touch(particles, step, candidate)) {
       queries[count++] = query_of(particles, step, candidate);
     }
   }
+  contacts_.resize(static_cast<std::size_t>(next - contacts_.data()));
   return count;
 }
 
@@ -146,12 +152,20 @@ inline SteadyFeet* ContactLoop::find_steady(const ParticleView& particles, const
   for (int candidate = begin; candidate < end; ++candidate) {
     if (!steady->has(candidate - begin)) continue;
     const std::ptrdiff_t i = candidates[candidate].particle;
+    prefetch_contact(p.memory, static_cast<int>(i),
+                     contacts_.size() + static_cast<std::size_t>(candidate - begin));
     if (p.meets_wall(static_cast<int>(i)))
       steady->add(candidate - begin, p.x + 3 * i, p.v + 3 * i,
                   touch_reach(particles, step, static_cast<int>(i)));
   }
   steady->find({squared_time_, squared_way_, wall_.resolution()});
   return steady;
+}
+
+// Most have one, in the particle's first slot.
+inline void ContactLoop::prefetch_contact(const ContactMemory& memory, int i, std::size_t place) const {
+  nurbs::prefetch_to_write(memory.slots[0] + memory.offset(i), sizeof(double));
+  nurbs::prefetch_to_write(contacts_.data() + place, sizeof(Contact));
 }
 
 inline bool ContactLoop::may_touch(const ParticleView& particles, const StepInfo& step, int candidate) const {
@@ -218,33 +232,39 @@ bool ContactLoop::find_slots(const ParticleSlots& slots, SteadyFeet& steady, int
 
 // A contact that keeps its slot and its side.
 [[gnu::always_inline]] inline void ContactLoop::go_on(const ParticleView& particles, const StepInfo& step,
-                                                      int i, const SteadyFeet::Foot& foot) {
+                                                      int i, const SteadyFeet::Foot& foot, Contact& contact) {
   const nurbs::Parameter<2> xi = foot.xi();
-  Contact& contact = add_contact(particles, i, foot.slot(), foot.distance());
+  begin_contact(particles, i, foot.slot(), foot.distance(), contact);
   contact.foot.patch = foot.patch(), contact.foot.xi = xi;
   contact.delta = foot.delta();
   contact.wall_velocity.setZero();
-  if (!wall_.stands()) {
-    contact.wall_velocity = wall_.velocity_of_rigid(contact.centre - contact.delta, contact.delta);
-    check_crossing(particles, step, i, contact.distance, contact.delta, contact.wall_velocity);
-  }
-  contact.inside =
-      foot.status() == search::FootStatus::interior && wall_.is_inside(foot.patch(), foot.side());
-  if (options_.curvature_radius) {
-    const Vector3 point = wall_.to_frame(contact.centre - contact.delta);
-    contact.effective_radius =
-        wall_.effective_radius({xi, point, contact.distance, foot.status(), 0, foot.patch()}, contact.delta,
-                               contact.effective_radius);
-  }
-  searches_.add_direct(foot.status());
+  contact.inside = false;  // bodies with an inside deform
   ContactSlot slot = particles.memory.slot(i, foot.slot());
   slot.set_parameters({foot.patch(), xi});
   contact.history = slot.history();
+  searches_.add_direct(foot.status());
+  if (!is_plain_) complete(particles, step, foot, contact);
 }
 
-void ContactLoop::go_on_with_others(const ParticleView& particles, const StepInfo& step, int i,
-                                    SteadyFeet& steady, int k) {
-  for (int n = 1; n < steady.feet(k); ++n) go_on(particles, step, i, steady.foot(k, n));
+// On walls that move, or whose curvature counts.
+void ContactLoop::complete(const ParticleView& particles, const StepInfo& step, const SteadyFeet::Foot& foot,
+                           Contact& contact) {
+  if (!wall_.stands()) {
+    contact.wall_velocity = wall_.velocity_of_rigid(contact.centre - contact.delta, contact.delta);
+    check_crossing(particles, step, contact.particle, contact.distance, contact.delta, contact.wall_velocity);
+  }
+  if (options_.curvature_radius) {
+    const Vector3 point = wall_.to_frame(contact.centre - contact.delta);
+    contact.effective_radius =
+        wall_.effective_radius({foot.xi(), point, contact.distance, foot.status(), 0, foot.patch()},
+                               contact.delta, contact.effective_radius);
+  }
+}
+
+Contact* ContactLoop::go_on_with_others(const ParticleView& particles, const StepInfo& step, int i,
+                                        const SteadyFeet& steady, int k, Contact* next) {
+  for (int n = 1; n < steady.feet(k); ++n) go_on(particles, step, i, steady.foot(k, n), *next++);
+  return next;
 }
 
 inline void ContactLoop::find_contacts(const ParticleView& particles, const StepInfo& step,
@@ -270,7 +290,8 @@ inline void ContactLoop::find_contacts(const ParticleView& particles, const Step
     }
     if (touches) {
       const int slot = tracked.slot = take_slot(particles, step, i, tracked, slots, delta);
-      Contact& contact = add_contact(particles, i, slot, foot.distance);
+      Contact& contact = contacts_.emplace_back();
+      begin_contact(particles, i, slot, foot.distance, contact);
       contact.foot.patch = foot.patch, contact.foot.xi = foot.xi;  // a copy of the whole waits for its parts
       contact.delta = delta;
       contact.wall_velocity = v_wall;
@@ -321,12 +342,12 @@ inline int ContactLoop::take_slot(const ParticleView& particles, const StepInfo&
 }
 
 // All but its foot and the wall's velocity there.
-inline Contact& ContactLoop::add_contact(const ParticleView& particles, int i, int slot, double distance) {
+inline void ContactLoop::begin_contact(const ParticleView& particles, int i, int slot, double distance,
+                                       Contact& contact) {
   NURBS_ASSERT(0 <= i && i < particles.count, i, particles.count);
   const double radius = particles.radius[i];
   const int tag = particles.tag[i];
   const Vector3 centre = particles.centre(i);
-  Contact& contact = contacts_.emplace_back();
   contact.particle = i;
   contact.tag = tag;
   contact.slot = slot;
@@ -337,7 +358,6 @@ inline Contact& ContactLoop::add_contact(const ParticleView& particles, int i, i
   contact.centre = centre;
   contact.missing = 0.0;
   contact.correction = nullptr;
-  return contact;
 }
 
 }  // namespace contact

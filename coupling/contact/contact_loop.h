@@ -118,15 +118,19 @@ class ContactLoop {
   int take_steady(const ParticleView& particles, const StepInfo& step, int begin, int end,
                   FeetTracker::Query* queries);
   SteadyFeet* find_steady(const ParticleView& particles, const StepInfo& step, int begin, int end);
+  void prefetch_contact(const ContactMemory& memory, int particle, std::size_t place) const;
   bool may_touch(const ParticleView& particles, const StepInfo& step, int candidate) const;
   FeetTracker::Query query_of(const ParticleView& particles, const StepInfo& step, int candidate) const;
   double squared_travel(const ParticleView& particles, int particle) const;
   double touch_reach(const ParticleView& particles, const StepInfo& step, int particle) const;
   bool settle(const ParticleView& particles, SteadyFeet& steady, int k, int i);
   static bool find_slots(const ParticleSlots& slots, SteadyFeet& steady, int k);
-  void go_on(const ParticleView& particles, const StepInfo& step, int i, const SteadyFeet::Foot& foot);
-  void go_on_with_others(const ParticleView& particles, const StepInfo& step, int i, SteadyFeet& steady,
-                         int k);
+  void go_on(const ParticleView& particles, const StepInfo& step, int i, const SteadyFeet::Foot& foot,
+             Contact& contact);
+  Contact* go_on_with_others(const ParticleView& particles, const StepInfo& step, int i,
+                             const SteadyFeet& steady, int k, Contact* next);
+  void complete(const ParticleView& particles, const StepInfo& step, const SteadyFeet::Foot& foot,
+                Contact& contact);
   void find_contacts(const ParticleView& particles, const StepInfo& step, const FeetTracker::Query& query);
   bool may_cross(const ParticleView& particles, const StepInfo& step, int particle, double distance) const;
   void check_crossing(const ParticleView& particles, const StepInfo& step, int particle, double distance,
@@ -136,7 +140,8 @@ class ContactLoop {
   }
   int take_slot(const ParticleView& particles, const StepInfo& step, int particle, const TrackedFoot& tracked,
                 const ParticleSlots& slots, const Vector3& delta) const;
-  Contact& add_contact(const ParticleView& particles, int particle, int slot, double distance);
+  static void begin_contact(const ParticleView& particles, int particle, int slot, double distance,
+                            Contact& contact);
   void push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact);
   void turn_body(const Contact& contact, coupling::ContactForce& on_body) const;
   void answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,
@@ -179,6 +184,7 @@ class ContactLoop {
   MeshAlarm uncorrected_, not_static_;
   double body_squared_frequency_ = 0.0;            // in this step [1/time^2]
   double squared_time_ = 0.0, squared_way_ = 0.0;  // in this step: see squared_travel()
+  bool is_plain_ = false;                          // in this step: steady contacts are soon complete
 };
 
 }  // namespace contact

@@ -9,7 +9,7 @@
 
 namespace contact {
 
-constexpr int kFeetCapacity = 64;
+constexpr int kFeetCapacity = 32;  // with their contacts they stay in the first cache
 using FeetLanes = double[kFeetCapacity + 8];
 
 /// What feet have been kept with, number by number: it is read in place in each step.  Feet last as long as

@@ -60,7 +60,9 @@ class FeetTracker {
     /// It may come to the surface within a step from farther than it touches.
     bool is_fast() const { return squared_travel > touch_reach * touch_reach; }
   };
-  static constexpr int kBlock = SteadyFeet::kBlock;  ///< queries that are followed together, at most
+  static constexpr int kBlock = 64;  ///< queries that are followed together, at most
+  /// Candidates that are best taken together.
+  int block() { return steady() ? SteadyFeet::kBlock : kBlock; }
   /// Whether nothing within `touch_reach` can touch a candidate: too little has moved or grown since its feet
   /// were found last.
   bool is_quiet(int candidate, const nurbs::Vector3& centre, double touch_reach) const {

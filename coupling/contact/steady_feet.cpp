@@ -20,19 +20,19 @@ SteadyFeet::SteadyFeet(const brep::FootSearch& search, const FaceNames& names)
 
 SteadyFeet::Page::Page() {
   std::fill_n(piece, kBlock, kNone);
-  std::fill_n(face, kBlock, kNone);
+  std::fill_n(face, kBlock, kNone), std::fill_n(patch, kBlock, kNone);
   std::fill_n(marks, kBlock, Marks());
   std::fill_n(further, kBlock, kNone);
   std::fill_n(kept.margin, kBlock, kAway);
 }
 
-void SteadyFeet::Page::set(int k, const Room& room, int piece_below, int face_below, int side_of_face,
+void SteadyFeet::Page::set(int k, const Room& room, const Under& under, int side_of_face,
                            const Marks& of_foot) {
   count += piece[k] < 0;
   for (int d = 0; d < 3; ++d) kept.centre[d][k] = room.centre[d];
   kept.reach[k] = room.reach, kept.margin[k] = room.margin;
   kept.sign[k] = side_of_face;
-  piece[k] = piece_below, face[k] = face_below;
+  piece[k] = under.piece, face[k] = under.face, patch[k] = under.patch;
   marks[k] = of_foot;
   below.is_known = false;
 }
@@ -51,7 +51,7 @@ void SteadyFeet::set_plane(KeptFeet& kept, int k, int piece, int face) const {
 
 void SteadyFeet::set(Page& page, int k, const Room& room, int piece, int face, int side,
                      const Marks& marks) const {
-  page.set(k, room, piece, face, side, marks);
+  page.set(k, room, {piece, face, names_.patch_of(face)}, side, marks);
   if (marks.on == On::plane) set_plane(page.kept, k, piece, face);
 }
 
@@ -64,12 +64,14 @@ void SteadyFeet::Page::forget(int k) {
 }
 
 void SteadyFeet::Page::look_below() {
-  below = {true, true, false, false,
-           static_cast<int>(std::find_if(piece, piece + kBlock, [](int of) { return of >= 0; }) - piece)};
+  below = Below();
+  below.is_known = below.is_one_face = true;
+  below.first = static_cast<int>(std::find_if(piece, piece + kBlock, [](int of) { return of >= 0; }) - piece);
   for (int k = below.first; k < kBlock; ++k) {
     if (piece[k] < 0) continue;
     below.is_one_face &= face[k] == face[below.first] && marks[k].on == marks[below.first].on;
     (marks[k].on == On::plane ? below.has_planes : below.has_others) = true;
+    below.has_several |= marks[k].kept > 1;
   }
 }
 
@@ -83,8 +85,7 @@ void SteadyFeet::forget_all(std::size_t candidates) {
 void SteadyFeet::keep(int candidate, const Room& room, int piece, const brep::Foot& foot,
                       const nurbs::Vector3& centre) {
   set(page_of(candidate), line_of(candidate), room, piece, foot.patch, foot.side,
-      {of_patch(foot.patch, foot.side), kNone, 1, 1,
-       search_.triangle(piece).exists() ? On::plane : On::curved});
+      {kNone, 1, 1, search_.triangle(piece).exists() ? On::plane : On::curved});
   if (!followed_.empty()) followed_[candidate] = {foot.xi, centre - foot.point};
 }
 
@@ -101,8 +102,7 @@ void SteadyFeet::keep(int candidate, const Room& room, const std::vector<brep::F
   NURBS_ASSERT(0 < touching && touching <= count && count <= kMostFeet, touching, count);
   Page& page = page_of(candidate);
   const auto marks = [&](const brep::Foot& foot) {
-    return Marks{of_patch(foot.patch, foot.side), kNone, static_cast<std::int8_t>(touching),
-                 static_cast<std::int8_t>(count),
+    return Marks{kNone, static_cast<std::int8_t>(touching), static_cast<std::int8_t>(count),
                  foot.status == search::FootStatus::edge ? On::edge : On::plane};
   };
   set(page, k, room, pieces[0], feet[0].patch, feet[0].side, marks(feet[0]));
@@ -148,8 +148,13 @@ bool SteadyFeet::begin_block(int first, int count, const coupling::RigidFrame& f
   return page_->count > 0;
 }
 
+void SteadyFeet::add_others() {
+  for (int k = 0; k < block_.count; ++k)
+    if (page_->marks[k].kept > 1 && has(k) && block_.touch_reach[k] >= 0.0) add_others(k);
+}
+
 // Those for which there is no room are not there.
-void SteadyFeet::add_others(int k, const double* x, const double* v, double touch_reach) {
+void SteadyFeet::add_others(int k) {
   const int count = page_->marks[k].kept - 1;
   if (others_.count + count > kBlock) {
     block_.touch_reach[k] = kAway;
@@ -160,7 +165,9 @@ void SteadyFeet::add_others(int k, const double* x, const double* v, double touc
   for (int n = 0; n < count; ++n) {
     const Further& own = further_[page_->further[k] + n];
     const int line = others_.count++;
-    set_centre(others_, line, x, v, touch_reach);
+    for (int d = 0; d < 3; ++d) others_.centre[d][line] = block_.centre[d][k];
+    others_.squared_speed[line] = block_.squared_speed[k];
+    others_.touch_reach[line] = block_.touch_reach[k];
     for (int d = 0; d < 3; ++d) others_kept_.centre[d][line] = own.centre[d];
     others_kept_.reach[line] = own.reach, others_kept_.margin[line] = own.margin;
     others_kept_.sign[line] = own.sign;
@@ -173,9 +180,11 @@ void SteadyFeet::add_others(int k, const double* x, const double* v, double touc
 
 void SteadyFeet::find(const StepNumbers& step) {
   if (!page_->below.is_known) page_->look_below();
+  if (page_->below.has_several) add_others();
   find({block_, page_->kept, page_->piece, page_->face, page_->marks, page_->below}, step);
   if (others_.count == 0) return;
-  const Below below = {true, false, true, has_other_edges_, 0};
+  Below below;
+  below.has_planes = true, below.has_others = has_other_edges_;
   find({others_, others_kept_, other_piece_, other_face_, other_marks_, below}, step);
   for (int n = 0; n < several_count_; ++n) bring_together(several_[n]);
 }

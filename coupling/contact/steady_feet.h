@@ -57,8 +57,9 @@ class SteadyFeet {
   /// One that has such feet; those that are not added are not there.  `x`, `v`: of its centre.
   void add(int k, const double* x, const double* v, double touch_reach) {
     NURBS_ASSERT(has(k) && k < block_.count, k, block_.count);
-    set_centre(block_, k, x, v, touch_reach);
-    if (page_->marks[k].kept > 1) add_others(k, x, v, touch_reach);
+    for (int d = 0; d < 3; ++d) block_.centre[d][k] = x[d];
+    block_.squared_speed[k] = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    block_.touch_reach[k] = touch_reach;
   }
 
   /// Finds the feet of those that were added.
@@ -68,8 +69,7 @@ class SteadyFeet {
   int feet(int k) const { return page_->marks[k].feet; }
 
   enum class On : std::int8_t { plane, curved, edge };  ///< what the foot is on
-  struct alignas(8) Marks {                             // copied as one number
-    std::int8_t side;                                   ///< of the patch, where the centre is: +1 or -1
+  struct alignas(4) Marks {                             // copied as one number
     std::int8_t slot;  ///< of the particle's memory; -1: settle() was not told yet
     std::int8_t feet;  ///< of the candidate
     std::int8_t kept;  ///< these, and those that do not touch
@@ -87,7 +87,6 @@ class SteadyFeet {
       return {block_.delta[0][line_], block_.delta[1][line_], block_.delta[2][line_]};
     }
     double distance() const { return block_.distance[line_]; }  ///< [length]
-    int side() const { return marks_.side; }
     int slot() const { return marks_.slot; }
     search::FootStatus status() const {
       return marks_.on == On::edge ? search::FootStatus::edge : search::FootStatus::interior;
@@ -99,9 +98,7 @@ class SteadyFeet {
     const Marks& marks_;
   };
   /// The nearest of a candidate; then the others.
-  Foot foot(int k) const {
-    return {block_, k, page_->face[k], names_.patch_of(page_->face[k]), page_->marks[k]};
-  }
+  Foot foot(int k) const { return {block_, k, page_->face[k], page_->patch[k], page_->marks[k]}; }
   Foot foot(int k, int n) const {
     if (n == 0) return foot(k);
     const int line = first_other_[k] + n - 1, face = other_face_[line];
@@ -125,18 +122,21 @@ class SteadyFeet {
   // What the faces below lines have in common.
   struct Below {
     bool is_known = false, is_one_face = false, has_planes = false, has_others = false;
-    int first = 0;  // a line that has one
+    bool has_several = false;  // some candidate has other feet
+    int first = 0;             // a line that has one
   };
   // The nearest feet of kBlock candidates, number by number.
   struct Page {
     Page();
-    void set(int k, const Room& room, int piece_below, int face_below, int side_of_face,
-             const Marks& of_foot);
+    struct Under {
+      int piece, face, patch;
+    };
+    void set(int k, const Room& room, const Under& under, int side_of_face, const Marks& of_foot);
     void forget(int k);
     void look_below();
 
     KeptFeet kept;
-    std::int32_t piece[kBlock], face[kBlock];  // or edge, and the face that has it
+    std::int32_t piece[kBlock], face[kBlock], patch[kBlock];  // or edge, and the face that has it
     Marks marks[kBlock];
     std::int32_t further[kBlock];  // in further_, of candidates that ever had several feet
     int count = 0;                 // of those that have a foot
@@ -170,14 +170,9 @@ class SteadyFeet {
     return pages_[candidate / kBlock];
   }
   static int line_of(int candidate) { return candidate % kBlock; }
-  static void set_centre(FeetBlock& block, int k, const double* x, const double* v, double touch_reach) {
-    for (int d = 0; d < 3; ++d) block.centre[d][k] = x[d];
-    block.squared_speed[k] = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    block.touch_reach[k] = touch_reach;
-  }
-  void add_others(int k, const double* x, const double* v, double touch_reach);
+  void add_others();
+  void add_others(int k);
   int room_for_others();
-  std::int8_t of_patch(int face, int side) const { return static_cast<std::int8_t>(names_.side(face, side)); }
   void find(const Lines& lines, const StepNumbers& step);
   void find_in_frame(const Lines& lines);
   void find_on_planes(const Lines& lines);

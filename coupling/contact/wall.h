@@ -89,11 +89,11 @@ class Wall {
   }
   /// +1 where dS/dxi x dS/deta points, -1 on the other side.
   int side_of(const Foot& foot, const Vector3& delta) const;
-  /// Whether a centre on this side of a patch, above a foot inside it, is inside the body.
-  bool is_inside(int patch, int side) const { return has_inside_ && shape_->outward_sign(patch) * side < 0; }
-  /// The same above any foot; outside an edge's or a corner's neither side of the patch is the inside.
+  /// Whether a centre on this side of a patch is inside the body; outside an edge or a corner neither side
+  /// is.
   bool is_inside(const Foot& foot, int side) const {
-    return foot.status == search::FootStatus::interior && is_inside(foot.patch, side);
+    return has_inside_ && foot.status == search::FootStatus::interior &&
+           shape_->outward_sign(foot.patch) * side < 0;
   }
   /// A centre nearer than this is on the surface [length].
   double resolution() const { return resolution_; }

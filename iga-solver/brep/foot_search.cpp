@@ -47,7 +47,7 @@ bool FootSearch::is_on_rim(const Foot& foot) const {
 void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) const {
   const size_t begin = pieces.size();
   tree_.near(tree_.query(d, reach), pieces);
-  const auto far = [&](int p) { return distance_of_piece(surface_, p, d) > reach; };
+  const auto far = [&](int p) { return least_distance(p, d) > reach; };
   pieces.erase(std::remove_if(pieces.begin() + static_cast<std::ptrdiff_t>(begin), pieces.end(), far),
                pieces.end());
   std::sort(pieces.begin() + static_cast<std::ptrdiff_t>(begin), pieces.end());
@@ -63,10 +63,16 @@ int FootSearch::activate(const Vector3& d, double reach, const int* pieces, int 
   return static_cast<int>(std::remove_if(active, active + maybe, far) - active);
 }
 
-// Of a piece from d, at least; more than `reach` matters to nobody.
+// Of a piece from d, at least.
+double FootSearch::least_distance(int piece, const Vector3& d) const {
+  const PlaneTriangle& triangle = triangles_[piece];
+  return triangle.exists() ? triangle.least_distance(d) : distance_of_piece(surface_, piece, d);
+}
+
+// Its parts, too; more than `reach` matters to nobody.
 double FootSearch::least_distance(int piece, const Vector3& d, const PieceTree::Query& query,
                                   double reach) const {
-  const double whole = distance_of_piece(surface_, piece, d);
+  const double whole = least_distance(piece, d);
   return whole > reach ? whole : std::max(whole, tree_.distance_of_parts(query, piece));
 }
 

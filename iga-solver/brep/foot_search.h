@@ -87,6 +87,7 @@ class FootSearch {
   double border_slack() const { return border_slack_; }
 
  private:
+  double least_distance(int piece, const Vector3& d) const;
   double least_distance(int piece, const Vector3& d, const PieceTree::Query& query, double reach) const;
   void add_feet(Minima& minima, const Vector3& d, double reach, const int* pieces, int count) const;
   bool is_well_inside_patch(const int* pieces, int count, const Vector3& d, double reach) const;

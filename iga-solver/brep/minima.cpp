@@ -154,7 +154,7 @@ void Minima::add_of_vertex(int v, int face) {
     if (face != kAll && corner.face != face) continue;
     for (int s = 0; s < 2; ++s) {
       if (!corner.leads[s] || !in_group(vertex, corner.group[s], w)) continue;
-      const Region here = region_of(vertex, w);
+      const Region& here = known_region_of(v, w);
       // What is a minimum only on the border, by the slack, is none for any point beside it.
       if (corner.region[s] == here.number && in_group(vertex, corner.group[s], w + here.inward))
         add_of_corner(corner, s == 0 ? 1 : -1, v);
@@ -183,6 +183,15 @@ bool Minima::in_group(const Vertex& vertex, int group, const Vector3& w) const {
     if (Sector(surface_, vertex, corner).steepest(w, 0.0) > corner_slack_) return false;
   }
   return true;
+}
+
+const Minima::Region& Minima::known_region_of(int vertex, const Vector3& w) {
+  const int known = std::min(region_count_, kRegions);
+  for (int k = 0; k < known; ++k)
+    if (regions_[k].vertex == vertex) return regions_[k].region;
+  KnownRegion& next = regions_[region_count_++ % kRegions];
+  next = {vertex, region_of(surface_.vertices[vertex], w)};
+  return next.region;
 }
 
 Minima::Region Minima::region_of(const Vertex& vertex, const Vector3& w) const {

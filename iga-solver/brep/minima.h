@@ -99,6 +99,7 @@ class Minima {
     Vector3 inward = Vector3::Zero();
   };
   Region region_of(const Vertex& vertex, const Vector3& w) const;
+  const Region& known_region_of(int vertex, const Vector3& w);
   // `use`: one by which the face meets the point, for the search on a patch; -1: none.
   void add_of_corner(const Corner& corner, int side, int vertex);
   void add(int face, int side, FootStatus status, int entity, const EdgePoint& at, int use);
@@ -129,6 +130,14 @@ class Minima {
   Vector3 d_;
   double reach_, slack_, same_point2_;
   double corner_slack_ = 0.0;  // of the vertex that is looked at
+  // Each face round a vertex asks for d's: those of the last vertices.
+  static constexpr int kRegions = 4;
+  struct KnownRegion {
+    int vertex;
+    Region region;
+  };
+  KnownRegion regions_[kRegions] = {};
+  int region_count_ = 0;
   std::vector<Foot>& out_;
   size_t begin_;  // of this point's feet
   int of_;

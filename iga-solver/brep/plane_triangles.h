@@ -3,8 +3,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "brep/surface.h"
@@ -39,6 +41,9 @@ class alignas(64) PlaneTriangle {
     const Vector3 from = d - origin_, n = normal();
     return {OverTriangle::Where::over, n, n.dot(from), {x_.dot(from), y_.dot(from)}};
   }
+  /// Of a point from the triangle, at least, and by no more than twice the corners' distance from the plane
+  /// too little [length].
+  double least_distance(const Vector3& d) const;
   /// Least distance of a point's foot on the plane from those sides of this piece where the face ends;
   /// infinite if none does [length].
   double from_border(const Vector3& d, const Piece& piece) const;
@@ -80,6 +85,24 @@ inline OverTriangle PlaneTriangle::place(const Vector3& d, double reach, double 
       at.where = Where::beside;
   }
   return at;
+}
+
+inline double PlaneTriangle::least_distance(const Vector3& d) const {
+  const OverTriangle at = over(d);
+  double beside2 = std::numeric_limits<double>::infinity();
+  bool is_over = true;
+  for (int i = 0; i < 3; ++i) {
+    const double *a = corner_[i], *b = corner_[(i + 1) % 3];
+    const double way[2] = {b[0] - a[0], b[1] - a[1]}, from[2] = {at.xi[0] - a[0], at.xi[1] - a[1]};
+    if (way[0] * from[1] - way[1] * from[0] >= 0.0) continue;
+    is_over = false;
+    const double along = way[0] * from[0] + way[1] * from[1], length2 = way[0] * way[0] + way[1] * way[1];
+    const double t = std::clamp(along / length2, 0.0, 1.0);
+    const double off[2] = {from[0] - t * way[0], from[1] - t * way[1]};
+    beside2 = std::min(beside2, off[0] * off[0] + off[1] * off[1]);
+  }
+  const double off2 = is_over ? 0.0 : beside2;
+  return std::max(std::sqrt(at.height * at.height + off2) - static_cast<double>(leeway_), 0.0);
 }
 
 /// Of all pieces, by their numbers.

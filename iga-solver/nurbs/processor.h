@@ -3,6 +3,8 @@
 // its line.
 #pragma once
 
+#include <cstddef>
+
 namespace nurbs {
 
 /// Has the processor fetch `lines` lines of 8 numbers, the first at an address that is a multiple of 64,
@@ -20,6 +22,14 @@ void prefetch(const Thing& thing) {
   constexpr int kLine = 64;
   for (int at = 0; at < static_cast<int>(sizeof(Thing)); at += kLine)
     __builtin_prefetch(reinterpret_cast<const char*>(&thing) + at);
+}
+
+/// The same of what will be written a while later, wherever it begins.  Stores are done in their order, each
+/// after its line has come: contacts on a plane, 32 at a time, without their law: 20.3 and 23.1 ns.
+inline void prefetch_to_write(const void* begin, std::size_t bytes) {
+  constexpr std::size_t kLine = 64;
+  for (std::size_t at = 0; at < bytes; at += kLine)
+    __builtin_prefetch(static_cast<const char*>(begin) + at, 1);
 }
 
 }  // namespace nurbs

@@ -124,45 +124,47 @@ TEST(FeetKernel, FeetOverPlanes) {
   Random random;
   for (const SimdLevel level : levels_here()) {
     const contact::FeetKernel kernel = contact::feet_kernel(level);
-    FeetBlock block = random_block(random, 61);
-    KeptFeet kept = kept_feet(random, block);
-    block.touch_reach[17] = -1.0;
-    std::vector<contact::PlaneNumbers> planes(block.count);
-    for (int k = 0; k < block.count; ++k) {
-      const Eigen::Matrix3d axes = random.rotation();
-      contact::PlaneNumbers& plane = planes[k];
-      copy(0.1 * random.vector(), plane.origin), copy(axes.col(0), plane.x), copy(axes.col(1), plane.y);
-      copy(axes.col(0).cross(axes.col(1)), plane.normal);
-      for (int i = 0; i < 2; ++i) plane.scale[i] = random(), plane.shift[i] = random();
-      for (int d = 0; d < 3; ++d) {
-        kept.origin[d][k] = plane.origin[d];
-        kept.x[d][k] = plane.x[d], kept.y[d][k] = plane.y[d];
-      }
-      for (int i = 0; i < 2; ++i) kept.scale[i][k] = plane.scale[i], kept.shift[i][k] = plane.shift[i];
-    }
-    FeetBlock each = block;
-    kernel.room_to_move(each, kept);
-    kernel.over_planes(each, kept);
     int there = 0;
-    for (int k = 0; k < block.count; ++k) {
-      FeetBlock one = block;
-      kernel.room_to_move(one, kept);
-      kernel.over_one_plane(one, kept, planes[k]);
-      const Vector3d c = get(block.centre, k), n = Vector3d::Map(planes[k].normal),
-                     way = c - Vector3d::Map(planes[k].origin);
-      const double distance = kept.sign[k] * n.dot(way);
-      for (const FeetBlock* found : {&one, &each}) {
-        EXPECT_NEAR(found->distance[k], distance, 4 * kRoundOff);
-        EXPECT_LT((get(found->delta, k) - n.dot(way) * n).norm(), 8 * kRoundOff);
-        EXPECT_NEAR(found->xi[0][k],
-                    planes[k].scale[0] * way.dot(Vector3d::Map(planes[k].x)) + planes[k].shift[0],
-                    4 * kRoundOff);
-        EXPECT_NEAR(found->xi[1][k],
-                    planes[k].scale[1] * way.dot(Vector3d::Map(planes[k].y)) + planes[k].shift[1],
-                    4 * kRoundOff);
-        const bool is_there = distance > 0.0 && distance < block.touch_reach[k] && may_move(block, kept, k);
-        EXPECT_EQ(found->room[k] > 0.0, is_there);
-        there += is_there;
+    for (int blocks = 0; blocks < 2; ++blocks) {
+      FeetBlock block = random_block(random, 29);
+      KeptFeet kept = kept_feet(random, block);
+      block.touch_reach[17] = -1.0;
+      std::vector<contact::PlaneNumbers> planes(block.count);
+      for (int k = 0; k < block.count; ++k) {
+        const Eigen::Matrix3d axes = random.rotation();
+        contact::PlaneNumbers& plane = planes[k];
+        copy(0.1 * random.vector(), plane.origin), copy(axes.col(0), plane.x), copy(axes.col(1), plane.y);
+        copy(axes.col(0).cross(axes.col(1)), plane.normal);
+        for (int i = 0; i < 2; ++i) plane.scale[i] = random(), plane.shift[i] = random();
+        for (int d = 0; d < 3; ++d) {
+          kept.origin[d][k] = plane.origin[d];
+          kept.x[d][k] = plane.x[d], kept.y[d][k] = plane.y[d];
+        }
+        for (int i = 0; i < 2; ++i) kept.scale[i][k] = plane.scale[i], kept.shift[i][k] = plane.shift[i];
+      }
+      FeetBlock each = block;
+      kernel.room_to_move(each, kept);
+      kernel.over_planes(each, kept);
+      for (int k = 0; k < block.count; ++k) {
+        FeetBlock one = block;
+        kernel.room_to_move(one, kept);
+        kernel.over_one_plane(one, kept, planes[k]);
+        const Vector3d c = get(block.centre, k), n = Vector3d::Map(planes[k].normal),
+                       way = c - Vector3d::Map(planes[k].origin);
+        const double distance = kept.sign[k] * n.dot(way);
+        for (const FeetBlock* found : {&one, &each}) {
+          EXPECT_NEAR(found->distance[k], distance, 4 * kRoundOff);
+          EXPECT_LT((get(found->delta, k) - n.dot(way) * n).norm(), 8 * kRoundOff);
+          EXPECT_NEAR(found->xi[0][k],
+                      planes[k].scale[0] * way.dot(Vector3d::Map(planes[k].x)) + planes[k].shift[0],
+                      4 * kRoundOff);
+          EXPECT_NEAR(found->xi[1][k],
+                      planes[k].scale[1] * way.dot(Vector3d::Map(planes[k].y)) + planes[k].shift[1],
+                      4 * kRoundOff);
+          const bool is_there = distance > 0.0 && distance < block.touch_reach[k] && may_move(block, kept, k);
+          EXPECT_EQ(found->room[k] > 0.0, is_there);
+          there += is_there;
+        }
       }
     }
     EXPECT_GT(there, 10);
@@ -178,34 +180,36 @@ TEST(FeetKernel, FeetOverACylinder) {
   Random random;
   for (const SimdLevel level : levels_here()) {
     const contact::FeetKernel kernel = contact::feet_kernel(level);
-    FeetBlock block = random_block(random, 61);
-    const KeptFeet kept = kept_feet(random, block);
-    const Eigen::Matrix3d axes = random.rotation();
-    const Vector3d origin = 0.1 * random.vector();
-    const brep::ChartLine around = around_cylinder(-1.5), along = along_cylinder();
-    contact::CylinderNumbers cylinder{{}, {}, {}, {}, 0.7, 0.3, around.numbers(), along.numbers()};
-    copy(origin, cylinder.origin), copy(axes.col(0), cylinder.x), copy(axes.col(1), cylinder.y);
-    copy(axes.col(2), cylinder.z);
-    kernel.room_to_move(block, kept);
-    kernel.over_one_cylinder(block, kept, cylinder);
     int there = 0;
-    for (int k = 0; k < block.count; ++k) {
-      const Vector3d way = get(block.centre, k) - origin, z = axes.col(2), across = way - way.dot(z) * z;
-      const double distance = kept.sign[k] * (across.norm() - 0.7);
-      EXPECT_NEAR(block.distance[k], distance, 4 * kRoundOff);
-      EXPECT_NEAR(block.length[k], way.dot(z), 4 * kRoundOff);
-      EXPECT_NEAR(block.cos[k], across.normalized().dot(axes.col(0)), 8 * kRoundOff);
-      EXPECT_NEAR(block.sin[k], across.normalized().dot(axes.col(1)), 8 * kRoundOff);
-      EXPECT_LT((get(block.delta, k) - (across - 0.7 * across.normalized())).norm(), 8 * kRoundOff);
-      double xi[2];
-      const bool is_around = around.place_angle(block.cos[k], block.sin[k], xi[0]),
-                 is_along = along.place_length(block.length[k], xi[1]);
-      EXPECT_EQ(block.xi[0][k], xi[0]);
-      EXPECT_EQ(block.xi[1][k], xi[1]);
-      const bool is_there = may_move(block, kept, k) && distance > 0.0 && distance < block.touch_reach[k] &&
-                            across.norm() > 0.3 && is_around && is_along;
-      EXPECT_EQ(block.room[k] > 0.0, is_there);
-      there += is_there;
+    for (int blocks = 0; blocks < 2; ++blocks) {
+      FeetBlock block = random_block(random, 29);
+      const KeptFeet kept = kept_feet(random, block);
+      const Eigen::Matrix3d axes = random.rotation();
+      const Vector3d origin = 0.1 * random.vector();
+      const brep::ChartLine around = around_cylinder(-1.5), along = along_cylinder();
+      contact::CylinderNumbers cylinder{{}, {}, {}, {}, 0.7, 0.3, around.numbers(), along.numbers()};
+      copy(origin, cylinder.origin), copy(axes.col(0), cylinder.x), copy(axes.col(1), cylinder.y);
+      copy(axes.col(2), cylinder.z);
+      kernel.room_to_move(block, kept);
+      kernel.over_one_cylinder(block, kept, cylinder);
+      for (int k = 0; k < block.count; ++k) {
+        const Vector3d way = get(block.centre, k) - origin, z = axes.col(2), across = way - way.dot(z) * z;
+        const double distance = kept.sign[k] * (across.norm() - 0.7);
+        EXPECT_NEAR(block.distance[k], distance, 4 * kRoundOff);
+        EXPECT_NEAR(block.length[k], way.dot(z), 4 * kRoundOff);
+        EXPECT_NEAR(block.cos[k], across.normalized().dot(axes.col(0)), 8 * kRoundOff);
+        EXPECT_NEAR(block.sin[k], across.normalized().dot(axes.col(1)), 8 * kRoundOff);
+        EXPECT_LT((get(block.delta, k) - (across - 0.7 * across.normalized())).norm(), 8 * kRoundOff);
+        double xi[2];
+        const bool is_around = around.place_angle(block.cos[k], block.sin[k], xi[0]),
+                   is_along = along.place_length(block.length[k], xi[1]);
+        EXPECT_EQ(block.xi[0][k], xi[0]);
+        EXPECT_EQ(block.xi[1][k], xi[1]);
+        const bool is_there = may_move(block, kept, k) && distance > 0.0 && distance < block.touch_reach[k] &&
+                              across.norm() > 0.3 && is_around && is_along;
+        EXPECT_EQ(block.room[k] > 0.0, is_there);
+        there += is_there;
+      }
     }
     EXPECT_GT(there, 3);
   }
@@ -215,7 +219,7 @@ TEST(FeetKernel, FeetOverACylinder) {
 TEST(FeetKernel, StepsThatNeedASecondLook) {
   Random random;
   for (const SimdLevel level : levels_here()) {
-    FeetBlock block = random_block(random, 61);
+    FeetBlock block = random_block(random, 29);
     for (int k = 0; k < block.count; ++k) {
       block.room[k] = 1.0;
       block.distance[k] = block.touch_reach[k] * random(0.3, 1.0);
@@ -238,7 +242,7 @@ TEST(FeetKernel, StepsThatNeedASecondLook) {
 // Runs give the same digits on all machines.
 TEST(FeetKernel, InstructionSetsAgreeInAllDigits) {
   Random random;
-  const FeetBlock given = random_block(random, 63);
+  const FeetBlock given = random_block(random, 31);
   const KeptFeet kept = kept_feet(random, given);
   const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> R = random.rotation();
   const Vector3d origin = random.vector();
