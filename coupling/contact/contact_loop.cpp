@@ -150,7 +150,10 @@ inline SteadyFeet* ContactLoop::find_steady(const ParticleView& particles, const
   const Candidate* const candidates = candidates_.candidates().data();
   const ParticleView p = particles;
   for (int candidate = begin; candidate < end; ++candidate) {
-    if (!steady->has(candidate - begin)) continue;
+    if (!steady->has(candidate - begin)) {
+      tracker_->prefetch_quiet(candidate);
+      continue;
+    }
     const std::ptrdiff_t i = candidates[candidate].particle;
     prefetch_contact(p.memory, static_cast<int>(i),
                      contacts_.size() + static_cast<std::size_t>(candidate - begin));

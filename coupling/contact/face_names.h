@@ -22,7 +22,11 @@ struct FaceNames {
   int face_at(const nurbs::SurfacePoint& at) const { return parts ? parts->part_at(at) : at.patch; }
   /// Parameters of a point of the face on its patch.
   nurbs::Parameter<2> on_patch(int face, const nurbs::Parameter<2>& xi) const {
-    nurbs::Parameter<2> on = charts ? (*charts)[face].to_patch(xi) : xi;
+    return inside(face, charts ? (*charts)[face].to_patch(xi) : xi);
+  }
+  /// Parameters on the patch that round-off may have brought out of the face.
+  nurbs::Parameter<2> inside(int face, nurbs::Parameter<2> on) const {
+    if (charts) on = (*charts)[face].inside(on);
     if (parts) parts->keep_in(face, on);
     return on;
   }

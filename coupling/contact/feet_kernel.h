@@ -18,9 +18,11 @@ using FeetLanes = double[kFeetCapacity + 8];
 struct KeptFeet {
   alignas(64) FeetLanes centre[3] = {};  // where it was looked at, in the frame
   FeetLanes reach = {}, margin = {};
-  FeetLanes sign = {};                             // of its height over the face
-  FeetLanes origin[3] = {}, x[3] = {}, y[3] = {};  // of the planes below; else they may hold anything
-  FeetLanes scale[2] = {}, shift[2] = {};          // from their parameters to the patch's
+  FeetLanes sign = {};  // of its height over the face
+  // Of the planes below, and from their parameters to the patch's; of edges start, direction, and from the
+  // way along them; else they may hold anything.
+  FeetLanes origin[3] = {}, x[3] = {}, y[3] = {};
+  FeetLanes scale[2] = {}, shift[2] = {};
 };
 
 /// Centres and their feet, likewise.  Lengths have one unit throughout; `xi` is the patch's.

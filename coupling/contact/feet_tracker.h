@@ -11,6 +11,7 @@
 #include "coupling/contact/candidate_list.h"
 #include "coupling/contact/contact_memory.h"
 #include "coupling/contact/steady_feet.h"
+#include "nurbs/processor.h"
 #include "search/foot.h"
 
 namespace contact {
@@ -70,6 +71,8 @@ class FeetTracker {
     const double allowance = quiet.clearance - touch_reach - (surface_motion_ + quiet.surface_motion);
     return allowance > 0.0 && (centre - quiet.centre).squaredNorm() < allowance * allowance;
   }
+  /// Has the processor fetch what that is seen by.
+  void prefetch_quiet(int candidate) const { nurbs::prefetch(quiet_[candidate]); }
   /// Candidates whose feet need no search: ask these before anything else; null: none ever.
   virtual SteadyFeet* steady() { return nullptr; }
   /// Takes the branches of these candidates to where they are now, as far as they are followed.
@@ -109,7 +112,7 @@ class FeetTracker {
   const CandidateList& candidates_;
 
  private:
-  struct Quiet {
+  struct alignas(64) Quiet {                         // one line
     nurbs::Vector3 centre = nurbs::Vector3::Zero();  // at the last search
     double clearance = 0.0;  // no point of the surface was nearer then; 0: one touched
     double surface_motion = 0.0;

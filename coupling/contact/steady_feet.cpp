@@ -37,22 +37,41 @@ void SteadyFeet::Page::set(int k, const Room& room, const Under& under, int side
   below.is_known = false;
 }
 
-void SteadyFeet::set_plane(KeptFeet& kept, int k, int piece, int face) const {
+SteadyFeet::Ground SteadyFeet::ground_of(On on, int piece, int face) const {
+  if (on == On::plane) return plane_ground(piece, face);
+  return on == On::edge ? edge_ground(piece, face) : Ground();
+}
+
+SteadyFeet::Ground SteadyFeet::plane_ground(int piece, int face) const {
   const brep::PlaneTriangle& plane = search_.triangle(piece);
-  for (int d = 0; d < 3; ++d) {
-    kept.origin[d][k] = plane.origin()[d];
-    kept.x[d][k] = plane.x()[d], kept.y[d][k] = plane.y()[d];
+  Ground ground{plane.origin(), plane.x(), plane.y(), {1.0, 1.0}, {0.0, 0.0}};
+  for (int i = 0; i < 2 && charts_; ++i) {
+    const brep::ChartLine& line = (*charts_)[face].line[i];
+    ground.scale[i] = line.scale(), ground.shift[i] = line.shift();
   }
-  for (int i = 0; i < 2; ++i) {
-    kept.scale[i][k] = charts_ ? (*charts_)[face].line[i].scale() : 1.0;
-    kept.shift[i][k] = charts_ ? (*charts_)[face].line[i].shift() : 0.0;
-  }
+  return ground;
+}
+
+SteadyFeet::Ground SteadyFeet::edge_ground(int number, int face) const {
+  const brep::Edge& edge = search_.surface().edges[number];
+  const auto on_patch = [&](double along) {
+    return names_.on_patch(face, search_.surface().faces[face].in_plane(edge.point(along)));
+  };
+  const nurbs::Parameter<2> start = on_patch(0.0), end = on_patch(edge.length);
+  Ground ground{edge.origin, edge.axis, nurbs::Vector3::Zero(), {}, {start[0], start[1]}};
+  for (int i = 0; i < 2; ++i) ground.scale[i] = (end[i] - start[i]) / edge.length;
+  return ground;
+}
+
+void SteadyFeet::Ground::copy_to(KeptFeet& kept, int k) const {
+  for (int d = 0; d < 3; ++d) kept.origin[d][k] = origin[d], kept.x[d][k] = x[d], kept.y[d][k] = y[d];
+  for (int i = 0; i < 2; ++i) kept.scale[i][k] = scale[i], kept.shift[i][k] = shift[i];
 }
 
 void SteadyFeet::set(Page& page, int k, const Room& room, int piece, int face, int side,
                      const Marks& marks) const {
   page.set(k, room, {piece, face, names_.patch_of(face)}, side, marks);
-  if (marks.on == On::plane) set_plane(page.kept, k, piece, face);
+  if (marks.on != On::curved) ground_of(marks.on, piece, face).copy_to(page.kept, k);
 }
 
 void SteadyFeet::Page::forget(int k) {
@@ -107,10 +126,17 @@ void SteadyFeet::keep(int candidate, const Room& room, const std::vector<brep::F
   };
   set(page, k, room, pieces[0], feet[0].patch, feet[0].side, marks(feet[0]));
   if (count > 1 && page.further[k] < 0) page.further[k] = room_for_others();
-  for (int n = 1; n < count; ++n)
-    further_[page.further[k] + n - 1] = {
-        room.centre, room.reach,    room.margin,   static_cast<double>(feet[n].side),
-        pieces[n],   feet[n].patch, marks(feet[n])};
+  for (int n = 1; n < count; ++n) {
+    const Marks of_foot = marks(feet[n]);
+    further_[page.further[k] + n - 1] = {room.centre,
+                                         room.reach,
+                                         room.margin,
+                                         static_cast<double>(feet[n].side),
+                                         ground_of(of_foot.on, pieces[n], feet[n].patch),
+                                         pieces[n],
+                                         feet[n].patch,
+                                         of_foot};
+  }
 }
 
 void SteadyFeet::go_on(int candidate, int before, const nurbs::Vector3& centre, double known) {
@@ -174,7 +200,7 @@ void SteadyFeet::add_others(int k) {
     other_piece_[line] = own.piece, other_face_[line] = own.face;
     other_marks_[line] = own.marks;
     has_other_edges_ |= own.marks.on == On::edge;
-    if (own.marks.on == On::plane) set_plane(others_kept_, line, own.piece, own.face);
+    own.ground.copy_to(others_kept_, line);
   }
 }
 
@@ -241,15 +267,12 @@ void copy(const nurbs::Vector3& from, double (&to)[3]) { nurbs::Vector3::Map(to)
 void SteadyFeet::find_on_planes(const Lines& lines) {
   FeetBlock& block = lines.block;
   if (lines.below.is_one_face) {
-    const int face = lines.face[lines.below.first];
-    const brep::PlaneTriangle& plane = search_.triangle(lines.piece[lines.below.first]);
-    PlaneNumbers all{{}, {}, {}, {}, {1.0, 1.0}, {0.0, 0.0}};
-    copy(plane.origin(), all.origin), copy(plane.x(), all.x), copy(plane.y(), all.y);
-    copy(plane.normal(), all.normal);
-    for (int i = 0; i < 2 && charts_; ++i) {
-      const brep::ChartLine& line = (*charts_)[face].line[i];
-      all.scale[i] = line.scale(), all.shift[i] = line.shift();
-    }
+    const int first = lines.below.first;
+    const Ground ground = plane_ground(lines.piece[first], lines.face[first]);
+    PlaneNumbers all;
+    copy(ground.origin, all.origin), copy(ground.x, all.x), copy(ground.y, all.y);
+    copy(search_.triangle(lines.piece[first]).normal(), all.normal);
+    std::copy_n(ground.scale, 2, all.scale), std::copy_n(ground.shift, 2, all.shift);
     return kernel_.over_one_plane(block, lines.kept, all);
   }
   kernel_.over_planes(block, lines.kept);
@@ -275,15 +298,23 @@ void SteadyFeet::find_on_chart(const Lines& lines, int k) {
   search::Foot foot;
   const int side =
       search_.foot_inside_curved(lines.piece[k], centre, lines.block.touch_reach[k], charts_, foot);
-  set_foot(lines, k, side == lines.kept.sign[k] ? lines.room_to_move(k) : 0.0, centre - foot.point, foot);
+  set_foot(lines, k, side == lines.kept.sign[k] ? lines.room_to_move(k) : 0.0, centre - foot.point,
+           foot.distance, foot.xi);
 }
 
+// As brep::EdgeFoot has it.
 void SteadyFeet::find_on_edge(const Lines& lines, int k) {
-  const nurbs::Vector3 centre = lines.centre(k);
-  search::Foot foot = search_.foot_on_edge(lines.piece[k], lines.face[k], centre);
-  foot.xi = names_.on_patch(lines.face[k], foot.xi);
-  const double left = lines.block.touch_reach[k] - foot.distance;
-  set_foot(lines, k, std::min(lines.room_to_move(k), left), centre - foot.point, foot);
+  const KeptFeet& kept = lines.kept;
+  const nurbs::Vector3 centre = lines.centre(k),
+                       start(kept.origin[0][k], kept.origin[1][k], kept.origin[2][k]),
+                       axis(kept.x[0][k], kept.x[1][k], kept.x[2][k]);
+  const double along = (centre - start).dot(axis);
+  const nurbs::Vector3 delta = centre - (start + along * axis);
+  const nurbs::Parameter<2> xi = {kept.shift[0][k] + along * kept.scale[0][k],
+                                  kept.shift[1][k] + along * kept.scale[1][k]};
+  const double distance = delta.norm(), left = lines.block.touch_reach[k] - distance;
+  set_foot(lines, k, std::min(lines.room_to_move(k), left), delta, distance,
+           names_.inside(lines.face[k], xi));
 }
 
 // As the kernel has it for all.
@@ -294,12 +325,12 @@ double SteadyFeet::Lines::room_to_move(int k) const {
 }
 
 void SteadyFeet::set_foot(const Lines& lines, int k, double room, const nurbs::Vector3& delta,
-                          const search::Foot& foot) {
+                          double distance, const nurbs::Parameter<2>& xi) {
   FeetBlock& block = lines.block;
   block.room[k] = room;
   for (int d = 0; d < 3; ++d) block.delta[d][k] = delta[d];
-  block.distance[k] = foot.distance;
-  for (int i = 0; i < 2; ++i) block.xi[i][k] = foot.xi[i];
+  block.distance[k] = distance;
+  for (int i = 0; i < 2; ++i) block.xi[i][k] = xi[i];
 }
 
 // Of trimmed faces, whose borders are out of reach.
@@ -347,7 +378,7 @@ void SteadyFeet::find_on_patch(const Lines& lines, int k) {
     return;
   }
   followed.xi = foot.xi;
-  set_foot(lines, k, block.room[k], up, foot);
+  set_foot(lines, k, block.room[k], up, foot.distance, foot.xi);
 }
 
 }  // namespace contact

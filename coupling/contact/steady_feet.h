@@ -142,10 +142,17 @@ class SteadyFeet {
     int count = 0;                 // of those that have a foot
     Below below;
   };
+  // Of a plane or an edge below a foot, as KeptFeet has it; of others nothing.
+  struct Ground {
+    nurbs::Vector3 origin = nurbs::Vector3::Zero(), x = origin, y = origin;
+    double scale[2] = {}, shift[2] = {};
+    void copy_to(KeptFeet& kept, int k) const;
+  };
   // Another foot of a candidate.
   struct Further {
     nurbs::Vector3 centre;
     double reach, margin, sign;
+    Ground ground;
     std::int32_t piece, face;
     Marks marks;
   };
@@ -164,7 +171,9 @@ class SteadyFeet {
   };
 
   void set(Page& page, int k, const Room& room, int piece, int face, int side, const Marks& marks) const;
-  void set_plane(KeptFeet& kept, int k, int piece, int face) const;
+  Ground ground_of(On on, int piece, int face) const;
+  Ground plane_ground(int piece, int face) const;
+  Ground edge_ground(int edge, int face) const;
   Page& page_of(int candidate) {
     NURBS_ASSERT(candidate < static_cast<int>(pages_.size()) * kBlock, candidate, pages_.size());
     return pages_[candidate / kBlock];
@@ -181,8 +190,8 @@ class SteadyFeet {
   void find_on_chart(const Lines& lines, int k);
   void find_on_edge(const Lines& lines, int k);
   void find_on_patch(const Lines& lines, int k);
-  static void set_foot(const Lines& lines, int k, double room, const nurbs::Vector3& delta,
-                       const search::Foot& foot);
+  static void set_foot(const Lines& lines, int k, double room, const nurbs::Vector3& delta, double distance,
+                       const nurbs::Parameter<2>& xi);
   void bring_together(int k);
 
   const brep::FootSearch& search_;

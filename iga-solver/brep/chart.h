@@ -27,6 +27,10 @@ class ChartLine {
   double scale() const { return scale_; }
   double shift() const { return shift_; }
   double to_face(double on_patch) const;
+  /// What round-off may have brought out of the patch's range.
+  double inside(double on_patch) const {
+    return std::min(std::max(on_patch, std::min(patch_[0], patch_[1])), std::max(patch_[0], patch_[1]));
+  }
   /// to_patch of a length, and of the angle that has this cosine and sine; false if that is outside of the
   /// range.
   bool place_length(double length, double& on_patch) const {
@@ -57,6 +61,9 @@ struct Chart {
 
   nurbs::Parameter<2> to_patch(const Parameter<2>& xi) const {
     return {line[0].to_patch(xi[0]), line[1].to_patch(xi[1])};
+  }
+  nurbs::Parameter<2> inside(const nurbs::Parameter<2>& on_patch) const {
+    return {line[0].inside(on_patch[0]), line[1].inside(on_patch[1])};
   }
   /// Of a foot on a curved face; false if that is outside of its range.
   bool place(const PolarFoot& foot, nurbs::Parameter<2>& on_patch) const {

@@ -88,7 +88,7 @@ double FootSearch::nearest(const Vector3& d, double reach, const int* pieces, in
 
 void FootSearch::prefetch(const int* pieces, int count) const {
   if (count <= kFew)
-    for (int k = 0; k < count; ++k) nurbs::prefetch(triangles_[pieces[k]]);
+    for (int k = 0; k < count; ++k) prefetch(pieces[k]);
   else
     tree_.prefetch(pieces, count);
 }
@@ -125,7 +125,7 @@ void FootSearch::add_feet(Minima& minima, const Vector3& d, double reach, const 
     for (int k = 0; k < count; k += kChunk) {
       int kept[kChunk];
       const int maybe = tree_.filter(query, pieces + k, std::min(kChunk, count - k), kept);
-      for (int i = 0; i < maybe; ++i) nurbs::prefetch(triangles_[kept[i]]);
+      for (int i = 0; i < maybe; ++i) prefetch(kept[i]);
       for (int i = 0; i < maybe; ++i) minima.add_of_piece(kept[i], triangles_[kept[i]]);
     }
   }
@@ -192,11 +192,6 @@ int FootSearch::foot_inside_curved(int piece, const Vector3& d, double reach,
   foot.point = at.point;
   foot.distance = std::abs(at.height);
   return at.height < 0.0 ? -1 : 1;
-}
-
-search::Foot FootSearch::foot_on_edge(int edge, int face, const Vector3& d) const {
-  const Vector3 point = EdgeFoot(surface_.edges[edge], d).point();
-  return {surface_.faces[face].in_plane(point), point, (d - point).norm(), FootStatus::edge, 0, face};
 }
 
 search::Foot FootSearch::foot_on_patch(int face, const Vector3& d, const Parameter<2>& last) const {

@@ -12,6 +12,7 @@
 #include "brep/plane_triangles.h"
 #include "brep/smooth_neighbours.h"
 #include "brep/surface.h"
+#include "nurbs/processor.h"
 
 namespace brep {
 
@@ -76,8 +77,6 @@ class FootSearch {
   /// for certain, ask feet().
   int foot_inside_curved(int piece, const Vector3& d, double reach, const std::vector<Chart>* charts,
                          search::Foot& foot) const;
-  /// The same on an edge of a plane face.
-  search::Foot foot_on_edge(int edge, int face, const Vector3& d) const;
   /// The same on a face that is a patch, from where it was last; inside the face if its status is interior.
   search::Foot foot_on_patch(int face, const Vector3& d, const Parameter<2>& last) const;
 
@@ -87,6 +86,10 @@ class FootSearch {
   double border_slack() const { return border_slack_; }
 
  private:
+  void prefetch(int piece) const {
+    nurbs::prefetch(triangles_[piece]);
+    nurbs::prefetch(surface_.pieces[piece]);
+  }
   double least_distance(int piece, const Vector3& d) const;
   double least_distance(int piece, const Vector3& d, const PieceTree::Query& query, double reach) const;
   void add_feet(Minima& minima, const Vector3& d, double reach, const int* pieces, int count) const;

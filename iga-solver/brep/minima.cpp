@@ -13,8 +13,7 @@ namespace brep {
 constexpr double kSame = 1e-6;  // of two distances that would differ by much
 constexpr double kTie = 1e-12;  // sides of a triangle that are nearest alike, relative to a square
 
-void Minima::add_beside_triangle(const Piece& piece) {
-  const Vector3& normal = surface_.faces[piece.face].frame.z;
+void Minima::add_beside_triangle(const Piece& piece, const Vector3& normal) {
   double least = reach_ * reach_;
   BesideSide beside[3];
   for (int i = 0; i < 3; ++i) {

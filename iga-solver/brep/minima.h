@@ -40,7 +40,7 @@ class Minima {
     if (at.where == OverTriangle::Where::over)
       keep_over(triangle.face(), at);
     else if (at.where == OverTriangle::Where::beside)
-      add_beside_triangle(surface_.pieces[piece]);
+      add_beside_triangle(surface_.pieces[piece], at.normal);
   }
   /// After all pieces; feet that have given way to others are there still.
   void finish() {
@@ -67,7 +67,7 @@ class Minima {
           side,
           face});
   }
-  void add_beside_triangle(const Piece& piece);
+  void add_beside_triangle(const Piece& piece, const Vector3& normal);
   void add_of_side(const Piece& piece, int i, const BesideSide& beside);
   void add_of_other(const Piece& piece);
   void add_of_rectangle(const Piece& piece);

@@ -90,7 +90,7 @@ struct Vertex {
 };
 
 /// What searches look at.  Of a trimmed face, its edges and vertices are pieces of their own.
-struct Piece {
+struct alignas(32) Piece {
   enum class Kind : std::int8_t {
     triangle,   ///< of a plane face, counterclockwise about its normal
     rectangle,  ///< a face whose border is that of its parameters' range (Borders)

@@ -9,6 +9,7 @@
 
 #include "balls.h"
 #include "brep/builder.h"
+#include "brep/face_shape.h"
 #include "coupling/rigid/rigid_surface.h"
 #include "walls.h"
 
@@ -132,6 +133,12 @@ Touching expect_forces_of_a_search(const brep::Surface& surface, const BallsThat
     }
     const std::vector<contact::Contact>& seen = scene.spring.seen;
     EXPECT_EQ(seen.size(), feet) << step;
+    const double off_plane = 2e-6 * surface.size;  // of triangles that are joined
+    for (const contact::Contact& contact : seen) {
+      const Vector3 foot = contact.centre - contact.delta;
+      EXPECT_LT((brep::point_on(surface, contact.foot.patch, contact.foot.xi) - foot).norm(), off_plane)
+          << step;
+    }
     for (size_t n = 1; n < seen.size(); ++n)
       EXPECT_TRUE(seen[n - 1].particle != seen[n].particle || seen[n - 1].distance <= seen[n].distance)
           << step;
