@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 
 #include "coupling/contact_surface.h"
 #include "nurbs/surface_slopes.h"
@@ -79,13 +80,10 @@ class FootSlopes {
 
 /// G of a couple C where the tangents are S: along the normal what tilts the surface, along it what turns it
 /// about the normal.
-inline nurbs::Tangents couple_forces(const nurbs::Tangents& S, const Vector3& C) {
-  const Vector3 first = S.col(0), second = S.col(1), normal = first.cross(second);
+inline std::array<Vector3, 2> couple_forces(const Vector3& first, const Vector3& second, const Vector3& C) {
+  const Vector3 normal = first.cross(second);
   const double share = 1.0 / normal.squaredNorm(), turn = 0.5 * share * C.dot(normal);
-  nurbs::Tangents G;
-  G.col(0) = turn * second - share * C.dot(second) * normal;
-  G.col(1) = share * C.dot(first) * normal - turn * first;
-  return G;
+  return {turn * second - share * C.dot(second) * normal, share * C.dot(first) * normal - turn * first};
 }
 
 /// The same for a rigid wall of faces, whose nodes are four corners of the box around it: barycentric

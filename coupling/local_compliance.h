@@ -25,7 +25,8 @@ class LocalCompliance {
   };
   /// `element`: of the patch, that the foot is on (KnotVector::element_at).  On one that was not asked for
   /// before this takes some time.  Throws std::invalid_argument, with the place, where it is not known.
-  virtual Value at(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear) = 0;
+  virtual void find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,
+                    Value& value) = 0;
 };
 
 }  // namespace coupling

@@ -22,8 +22,8 @@ std::vector<nurbs::Space<2>> spaces_of(const structure::ReferenceBody& body,
 MeshCompliance::MeshCompliance(structure::ReferenceBody body, const std::vector<structure::SkinPiece>& skin)
     : spaces_(spaces_of(body, skin)), tables_(std::move(body), skin) {}
 
-LocalCompliance::Value MeshCompliance::at(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element,
-                                          bool with_shear) {
+void MeshCompliance::find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,
+                          Value& value) {
   const nurbs::Space<2>& space = spaces_[foot.patch];
   nurbs::Parameter<2> low, high;
   for (int d = 0; d < 2; ++d) {
@@ -32,11 +32,16 @@ LocalCompliance::Value MeshCompliance::at(const nurbs::SurfacePoint& foot, const
   }
   using Table = structure::ComplianceTable;
   const Table& table = tables_.of(foot.patch, space.element_index(element));
-  const auto component = [](const Table::Value& value) { return Component{value.c, value.change}; };
-  if (!with_shear) return {component(table.at(Table::normal, low, high, foot.xi)), {}};
-  const auto all = table.together(low, high, foot.xi);
-  return {component(all[Table::normal]),
-          {component(all[Table::first]), component(all[Table::second]), component(all[Table::first_second])}};
+  if (!with_shear) {
+    const Table::Value normal = table.at(Table::normal, low, high, foot.xi);
+    value = {{normal.c, normal.change}, {}};
+    return;
+  }
+  Component* const components[] = {&value.normal, &value.along[0], &value.along[1], &value.along[2]};
+  static_assert(Table::normal == 0 && Table::first == 1 && Table::second == 2 && Table::first_second == 3);
+  table.together(low, high, foot.xi, [&](int component, const Table::Value& found) {
+    *components[component] = {found.c, found.change};
+  });
 }
 
 }  // namespace coupling

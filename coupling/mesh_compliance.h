@@ -15,7 +15,8 @@ class MeshCompliance final : public LocalCompliance {
   /// `skin`: the pieces that are the surface's patches.  Throws as structure::ComplianceTables does.
   MeshCompliance(structure::ReferenceBody body, const std::vector<structure::SkinPiece>& skin);
 
-  Value at(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear) override;
+  void find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,
+            Value& value) override;
   const structure::ComplianceTables& tables() const { return tables_; }
 
  private:

@@ -106,9 +106,9 @@ void ComplianceCorrection::enter(const ParticleView& particles, const ContactMod
   const double* const memory = is_damped ? memory_of(particles, contact) : nullptr;
   if (!(contact.overlap > 0.0) && !(is_damped && held_gap(memory) > 0.0)) return;
   before.has_shear = model.shear_constant(i) > 0.0;
-  before.directions = SurfaceDirections::at(wall_, contact.foot, contact.delta);
+  before.directions.find(wall_, contact.foot, contact.delta);
   const nurbs::Indices<2>& element = before.directions.element;
-  before.give = compliance_.at(contact.foot, element, before.has_shear);
+  compliance_.find(contact.foot, element, before.has_shear, before.give);
   before.n = contact.delta / contact.distance;
   const double of_surface = before.n.dot(contact.wall_velocity);
   const double of_particle = -before.n.dot(particles.velocity(i));
@@ -219,7 +219,7 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
         for (int m = 0; m < ShearBlock::kMemory; ++m) memory[m] = shear_.memory[m][lane];
     }
     by.follows = along;
-    contact.force += by.tangents * along;
+    contact.force += before.directions.tangents * along;
   }
 }
 

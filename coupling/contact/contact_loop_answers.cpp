@@ -104,31 +104,37 @@ inline void ContactLoop::look_at_mesh(const ParticleView& particles, const StepI
 void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
   expect_stable(particles, step, contact);
   const Vector3 on_body = -wall_.to_frame_direction(contact.force);
-  forces_on_body_.push_back({particles.tag[contact.particle],
-                             contact.slot,
-                             contact.foot.patch,
-                             {contact.foot.xi[0], contact.foot.xi[1]},
-                             {on_body[0], on_body[1], on_body[2]}});
-  if (wall_.deforms() && (contact.correction || !contact.torque.isZero(0.0)))
-    turn_body(contact, forces_on_body_.back());
+  coupling::ContactForce& force = forces_on_body_.emplace_back();  // a copy of the whole waits for its parts
+  force.tag = particles.tag[contact.particle];
+  force.branch = contact.slot;
+  force.patch = contact.foot.patch;
+  for (int i = 0; i < 2; ++i) force.xi[i] = contact.foot.xi[i];
+  Vector3::Map(force.F) = on_body;
+  if (wall_.deforms() && (contact.correction || !contact.torque.isZero(0.0))) turn_body(contact, force);
 }
 
 // What acts on the particle has a moment about the foot if the law has its point of contact elsewhere, or
 // resists rolling: the body has the opposite one.  A rigid wall takes it from the contact's torque.
 inline void ContactLoop::turn_body(const Contact& contact, coupling::ContactForce& on_body) const {
   Vector3 force = contact.force;
-  nurbs::Tangents tangents, following = nurbs::Tangents::Zero();
-  if (const ContactCorrection* const by = contact.correction) {
-    for (int j = 0; j < 2; ++j) tangents.col(j) = wall_.to_frame_direction(by->tangents.col(j));
+  Vector3 first, second;
+  const ContactCorrection* const by = contact.correction;
+  if (by) {
+    first = wall_.to_frame_direction(by->tangents.col(0));
+    second = wall_.to_frame_direction(by->tangents.col(1));
     // What follows the foot does work where the surface turns below the centre (surface_directions.h).
     force -= by->tangents * by->follows;
-    following = wall_.to_frame_direction(contact.delta) * by->follows.transpose();
   } else {
-    tangents = coupling::FootSlopes(wall_.surface(), contact.foot).tangents(wall_.control_points());
+    const nurbs::Tangents S =
+        coupling::FootSlopes(wall_.surface(), contact.foot).tangents(wall_.control_points());
+    first = S.col(0), second = S.col(1);
   }
   const Vector3 couple = -wall_.to_frame_direction(contact.torque + contact.delta.cross(force));
   on_body.has_couple = true;
-  nurbs::Tangents::Map(on_body.couple[0]) = coupling::couple_forces(tangents, couple) + following;
+  const std::array<Vector3, 2> G = coupling::couple_forces(first, second, couple);
+  const Vector3 delta = wall_.to_frame_direction(contact.delta);
+  for (int j = 0; j < 2; ++j)
+    Vector3::Map(on_body.couple[j]) = by ? Vector3(G[j] + by->follows[j] * delta) : G[j];
 }
 
 namespace {

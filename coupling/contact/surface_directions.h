@@ -20,12 +20,12 @@ struct SurfaceDirections {
   nurbs::Indices<2> element;             ///< of the patch, that the foot is on
 
   /// At a foot of a wall that deforms; `delta`: from there to the centre, in space [length].
-  static SurfaceDirections at(const Wall& wall, const nurbs::SurfacePoint& foot, const Vector3& delta) {
+  void find(const Wall& wall, const nurbs::SurfacePoint& foot, const Vector3& delta) {
     const Vector3 in_frame = wall.to_frame_direction(delta);
-    const auto [S_i, hessian, element] = wall.slopes(foot, in_frame);
-    SurfaceDirections directions{{}, rates_of(S_i, hessian, in_frame), element};
-    for (int j = 0; j < 2; ++j) directions.tangents.col(j) = wall.to_space_direction(S_i.col(j));
-    return directions;
+    const auto [S_i, hessian, of_foot] = wall.slopes(foot, in_frame);
+    rates = rates_of(S_i, hessian, in_frame);
+    for (int j = 0; j < 2; ++j) tangents.col(j) = wall.to_space_direction(S_i.col(j));
+    element = of_foot;
   }
 
   /// Of what changes with the parameters like this, the gradient with the centre's place along S_j.

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Tricks of the processor, each with what it gained where it is used.  What gains less than 2 % is not worth
 // its line.
+//
+// One that needs none: what has just been written number by number must not be copied as a whole, as a
+// returned structure is that goes to where it is kept; a wide load waits until narrow stores are done, 10 to
+// 15 cycles each time.  So functions of a step write to where results stay.  Corrected contacts took 4 %
+// longer.
 #pragma once
 
 #include <cstddef>

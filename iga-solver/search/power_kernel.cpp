@@ -99,9 +99,12 @@ struct Element {
   }
   double size() const { return a.row[3]; }
   [[gnu::always_inline]] Derivatives<Vector4> operator()(double u, double v) const {
-    const Derivatives<Vector4> A = polynomial<P, Q, Vector4>(p, q, a, u, v);
-    if constexpr (!Rational) return A;
-    return quotient(A, Derivatives<double>{A.f[3], A.f_0[3], A.f_1[3], A.f_00[3], A.f_01[3], A.f_11[3]}, d);
+    if constexpr (!Rational) {
+      return polynomial<P, Q, Vector4>(p, q, a, u, v);
+    } else {
+      const Derivatives<Vector4> A = polynomial<P, Q, Vector4>(p, q, a, u, v);
+      return quotient(A, Derivatives<double>{A.f[3], A.f_0[3], A.f_1[3], A.f_00[3], A.f_01[3], A.f_11[3]}, d);
+    }
   }
 };
 

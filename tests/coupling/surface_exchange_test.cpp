@@ -93,7 +93,8 @@ TEST(SurfaceExchange, ACoupleIsItsMomentAndNoForce) {
   S.col(1) = 0.5 / kStep * (foot(one.xi[0], one.xi[1] + kStep) - foot(one.xi[0], one.xi[1] - kStep));
   const Vector3 couple(0.7, -0.4, 0.3);
   one.has_couple = true;
-  nurbs::Tangents::Map(one.couple[0]) = coupling::couple_forces(S, couple);
+  const std::array<Vector3, 2> G = coupling::couple_forces(S.col(0), S.col(1), couple);
+  for (int j = 0; j < 2; ++j) Vector3::Map(one.couple[j]) = G[j];
   if (ranks.me == 0) mine = {one};
   const NodalVectors f = nodal_forces() - of_force;
   Vector3 moment = Vector3::Zero();

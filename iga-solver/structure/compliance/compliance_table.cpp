@@ -85,13 +85,6 @@ struct Polynomial {
   double value = 0.0, by_s = 0.0, by_t = 0.0;
 };
 
-/// An element's own parameter, from -1 to 1, and its change with that of the patch.
-struct OwnParameter {
-  OwnParameter(double low, double high, double xi)
-      : change(2.0 / (high - low)), value(change * (xi - low) - 1.0) {}
-  double change, value;
-};
-
 }  // namespace
 
 ComplianceTable::Value ComplianceTable::at(Component component, const nurbs::Parameter<2>& low,
@@ -101,18 +94,6 @@ ComplianceTable::Value ComplianceTable::at(Component component, const nurbs::Par
   const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
   const Polynomial at(first, counts_, s.value, t.value);
   return {at.value, {at.by_s * s.change, at.by_t * t.change}};
-}
-
-std::array<ComplianceTable::Value, ComplianceTable::kTogether> ComplianceTable::together(
-    const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high, const nurbs::Parameter<2>& xi) const {
-  const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
-  static_assert(kTogether == FourPolynomials::kCount);
-  FourPolynomials at;
-  kernel_(together_.data(), counts_[0], counts_[1], s.value, t.value, at);
-  std::array<Value, kTogether> values;
-  for (int k = 0; k < kTogether; ++k)
-    values[k] = {at.value[k], {at.by_s[k] * s.change, at.by_t[k] * t.change}};
-  return values;
 }
 
 }  // namespace structure

@@ -30,13 +30,27 @@ class ComplianceTable {
   /// On the element [low, high] of the parameters.
   Value at(Component component, const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high,
            const nurbs::Parameter<2>& xi) const;
-  /// The first kTogether components, to the last bit as one by one.
-  std::array<Value, kTogether> together(const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high,
-                                        const nurbs::Parameter<2>& xi) const;
+  /// f(component, value) for the first kTogether, to the last bit as one by one.
+  template <class Function>
+  void together(const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high,
+                const nurbs::Parameter<2>& xi, Function f) const {
+    static_assert(kTogether == FourPolynomials::kCount);
+    const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
+    FourPolynomials at;
+    kernel_(together_.data(), counts_[0], counts_[1], s.value, t.value, at);
+    for (int k = 0; k < kTogether; ++k)
+      f(k, Value{at.value[k], {at.by_s[k] * s.change, at.by_t[k] * t.change}});
+  }
   /// Largest value at its points [length/force].
   double largest_normal() const { return largest_normal_; }
 
  private:
+  // An element's own parameter, from -1 to 1, and its change with that of the patch.
+  struct OwnParameter {
+    OwnParameter(double low, double high, double xi)
+        : change(2.0 / (high - low)), value(change * (xi - low) - 1.0) {}
+    double change, value;
+  };
   static constexpr int kMost = 7 * 7;  // values of a component: of degree 3
 
   // In one piece, as it comes from memory.

@@ -28,12 +28,13 @@ const double kK = kConstant * std::sqrt(kRadius);
 class Ripples final : public coupling::LocalCompliance {
  public:
   Ripples(double c0, double ripple) : c0_(c0), ripple_(ripple) {}
-  Value at(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& /*element*/,
-           bool /*with_shear*/) override {
+  void find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& /*element*/, bool /*with_shear*/,
+            Value& value) override {
     const double k = nurbs::kTwoPi * kSide, x = k * foot.xi[0], y = k * foot.xi[1];
-    return {{c0_ * (1.0 + ripple_ * std::sin(x) * std::cos(y)),
-             {c0_ * ripple_ * k * std::cos(x) * std::cos(y), -c0_ * ripple_ * k * std::sin(x) * std::sin(y)}},
-            along};
+    value = {
+        {c0_ * (1.0 + ripple_ * std::sin(x) * std::cos(y)),
+         {c0_ * ripple_ * k * std::cos(x) * std::cos(y), -c0_ * ripple_ * k * std::sin(x) * std::sin(y)}},
+        along};
   }
   std::array<Component, 3> along = {};
 
