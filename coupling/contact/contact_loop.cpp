@@ -124,10 +124,10 @@ void ContactLoop::step(const ParticleView& particles, const StepInfo& step, Cont
 inline int ContactLoop::take_steady(const ParticleView& particles, const StepInfo& step, int begin, int end,
                                     FeetTracker::Query* queries) {
   const Candidate* const candidates = candidates_.candidates().data();
-  SteadyFeet* const steady = find_steady(particles, step, begin, end);
   const std::size_t before = contacts_.size();
-  if (steady) contacts_.resize(before + SteadyFeet::kMostFeet * SteadyFeet::kBlock);  // at most
+  if (tracker_->steady()) contacts_.resize(before + SteadyFeet::kMostFeet * SteadyFeet::kBlock);  // at most
   Contact* next = contacts_.data() + before;
+  SteadyFeet* const steady = find_steady(particles, step, begin, end, next);
   int count = 0;
   for (int candidate = begin; candidate < end; ++candidate) {
     const int i = candidates[candidate].particle, k = candidate - begin;
@@ -142,9 +142,10 @@ inline int ContactLoop::take_steady(const ParticleView& particles, const StepInf
   return count;
 }
 
-// Null: none of them is steady.
+// Null: none of them is steady.  Contacts will be written from `next` on; most particles have one, in their
+// first slot.
 inline SteadyFeet* ContactLoop::find_steady(const ParticleView& particles, const StepInfo& step, int begin,
-                                            int end) {
+                                            int end, const Contact* next) {
   SteadyFeet* const steady = tracker_->steady();
   if (!steady || !steady->begin_block(begin, end - begin, wall_.frame(), wall_.is_turned())) return nullptr;
   const Candidate* const candidates = candidates_.candidates().data();
@@ -155,20 +156,14 @@ inline SteadyFeet* ContactLoop::find_steady(const ParticleView& particles, const
       continue;
     }
     const std::ptrdiff_t i = candidates[candidate].particle;
-    prefetch_contact(p.memory, static_cast<int>(i),
-                     contacts_.size() + static_cast<std::size_t>(candidate - begin));
+    nurbs::prefetch_to_write(p.memory.slots[0] + p.memory.offset(static_cast<int>(i)), sizeof(double));
+    nurbs::prefetch_to_write(next + (candidate - begin), sizeof(Contact));
     if (p.meets_wall(static_cast<int>(i)))
       steady->add(candidate - begin, p.x + 3 * i, p.v + 3 * i,
                   touch_reach(particles, step, static_cast<int>(i)));
   }
   steady->find({squared_time_, squared_way_, wall_.resolution()});
   return steady;
-}
-
-// Most have one, in the particle's first slot.
-inline void ContactLoop::prefetch_contact(const ContactMemory& memory, int i, std::size_t place) const {
-  nurbs::prefetch_to_write(memory.slots[0] + memory.offset(i), sizeof(double));
-  nurbs::prefetch_to_write(contacts_.data() + place, sizeof(Contact));
 }
 
 inline bool ContactLoop::may_touch(const ParticleView& particles, const StepInfo& step, int candidate) const {

@@ -117,8 +117,8 @@ class ContactLoop {
   void forget_lost_contacts(const ParticleView& particles);
   int take_steady(const ParticleView& particles, const StepInfo& step, int begin, int end,
                   FeetTracker::Query* queries);
-  SteadyFeet* find_steady(const ParticleView& particles, const StepInfo& step, int begin, int end);
-  void prefetch_contact(const ContactMemory& memory, int particle, std::size_t place) const;
+  SteadyFeet* find_steady(const ParticleView& particles, const StepInfo& step, int begin, int end,
+                          const Contact* next);
   bool may_touch(const ParticleView& particles, const StepInfo& step, int candidate) const;
   FeetTracker::Query query_of(const ParticleView& particles, const StepInfo& step, int candidate) const;
   double squared_travel(const ParticleView& particles, int particle) const;

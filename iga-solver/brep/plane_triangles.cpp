@@ -26,16 +26,10 @@ PlaneTriangle::PlaneTriangle(const Surface& surface, const Piece& piece) {
 }
 
 double PlaneTriangle::from_border(const Vector3& d, const Piece& piece) const {
-  using Point = Eigen::Vector2d;
   const Parameter<2> xi = over(d).xi;
   double least2 = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    if (piece.edge[i] < 0) continue;
-    const Point a = Point::Map(corner_[i]), way = Point::Map(corner_[(i + 1) % 3]) - a;
-    const Point from = Point::Map(xi.data()) - a;
-    const double t = std::clamp(from.dot(way) / way.squaredNorm(), 0.0, 1.0);
-    least2 = std::min(least2, (from - t * way).squaredNorm());
-  }
+  for (int i = 0; i < 3; ++i)
+    if (piece.edge[i] >= 0) least2 = std::min(least2, squared_distance_from_side(i, xi));
   return std::sqrt(least2);
 }
 

@@ -61,6 +61,21 @@ class alignas(64) PlaneTriangle {
   OverTriangle place(const Vector3& d, double reach, double slack) const;
 
  private:
+  // Squared, from side i in the plane.
+  double squared_distance_from_side(int i, const Parameter<2>& xi) const {
+    const double *a = corner_[i], *b = corner_[(i + 1) % 3];
+    const double way[2] = {b[0] - a[0], b[1] - a[1]}, from[2] = {xi[0] - a[0], xi[1] - a[1]};
+    const double along = from[0] * way[0] + from[1] * way[1], length2 = way[0] * way[0] + way[1] * way[1];
+    const double t = std::clamp(along / length2, 0.0, 1.0);
+    const double off[2] = {from[0] - t * way[0], from[1] - t * way[1]};
+    return off[0] * off[0] + off[1] * off[1];
+  }
+  // > 0: on the inner side of side i.
+  double in_of_side(int i, const Parameter<2>& xi) const {
+    const double *a = corner_[i], *b = corner_[(i + 1) % 3];
+    return (b[0] - a[0]) * (xi[1] - a[1]) - (b[1] - a[1]) * (xi[0] - a[0]);
+  }
+
   Vector3 origin_, x_, y_;  // of the face's frame
   double corner_[3][2];     // in that frame
   std::int32_t face_ = -1;
@@ -92,14 +107,9 @@ inline double PlaneTriangle::least_distance(const Vector3& d) const {
   double beside2 = std::numeric_limits<double>::infinity();
   bool is_over = true;
   for (int i = 0; i < 3; ++i) {
-    const double *a = corner_[i], *b = corner_[(i + 1) % 3];
-    const double way[2] = {b[0] - a[0], b[1] - a[1]}, from[2] = {at.xi[0] - a[0], at.xi[1] - a[1]};
-    if (way[0] * from[1] - way[1] * from[0] >= 0.0) continue;
+    if (in_of_side(i, at.xi) >= 0.0) continue;
     is_over = false;
-    const double along = way[0] * from[0] + way[1] * from[1], length2 = way[0] * way[0] + way[1] * way[1];
-    const double t = std::clamp(along / length2, 0.0, 1.0);
-    const double off[2] = {from[0] - t * way[0], from[1] - t * way[1]};
-    beside2 = std::min(beside2, off[0] * off[0] + off[1] * off[1]);
+    beside2 = std::min(beside2, squared_distance_from_side(i, at.xi));
   }
   const double off2 = is_over ? 0.0 : beside2;
   return std::max(std::sqrt(at.height * at.height + off2) - static_cast<double>(leeway_), 0.0);
