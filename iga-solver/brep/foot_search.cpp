@@ -20,8 +20,8 @@ double largest_border_slack(const Surface& surface) {
 
 }  // namespace
 
-constexpr int kFew = 3;     // pieces, which are looked at without a filter
-constexpr int kChunk = 32;  // pieces that are filtered together
+constexpr int kFew = 3;                    // pieces, which are looked at without a filter
+constexpr int kChunk = Minima::kTogether;  // pieces that are filtered together
 
 FootSearch::FootSearch(const Surface& surface)
     : surface_(surface),
@@ -47,6 +47,7 @@ bool FootSearch::is_on_rim(const Foot& foot) const {
 void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) const {
   const size_t begin = pieces.size();
   tree_.near(tree_.query(d, reach), pieces);
+  prefetch_triangles(pieces.data() + begin, static_cast<int>(pieces.size() - begin));
   const auto far = [&](int p) { return least_distance(p, d) > reach; };
   pieces.erase(std::remove_if(pieces.begin() + static_cast<std::ptrdiff_t>(begin), pieces.end(), far),
                pieces.end());
@@ -59,6 +60,7 @@ void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) 
 int FootSearch::activate(const Vector3& d, double reach, const int* pieces, int count, int* active) const {
   const PieceTree::Query query = tree_.query(d, reach);
   const int maybe = tree_.filter(query, pieces, count, active);
+  prefetch_triangles(active, maybe);
   const auto far = [&](int p) { return least_distance(p, d, query, reach) > reach; };
   return static_cast<int>(std::remove_if(active, active + maybe, far) - active);
 }
@@ -81,6 +83,7 @@ double FootSearch::nearest(const Vector3& d, double reach, const int* pieces, in
     int kept[kChunk];
     const PieceTree::Query query = tree_.query(d, reach);
     const int maybe = tree_.filter(query, pieces + k, std::min(kChunk, count - k), kept);
+    prefetch_triangles(kept, maybe);
     for (int i = 0; i < maybe; ++i) reach = std::min(reach, least_distance(kept[i], d, query, reach));
   }
   return reach;
@@ -119,14 +122,14 @@ void FootSearch::feet_behind(const Vector3& d, double reach, const int* pieces, 
 void FootSearch::add_feet(Minima& minima, const Vector3& d, double reach, const int* pieces,
                           int count) const {
   if (count <= kFew) {
-    for (int k = 0; k < count; ++k) minima.add_of_piece(pieces[k], triangles_[pieces[k]]);
+    minima.add_of_pieces(pieces, count, triangles_);
   } else {
     const PieceTree::Query query = tree_.query(d, reach);
     for (int k = 0; k < count; k += kChunk) {
       int kept[kChunk];
       const int maybe = tree_.filter(query, pieces + k, std::min(kChunk, count - k), kept);
       for (int i = 0; i < maybe; ++i) prefetch(kept[i]);
-      for (int i = 0; i < maybe; ++i) minima.add_of_piece(kept[i], triangles_[kept[i]]);
+      minima.add_of_pieces(kept, maybe, triangles_);
     }
   }
   minima.finish();

@@ -90,6 +90,9 @@ class FootSearch {
     nurbs::prefetch(triangles_[piece]);
     nurbs::prefetch(surface_.pieces[piece]);
   }
+  void prefetch_triangles(const int* pieces, int count) const {
+    for (int k = 0; k < count; ++k) nurbs::prefetch(triangles_[pieces[k]]);
+  }
   double least_distance(int piece, const Vector3& d) const;
   double least_distance(int piece, const Vector3& d, const PieceTree::Query& query, double reach) const;
   void add_feet(Minima& minima, const Vector3& d, double reach, const int* pieces, int count) const;

@@ -20,6 +20,7 @@ void Minima::add_beside_triangle(const Piece& piece, const Vector3& normal) {
     const Vector3& corner = surface_.vertices[piece.vertex[i]].point;
     const Vector3 from = d_ - corner, way = surface_.vertices[piece.vertex[(i + 1) % 3]].point - corner;
     if (normal.cross(way).dot(from) >= 0.0) continue;
+    if (piece.edge[i] >= 0) nurbs::prefetch(surface_.edges[surface_.uses[piece.edge[i]].edge]);
     beside[i] = {from.dot(way), way.squaredNorm(), 0.0};
     beside[i].distance2 =
         (from - std::clamp(beside[i].along / beside[i].length2, 0.0, 1.0) * way).squaredNorm();

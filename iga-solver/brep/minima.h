@@ -12,6 +12,7 @@
 #include "brep/plane_triangles.h"
 #include "brep/smooth_neighbours.h"
 #include "brep/surface.h"
+#include "nurbs/processor.h"
 
 namespace brep {
 
@@ -34,13 +35,17 @@ class Minima {
         begin_(out.size()),
         of_(static_cast<int>(of)) {}
 
-  void add_of_piece(int piece, const PlaneTriangle& triangle) {
-    if (!triangle.exists()) return add_of_other(surface_.pieces[piece]);
-    const OverTriangle at = triangle.place(d_, reach_, slack_);
-    if (at.where == OverTriangle::Where::over)
-      keep_over(triangle.face(), at);
-    else if (at.where == OverTriangle::Where::beside)
-      add_beside_triangle(surface_.pieces[piece], at.normal);
+  static constexpr int kTogether = 32;
+  /// Of no more than kTogether pieces.  What is looked at of triangles that d is beside is fetched while it
+  /// is seen where d is from the others.
+  void add_of_pieces(const int* pieces, int count, const std::vector<PlaneTriangle>& triangles) {
+    OverTriangle at[kTogether];
+    for (int k = 0; k < count; ++k)
+      if (const PlaneTriangle& triangle = triangles[pieces[k]]; triangle.exists()) {
+        at[k] = triangle.place(d_, reach_, slack_);
+        if (at[k].where == OverTriangle::Where::beside) prefetch_beside(surface_.pieces[pieces[k]]);
+      }
+    for (int k = 0; k < count; ++k) add_of_piece(pieces[k], triangles[pieces[k]], at[k]);
   }
   /// After all pieces; feet that have given way to others are there still.
   void finish() {
@@ -66,6 +71,20 @@ class Minima {
           surface_.sheet(face, side),
           side,
           face});
+  }
+  void add_of_piece(int piece, const PlaneTriangle& triangle, const OverTriangle& at) {
+    if (!triangle.exists())
+      add_of_other(surface_.pieces[piece]);
+    else if (at.where == OverTriangle::Where::over)
+      keep_over(triangle.face(), at);
+    else if (at.where == OverTriangle::Where::beside)
+      add_beside_triangle(surface_.pieces[piece], at.normal);
+  }
+  void prefetch_beside(const Piece& piece) const {
+    for (int i = 0; i < 3; ++i) {
+      nurbs::prefetch(surface_.vertices[piece.vertex[i]]);
+      if (piece.edge[i] >= 0) nurbs::prefetch(surface_.uses[piece.edge[i]]);
+    }
   }
   void add_beside_triangle(const Piece& piece, const Vector3& normal);
   void add_of_side(const Piece& piece, int i, const BesideSide& beside);

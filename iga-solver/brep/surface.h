@@ -22,7 +22,7 @@ enum class Wedge : std::int8_t { convex, smooth, smooth_concave, concave };
 inline bool joins(Wedge wedge) { return wedge != Wedge::concave; }
 
 /// A face that meets in an edge, and the wedge that begins at it, counterclockwise.
-struct EdgeUse {
+struct alignas(32) EdgeUse {
   double conormal[2];     ///< into the face, in the plane across the edge (Edge::across)
   int face, edge;         ///< their numbers
   std::int8_t side;       ///< +1 or -1: the side of the face that looks into the wedge
@@ -32,7 +32,7 @@ struct EdgeUse {
 };
 
 /// A straight line, a circle or an arc of one, or a spline.
-struct Edge {
+struct alignas(64) Edge {
   Vector3 origin;  ///< start of a line, centre of a circle
   Vector3 axis;    ///< direction of a line from start to end, axis of a circle
   Vector3 radial;  ///< across a line: conormal of its first use; from a circle's centre to its start
@@ -84,7 +84,7 @@ struct Corner {
 };
 
 /// Where two separate fans of faces touch in a point there are two vertices.
-struct Vertex {
+struct alignas(32) Vertex {
   Vector3 point;
   int first_corner = 0, corner_count = 0;  ///< none: in the middle of a plane face
 };
