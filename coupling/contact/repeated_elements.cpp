@@ -2,6 +2,7 @@
 #include "coupling/contact/repeated_elements.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace contact {
@@ -12,12 +13,12 @@ bool RepeatedElements::all(const Vector3& shift, const Vector3& d, double reach,
                            int count) {
   std::vector<Answer>& known = answers(shift);
   return std::all_of(elements, elements + count, [&](int element) {
-    if (element >= static_cast<int>(known.size())) known.resize(element + 1, kNotAsked);
-    if (known[element] == kNotAsked) known[element] = is_another(shift, element) ? kYes : kNo;
-    if (known[element] == kYes) return true;
     const Ball& ball = around(element);
     const double out = reach + ball.radius;
-    return (d - ball.centre).squaredNorm() > out * out;
+    if ((d - ball.centre).squaredNorm() > out * out) return true;
+    if (element >= static_cast<int>(known.size())) known.resize(element + 1, kNotAsked);
+    if (known[element] == kNotAsked) known[element] = is_another(shift, element) ? kYes : kNo;
+    return known[element] == kYes;
   });
 }
 
@@ -52,8 +53,12 @@ bool RepeatedElements::is_another(const Vector3& shift, int element) {
   constexpr double kSame = 1e-6;  // of the wall's size: as files in single precision have it
   const search::Box bounds = shape_.bounds();
   const double same = kSame * (bounds.high - bounds.low).norm();
+  const Ball& ball = around(element);
+  if (!std::isfinite(ball.radius)) return false;
+  const Vector3 centre = ball.centre + shift;  // of points that are all on the wall, if they are another's
+  if (((centre - bounds.low).array() < -same).any() || ((centre - bounds.high).array() > same).any())
+    return false;
   shape_.points_of(element, points_);
-  if (points_.empty()) return false;
   for (Vector3& point : points_) point += shift;
   near_.clear();
   shape_.near(points_.front(), same, near_);

@@ -198,7 +198,7 @@ void evaluate_on_element(const Space<Dim>& space, int element, const Parameter<D
 }
 
 template <int Dim>
-Vector3 interpolate(const RationalBasis<Dim>& basis, const NodalVectors& q) {
+Vector3 interpolate(const RationalBasis<Dim>& basis, const Eigen::Ref<const NodalVectors>& q) {
   Vector3 sum = Vector3::Zero();
   NURBS_ASSERT(basis.control_point[basis.count - 1] < q.cols(), basis.count, q.cols());
   for (int a = 0; a < basis.count; ++a) sum += basis.R[a] * q.col(basis.control_point[a]);
@@ -206,7 +206,8 @@ Vector3 interpolate(const RationalBasis<Dim>& basis, const NodalVectors& q) {
 }
 
 template <int Dim>
-Vector3 interpolate(const Space<Dim>& space, const NodalVectors& q, const Parameter<Dim>& xi) {
+Vector3 interpolate(const Space<Dim>& space, const Eigen::Ref<const NodalVectors>& q,
+                    const Parameter<Dim>& xi) {
   NURBS_ASSERT(q.cols() == space.control_point_count(), q.cols(), space.control_point_count());
   RationalBasis<Dim> basis;
   evaluate(space, xi, 0, basis);
@@ -229,13 +230,14 @@ void check_patch(const Patch<Dim>& patch) {
                 : fmt::format("control point {} is not finite", a + 1));
 }
 
-#define INSTANTIATE(Dim)                                                                       \
-  template class Space<Dim>;                                                                   \
-  template void evaluate(const Space<Dim>&, const Parameter<Dim>&, int, RationalBasis<Dim>&);  \
-  template void evaluate_on_element(const Space<Dim>&, int, const Parameter<Dim>&, int,        \
-                                    RationalBasis<Dim>&);                                      \
-  template Vector3 interpolate(const RationalBasis<Dim>&, const NodalVectors&);                \
-  template Vector3 interpolate(const Space<Dim>&, const NodalVectors&, const Parameter<Dim>&); \
+#define INSTANTIATE(Dim)                                                                          \
+  template class Space<Dim>;                                                                      \
+  template void evaluate(const Space<Dim>&, const Parameter<Dim>&, int, RationalBasis<Dim>&);     \
+  template void evaluate_on_element(const Space<Dim>&, int, const Parameter<Dim>&, int,           \
+                                    RationalBasis<Dim>&);                                         \
+  template Vector3 interpolate(const RationalBasis<Dim>&, const Eigen::Ref<const NodalVectors>&); \
+  template Vector3 interpolate(const Space<Dim>&, const Eigen::Ref<const NodalVectors>&,          \
+                               const Parameter<Dim>&);                                            \
   template void check_patch(const Patch<Dim>&);
 INSTANTIATE(1)
 INSTANTIATE(2)

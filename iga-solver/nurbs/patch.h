@@ -83,9 +83,10 @@ void evaluate_on_element(const Space<Dim>& space, int element, const Parameter<D
 
 /// Sum of R_A(xi) q_A: position, displacement or velocity at xi from control-point values q.
 template <int Dim>
-Vector3 interpolate(const RationalBasis<Dim>& basis, const NodalVectors& q);
+Vector3 interpolate(const RationalBasis<Dim>& basis, const Eigen::Ref<const NodalVectors>& q);
 template <int Dim>
-Vector3 interpolate(const Space<Dim>& space, const NodalVectors& q, const Parameter<Dim>& xi);
+Vector3 interpolate(const Space<Dim>& space, const Eigen::Ref<const NodalVectors>& q,
+                    const Parameter<Dim>& xi);
 
 /// A patch with its coordinates: what readers, primitives and refinement pass around.
 template <int Dim>
