@@ -219,7 +219,7 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
         for (int m = 0; m < ShearBlock::kMemory; ++m) memory[m] = shear_.memory[m][lane];
     }
     by.follows = along;
-    contact.force += before.directions.tangents * along;
+    contact.force.noalias() += before.directions.tangents * along;
   }
 }
 

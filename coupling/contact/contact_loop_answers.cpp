@@ -123,7 +123,7 @@ inline void ContactLoop::turn_body(const Contact& contact, coupling::ContactForc
     first = wall_.to_frame_direction(by->tangents.col(0));
     second = wall_.to_frame_direction(by->tangents.col(1));
     // What follows the foot does work where the surface turns below the centre (surface_directions.h).
-    force -= by->tangents * by->follows;
+    force.noalias() -= by->tangents * by->follows;
   } else {
     const nurbs::Tangents S =
         coupling::FootSlopes(wall_.surface(), contact.foot).tangents(wall_.control_points());
