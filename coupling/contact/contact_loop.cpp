@@ -134,8 +134,10 @@ inline int ContactLoop::take_steady(const ParticleView& particles, const StepInf
     if (steady && steady->is_there(k) && settle(particles, *steady, k, i)) {
       go_on(particles, step, i, steady->foot(k), *next++);
       if (steady->feet(k) > 1) next = go_on_with_others(particles, step, i, *steady, k, next);
-    } else if (may_touch(particles, step, candidate)) {
-      queries[count++] = query_of(particles, step, candidate);
+    } else if (particles.meets_wall(i)) {
+      FeetTracker::Query& query = queries[count];
+      begin_query(particles, step, candidate, query);
+      if (!tracker_->is_quiet(candidate, query.centre, query.touch_reach)) ++count;
     }
   }
   contacts_.resize(static_cast<std::size_t>(next - contacts_.data()));
@@ -166,12 +168,6 @@ inline SteadyFeet* ContactLoop::find_steady(const ParticleView& particles, const
   return steady;
 }
 
-inline bool ContactLoop::may_touch(const ParticleView& particles, const StepInfo& step, int candidate) const {
-  const int i = candidates_.candidates()[candidate].particle;
-  return particles.meets_wall(i) &&
-         !tracker_->is_quiet(candidate, wall_.to_frame(particles.centre(i)), touch_reach(particles, step, i));
-}
-
 // Contacts that are corrected may go on where the surfaces have lost touch.
 inline double ContactLoop::touch_reach(const ParticleView& particles, const StepInfo& step, int i) const {
   const double reach = particles.radius[i] * step.touch_factor;
@@ -181,15 +177,13 @@ inline double ContactLoop::touch_reach(const ParticleView& particles, const Step
   return reach + ComplianceCorrection::held_gap(memory.of(i, used), memory.history_count);
 }
 
-FeetTracker::Query ContactLoop::query_of(const ParticleView& particles, const StepInfo& step,
-                                         int candidate) const {
+inline void ContactLoop::begin_query(const ParticleView& particles, const StepInfo& step, int candidate,
+                                     FeetTracker::Query& query) const {
   const int i = candidates_.candidates()[candidate].particle;
-  return {candidate,
-          i,
-          wall_.to_frame(particles.centre(i)),
-          touch_reach(particles, step, i),
-          list_reach_[i],
-          squared_travel(particles, i)};
+  query.candidate = candidate, query.particle = i;
+  query.centre = wall_.to_frame(particles.centre(i));
+  query.touch_reach = touch_reach(particles, step, i), query.list_reach = list_reach_[i];
+  query.squared_travel = squared_travel(particles, i);
 }
 
 // How far a particle and the wall move in a step, at most, squared.

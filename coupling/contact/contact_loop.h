@@ -119,8 +119,8 @@ class ContactLoop {
                   FeetTracker::Query* queries);
   SteadyFeet* find_steady(const ParticleView& particles, const StepInfo& step, int begin, int end,
                           const Contact* next);
-  bool may_touch(const ParticleView& particles, const StepInfo& step, int candidate) const;
-  FeetTracker::Query query_of(const ParticleView& particles, const StepInfo& step, int candidate) const;
+  void begin_query(const ParticleView& particles, const StepInfo& step, int candidate,
+                   FeetTracker::Query& query) const;
   double squared_travel(const ParticleView& particles, int particle) const;
   double touch_reach(const ParticleView& particles, const StepInfo& step, int particle) const;
   bool settle(const ParticleView& particles, SteadyFeet& steady, int k, int i);
