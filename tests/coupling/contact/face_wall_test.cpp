@@ -130,6 +130,34 @@ TEST(FaceWall, GoesOnToOtherTriangles) {
   }
 }
 
+// More balls than are taken together, each over a plate of its own: it has the overlap with that one, whoever
+// comes before it in the list, those that touch nothing too.
+TEST(FaceWall, EachOfManyIsOverItsOwnPlate) {
+  constexpr int kPlates = 100, kFar = 7;
+  constexpr double kOverlap = 1e-3, kSmall = 0.1, kApart = 0.15;
+  const auto height = [](int k) { return 0.01 * (k % 9); };
+  nurbs::NodalVectors points(3, 4 * kPlates);
+  std::vector<int> triangles;
+  for (int k = 0; k < kPlates; ++k) {
+    const double x = kApart * k - 7.0, z = height(k);
+    points.middleCols<4>(4 * k) << x, x + 0.1, x, x + 0.1, -1, -1, 1, 1, z, z, z, z;
+    for (const int corner : {0, 1, 2, 1, 3, 2}) triangles.push_back(4 * k + corner);
+  }
+  RigidSurface wall = wall_of(points, triangles);
+  Balls balls(2, 1);
+  for (int k = 0; k < kFar; ++k) balls.add({0.0, 0.0, 5.0 + k}, kSmall);
+  for (int k = 0; k < kPlates; ++k)
+    balls.add({kApart * k - 6.95, -0.5, height(k) + kSmall - (1 + k) * kOverlap / kPlates}, kSmall);
+  BallsOnWall scene(wall, balls, 1.0, 1.0);
+  for (int step = 0; step < 20; ++step) {
+    ASSERT_EQ(scene.spring.seen.size(), kPlates) << step;
+    for (int k = 0; k < kPlates; ++k)
+      ASSERT_NEAR(scene.balls.force(kFar + k)[2], (1 + k) * kOverlap / kPlates, 1e-12) << step << ' ' << k;
+    scene.balls.centre(kFar + step)[1] += 0.3;
+    scene.evaluate();
+  }
+}
+
 // In a corner each side has a slot of its own: while the one lasts the other may end and begin anew.
 TEST(FaceWall, BranchesKeepTheirSlots) {
   nurbs::NodalVectors points(3, 6);  // z = 0 for x > 0 and x = 0 for z > 0
