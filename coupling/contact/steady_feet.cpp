@@ -171,7 +171,6 @@ bool SteadyFeet::begin_block(int first, int count, const coupling::RigidFrame& f
   std::fill_n(block_.touch_reach, count, kAway);
   others_.count = several_count_ = 0;
   has_other_edges_ = false;
-  if (page_ < &pages_.back()) page_[1].prefetch_marks();
   return page_->count > 0;
 }
 

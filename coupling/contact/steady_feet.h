@@ -60,8 +60,6 @@ class SteadyFeet {
     for (int d = 0; d < 3; ++d) block_.centre[d][k] = x[d];
     block_.squared_speed[k] = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     block_.touch_reach[k] = touch_reach;
-    if (const int others = page_->marks[k].kept - 1; others > 0)
-      nurbs::prefetch_to_read(&further_[page_->further[k]], others * sizeof(Further));
   }
 
   /// Finds the feet of those that were added.
@@ -136,13 +134,6 @@ class SteadyFeet {
     void set(int k, const Room& room, const Under& under, int side_of_face, const Marks& of_foot);
     void forget(int k);
     void look_below();
-    /// What is looked at first; the rest is read in rows, which the processor foresees.
-    void prefetch_marks() const {
-      nurbs::prefetch_to_read(piece, sizeof piece);
-      nurbs::prefetch_to_read(marks, sizeof marks);
-      nurbs::prefetch_to_read(further, sizeof further);
-      nurbs::prefetch_to_read(&count, sizeof count);
-    }
 
     KeptFeet kept;
     std::int32_t piece[kBlock], face[kBlock], patch[kBlock];  // or edge, and the face that has it
