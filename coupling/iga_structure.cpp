@@ -212,6 +212,7 @@ Fingerprint IgaStructure::fingerprint() const {
   add_materials(body, fingerprint);
   fingerprint.push_back(supports_);
   if (!body.discretisation().empty()) fingerprint.push_back(word_part("quadrature", body.discretisation()));
+  if (body.corrects_mass()) fingerprint.push_back(word_part("mass", "corrected"));
   return fingerprint;
 }
 

@@ -17,8 +17,9 @@ namespace {
 using structure::ModalBasis;
 
 void refuse(const io::ModelFile& model, const std::string& what, const std::string& expected) {
-  throw geometry_io::InputError(fmt::format(
-      "{}: body modal: {}, expected {}: modes are those of a linear solid", model.file, what, expected));
+  throw geometry_io::InputError(
+      fmt::format("{}: body modal: {}, expected {}: modes are those of a linear solid of lumped mass",
+                  model.file, what, expected));
 }
 
 void broadcast(MPI_Comm comm, std::vector<double>& numbers) {
@@ -67,6 +68,8 @@ ModalDamping take_damping(io::ModelFile& model) {
     if (!material->is_linear()) refuse(model, fmt::format("law is '{}'", material->law()), "linear_elastic");
   }
   if (damping.stiffness > 0.0 && model.state) model.state->memory.clear();  // what viscosity remembers
+  if (model.integration.mass == structure::TimeMass::corrected)
+    refuse(model, "integration.mass is 'corrected'", "lumped");
   if (!model.loads.pressures.empty()) refuse(model, "loads.pressures follow the motion", "loads.tractions");
   return damping;
 }

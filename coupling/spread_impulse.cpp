@@ -35,8 +35,8 @@ void SpreadImpulse::average(NodalVectors& forces, double half_square, int count)
 /// f = half_square K M^-1 q, whole at own nodes.
 void SpreadImpulse::multiply(const NodalVectors& q, double half_square) {
   const structure::Halo& halo = solver_.halo();
-  const Eigen::Index owned = halo.owned(q.cols());
-  z_.leftCols(owned) = half_square * q.leftCols(owned).cwiseProduct(solver_.inverse_mass().leftCols(owned));
+  solver_.mass().apply_inverse_mass(q, z_);
+  z_ *= half_square;
   halo.owners_to_ghosts(z_);
   solver_.body().internal_force(z_, f_);
   halo.sum_to_owners(f_);

@@ -41,7 +41,8 @@ Substeps::Substeps(std::unique_ptr<IgaStructure> body, SubstepOptions options)
       x_(body_->positions()),
       v_(body_->velocities()),
       du_(F_.values),
-      dv_(F_.values) {
+      dv_(F_.values),
+      a_(F_.values) {
   if (!options_.count) solver_.go_on_when_strained();
 }
 
@@ -124,7 +125,7 @@ void Substeps::choose_again(const NodalForces& forces) {
 double Substeps::heaviest_ratio() const {
   double inverse = 0.0;
   for (const Eigen::Index A : surface_nodes_)
-    inverse = std::max(inverse, solver_.inverse_mass().col(A).maxCoeff());
+    inverse = std::max(inverse, solver_.mass().inverse_mass().col(A).maxCoeff());
   return options_.heaviest_particle() * solver_.halo().largest(inverse);
 }
 
@@ -174,7 +175,7 @@ void Substeps::begin_step() {
   is_within_step_ = true;
   if (particles_fast()) {
     kick_by_contact();
-    for (const Eigen::Index A : surface_nodes_) du_.col(A) += dt_ * dv_.col(A);
+    drift_by_contact();
     ++done_;
     return place_surface();
   }
@@ -219,8 +220,22 @@ void Substeps::set_impulse() {
 }
 
 void Substeps::kick_by_contact() {
-  for (const Eigen::Index A : surface_nodes_)
-    dv_.col(A) += 0.5 * dt_ * solver_.inverse_mass().col(A).cwiseProduct(F_.values.col(A));
+  if (solver_.mass().is_diagonal()) {
+    for (const Eigen::Index A : surface_nodes_)
+      dv_.col(A) += 0.5 * dt_ * solver_.mass().inverse_mass().col(A).cwiseProduct(F_.values.col(A));
+  } else {
+    solver_.mass().apply_inverse_mass(F_.values, a_);
+    solver_.halo().owners_to_ghosts(a_);
+    dv_ += 0.5 * dt_ * a_;
+  }
+}
+
+void Substeps::drift_by_contact() {
+  if (!solver_.mass().is_diagonal()) {
+    du_ += dt_ * dv_;
+    return;
+  }
+  for (const Eigen::Index A : surface_nodes_) du_.col(A) += dt_ * dv_.col(A);
 }
 
 // Until the outer step ends the body stands where it began: places have had the half kick of internal forces

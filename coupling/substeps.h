@@ -95,6 +95,7 @@ class Substeps final : public StructureSolver {
   bool needs_spread(double dt);
   void set_impulse();
   void kick_by_contact();
+  void drift_by_contact();
   void end_outer_step();
   void place_surface();
 
@@ -114,6 +115,7 @@ class Substeps final : public StructureSolver {
   // Particles fast: the surface now, and what contacts have added since the outer step began.  Structure
   // fast: where the step began, and how fast it is on the mean.
   NodalVectors x_, v_, du_, dv_;
+  NodalVectors a_;  // of contacts alone, where the mass is not diagonal
 };
 
 }  // namespace coupling

@@ -48,13 +48,24 @@ Value read_word(const YamlMap& map, const std::string& key, Value (*from_name)(c
 }
 
 structure::Integration read_integration(const YamlMap& map) {
-  map.allow_only({"quadrature", "method"});
+  map.allow_only({"quadrature", "method", "mass"});
   structure::Integration integration;
   if (map.has("quadrature"))
     integration.quadrature = read_word(map, "quadrature", structure::quadrature_from_name);
   if (map.has("method"))
     integration.method = read_word(map, "method", structure::integration_method_from_name);
+  if (map.has("mass")) integration.mass = read_word(map, "mass", structure::time_mass_from_name);
   return integration;
+}
+
+void expect_fit_for_corrected_mass(const YamlMap& document, const ModelFile& model) {
+  constexpr const char* kExpected =
+      "expected none of it with 'integration: {mass: corrected}' (or 'mass: lumped')";
+  if (model.mass_damping > 0.0)
+    document.fail("damping", fmt::format("damping.mass is {}, {}", model.mass_damping, kExpected));
+  for (const BoundaryEntry& entry : model.boundary)
+    if (entry.moves)
+      document.fail("boundary", fmt::format("boundary has a support that moves, {}", kExpected));
 }
 
 bool wants_welds(const YamlMap& document) {
@@ -129,6 +140,8 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
     model.modal_damping = damping.modal;
     if (damping.stiffness > 0.0) add_viscosity(damping.stiffness, model.materials);
   }
+  if (model.integration.mass == structure::TimeMass::corrected)
+    expect_fit_for_corrected_mass(document, model);
   if (document.has("time"))
     model.time = read_time_span(document.map("time", "{end: 1e-3}"), inputs, model.output);
   if (document.has("analysis")) model.analysis = read_analysis(document, inputs, model.output);

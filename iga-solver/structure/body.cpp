@@ -19,6 +19,19 @@ void Body::internal_force_change(const NodalVectors& u, const NodalVectors& w, N
   f = (f - before) / (2.0 * step);
 }
 
+void Body::mass_product(const NodalVectors& a, NodalVectors& f,
+                        const std::function<void()>& shares_ready) const {
+  f.setZero();
+  for (int e = 0; e < element_count(); ++e) {
+    const std::vector<int> nodes = element_nodes(e);
+    const Eigen::MatrixXd mass = element_mass_matrix(e);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t j = 0; j < nodes.size(); ++j)
+        f.col(nodes[i]) += mass(Eigen::Index(i), Eigen::Index(j)) * a.col(nodes[j]);
+  }
+  shares_ready();
+}
+
 std::vector<int> Body::element_nodes(int element) const {
   NodalVectors numbers = NodalVectors::Zero(3, node_count());
   for (int A = 0; A < node_count(); ++A) numbers(0, A) = A + 1.0;

@@ -55,6 +55,13 @@ class Body {
   virtual std::string discretisation() const { return {}; }
   /// Row sums of the consistent mass matrix, integral of density R_A [mass], one per node, all > 0.
   virtual const Eigen::VectorXd& row_sum_mass() const = 0;
+  /// Whether accelerations are to come of row sums that the consistent matrix corrects (time/mass.h).
+  virtual bool corrects_mass() const { return false; }
+  /// f = M a [force]: the consistent mass matrix, integral of density R_A R_B, times accelerations a.
+  /// `shares_ready` as of evolve().  No allocation but in the first call.  Unless a body knows better,
+  /// element by element.
+  virtual void mass_product(
+      const NodalVectors& a, NodalVectors& f, const std::function<void()>& shares_ready = [] {}) const;
 
   /// f = internal forces [force] of the displacements u: equilibrium is f = external forces.  What points
   /// remember is held.  No allocation.

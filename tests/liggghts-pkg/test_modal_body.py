@@ -221,6 +221,7 @@ class AsAnyBody(unittest.TestCase):
             (bob.block(), "structure block.yaml surface top body modal 900", "expected less than the"),
             (bob.block(), "body modal 900 structure block.yaml surface top", "expected less than the"),
             (bob.block(), MODAL.replace("modal", "model"), "body is 'model', expected 'modal'"),
+            (bob.block() + "integration: {mass: corrected}\n", MODAL, "integration.mass is 'corrected', expected lumped"),
             (bob.block() + "damping: {modal: 0.01}\n", "structure block.yaml surface top", "damping.modal is of modes"),
             (bob.block() + "damping: {modal: [0.01, -1]}\n", MODAL, "modal has -1"),
         ):

@@ -50,6 +50,9 @@ class Ranks(unittest.TestCase):
         """One box: the others have no elements; ranks one above the other: all particles are with one of them."""
         self.check(IN_ONE_BOX, (4, "2 2 1"), (4, "1 1 4"))
 
+    def test_corrected_mass(self):
+        self.check(IN_FOUR_BOXES + "integration: {mass: corrected}\n", (4, "2 2 1"))
+
 
 if __name__ == "__main__":
     unittest.main()

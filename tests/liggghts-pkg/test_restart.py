@@ -58,6 +58,7 @@ SOLIDS = {
     "Young's modulus": (bob.block(youngs_modulus=6e9), (6e9, 0.3), ["material: E = 5000000000", "E = 6000000000"]),
     "Poisson's ratio": (bob.block(nu=0.2), (5e9, 0.2), ["material:", "nu = 0.2"]),
     "density": (bob.block(density=2000.0), (5e9, 0.3), ["material:", "density = 1000", "density = 2000"]),
+    "mass": (BLOCK + "integration: {mass: corrected}\n", (5e9, 0.3), ["mass"]),
     "law": (BLOCK.replace("linear_elastic", "saint_venant_kirchhoff"), (5e9, 0.3), ["law.*linear_elastic.*saint_venant"]),
     "supports": (bob.block(fixed=()), (5e9, 0.3), ["supports: 108 .* then, 0 "]),
     "dimensions": (bob.block(size=(5e-3, 4e-3, 2e-3)), (5e9, 0.3), ["geometry:", r"\[0.002, 0.002, 0\]", r"\[0.0025, 0.002, 0\]"]),
@@ -122,6 +123,14 @@ class Restart(unittest.TestCase):
         for ranks in (1, 2, 4):
             with self.subTest(ranks=ranks):
                 self.check_continues(self.read(reader(), restart, ranks, block=block), whole)
+
+    def test_corrected_mass_goes_on(self):
+        block = BLOCK + "integration: {mass: corrected}\n"
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "contact"
+            whole = decks.good(writer().replace("write_restart contact", f"write_restart {path}"), files={"block.yaml": block})
+            restart = path.read_bytes()
+        self.check_continues(self.read(reader(), restart, block=block), whole)
 
     def test_supports_and_loads_go_on_in_time(self):
         """And loads with their ramps; written within these, by whatever number of ranks."""

@@ -23,6 +23,15 @@ double relative_residual(const ExplicitSolver& solver, double conditions_time, N
   return f.norm() / size;
 }
 
+/// By row sums of the mass, whatever the mass: what counts is where it has a peak.
+double kinetic_energy(const ExplicitSolver& solver) {
+  const NodalVectors& v = solver.velocities();
+  return 0.5 * solver.halo().sum_over_nodes(v.cols(), [&](Eigen::Index first, Eigen::Index count) {
+    const auto squares = v.middleCols(first, count).colwise().squaredNorm().transpose();
+    return squares.cwiseProduct(solver.mass().nodal_mass().segment(first, count)).sum();
+  });
+}
+
 }  // namespace
 
 RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
@@ -43,7 +52,7 @@ RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
                       peak.residual, options.most_steps, options.tolerance));
     solver.begin_step();
     solver.end_step(none);
-    const double now = solver.kinetic_energy();
+    const double now = kinetic_energy(solver);
     if (now >= kinetic) {
       kinetic = now;
       continue;

@@ -211,6 +211,18 @@ void Solid::evolve(const NodalVectors& u, double dt, NodalVectors& f,
   }
 }
 
+void Solid::mass_product(const NodalVectors& a, NodalVectors& f,
+                         const std::function<void()>& shares_ready) const {
+  NURBS_ASSERT(a.cols() == node_count() && f.cols() == node_count(), a.cols(), f.cols(), node_count());
+  f.setZero();
+  for (const auto& patch : patches_) patch->mass_sweep().add_products(0, patch->border_boxes(), a, f);
+  shares_ready();
+  for (const auto& patch : patches_) {
+    const MassSweep& sweep = patch->mass_sweep();
+    sweep.add_products(patch->border_boxes(), sweep.box_count(), a, f);
+  }
+}
+
 ExactSum Solid::strain_energy_sum(const NodalVectors& u) const {
   ExactSum sum;
   for (std::size_t p = 0; p < patches_.size(); ++p) patches_[p]->integrals().add_energies(held(p), u, sum);

@@ -61,6 +61,10 @@ class Solid final : public Body {
   std::vector<const Material*> materials() const override;
   std::string discretisation() const override;
   const Eigen::VectorXd& row_sum_mass() const override { return row_sum_mass_; }
+  bool corrects_mass() const override { return integration().mass == TimeMass::corrected; }
+  void mass_product(
+      const NodalVectors& a, NodalVectors& f,
+      const std::function<void()>& shares_ready = [] {}) const override;
 
   void internal_force(const NodalVectors& u, NodalVectors& f) const override;
   void internal_force_change(const NodalVectors& u, const NodalVectors& w, NodalVectors& f) const override;

@@ -23,6 +23,7 @@ namespace {
 /// anew.
 constexpr double kCachedTable = 1 << 20;
 
+constexpr const char* kMasses[] = {"lumped", "corrected"};
 constexpr const char* kMethods[] = {"auto", "affine", "stored", "recomputed", "elements"};
 
 GeometryMode geometry_mode(IntegrationMethod method) {
@@ -51,6 +52,15 @@ IntegrationMethod integration_method_from_name(const std::string& word) {
       fmt::format("method is '{}', expected one of: {}", word, fmt::join(kMethods, ", ")));
 }
 
+const char* name(TimeMass mass) { return kMasses[static_cast<int>(mass)]; }
+
+TimeMass time_mass_from_name(const std::string& word) {
+  for (int i = 0; i < 2; ++i)
+    if (word == kMasses[i]) return static_cast<TimeMass>(i);
+  throw std::invalid_argument(
+      fmt::format("mass is '{}', expected one of: {}", word, fmt::join(kMasses, ", ")));
+}
+
 SolidPatch::SolidPatch(const nurbs::Volume& volume, std::shared_ptr<const Material> material,
                        const Integration& integration, const Part& part, int patch, const NodalVectors& X)
     : space_(volume.space),
@@ -74,7 +84,15 @@ double SolidPatch::expected_bytes() const {
   if (integration_.method == IntegrationMethod::stored) per_element += element_table_bytes();
   if (integration_.method == IntegrationMethod::elements)
     per_element += sizeof(double) * (3.0 * padded_ + 1.0) * tabulate_.slots();
+  if (integration_.mass == TimeMass::corrected && !J_)
+    per_element += sizeof(double) * MassSweep::table_numbers(space_);
   return per_element * element_count();
+}
+
+const MassSweep& SolidPatch::mass_sweep() const {
+  if (!mass_sweep_)
+    mass_sweep_ = std::make_unique<MassSweep>(space_, X_, boxes_, material_->density(), J_.has_value());
+  return *mass_sweep_;
 }
 
 void SolidPatch::set_up(Eigen::VectorXd& row_sum_mass, ExactSum& volume) {

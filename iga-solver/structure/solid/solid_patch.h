@@ -17,6 +17,7 @@
 #include "structure/solid/element_tables.h"
 #include "structure/solid/integrals.h"
 #include "structure/solid/skin_boxes.h"
+#include "structure/sweep/mass_sweep.h"
 
 namespace structure {
 
@@ -34,9 +35,16 @@ const char* name(IntegrationMethod method);
 /// Throws std::invalid_argument, naming all words, for another one.
 IntegrationMethod integration_method_from_name(const std::string& word);
 
+/// The mass of explicit time (time/mass.h): row sums alone, or corrected by the consistent matrix.
+enum class TimeMass { lumped, corrected };
+const char* name(TimeMass mass);
+/// Throws as above.
+TimeMass time_mass_from_name(const std::string& word);
+
 struct Integration {
   Quadrature quadrature = Quadrature::full;  ///< of forces and energies; masses are integrated fully
   IntegrationMethod method = IntegrationMethod::automatic;
+  TimeMass mass = TimeMass::lumped;
 };
 
 /// Elements are counted box after box, those of a box with the first direction fastest.  Columns are those of
@@ -61,6 +69,8 @@ class SolidPatch {
   const Material& material() const { return *material_; }
   const Integration& integration() const { return integration_; }  ///< the method that was chosen
   const Integrals& integrals() const { return *integrals_; }
+  /// Made in the first call.
+  const MassSweep& mass_sweep() const;
   int border_boxes() const { return border_boxes_; }  ///< those with shares for others come first
   int element_count() const { return first_element_.back(); }
   /// Numbers that the points of an element remember.
@@ -117,6 +127,7 @@ class SolidPatch {
   int functions_, padded_;          // per element
   ElementTabulator tabulate_, tabulate_fully_;
   std::unique_ptr<const Integrals> integrals_;
+  mutable std::unique_ptr<const MassSweep> mass_sweep_;
   mutable OneElement one_;
 };
 

@@ -23,4 +23,9 @@ struct CacheAligned {
 
 using AlignedNumbers = std::vector<double, CacheAligned<double>>;
 
+/// At least so many.
+inline void grow(AlignedNumbers& numbers, std::size_t size) {
+  if (numbers.size() < size) numbers.resize(size, 0.0);
+}
+
 }  // namespace structure

@@ -29,36 +29,12 @@ SpanRange range_of(const nurbs::Space<3>& space, const SpanBox& box, int directi
   return {space.knots(direction), box.begin[direction], box.end[direction]};
 }
 
-/// The same numbers with x fastest, then y, then z, from the patch's order.
-std::vector<int> permuted(const std::vector<int>& columns, const std::array<int, 3>& count,
-                          const std::array<int, 3>& axes) {
-  std::array<int, 3> index;
-  std::vector<int> out;
-  out.reserve(columns.size());
-  for (int k = 0; k < count[axes[2]]; ++k)
-    for (int j = 0; j < count[axes[1]]; ++j)
-      for (int i = 0; i < count[axes[0]]; ++i) {
-        index[axes[0]] = i, index[axes[1]] = j, index[axes[2]] = k;
-        out.push_back(columns[index[0] + count[0] * (index[1] + std::size_t(count[1]) * index[2])]);
-      }
-  return out;
-}
-
-NodalRows rows_of(const std::vector<int>& columns, const std::array<int, 3>& count,
-                  const std::array<int, 3>& axes) {
-  return {permuted(columns, count, axes), count[axes[0]]};
-}
-
 /// Whether a row-major K has its only numbers in columns (d + shift) % 3.
 bool is_aligned(const std::vector<double>& K, int shift) {
   for (int d = 0; d < 3; ++d)
     for (int j = 0; j < 3; ++j)
       if (j != (d + shift) % 3 && K[3 * d + j] != 0.0) return false;
   return true;
-}
-
-void grow(AlignedNumbers& numbers, std::size_t size) {
-  if (numbers.size() < size) numbers.resize(size, 0.0);
 }
 
 }  // namespace
@@ -79,12 +55,12 @@ BoxSweep::BoxSweep(const nurbs::Space<3>& space, const PlacedBox& box, std::size
       geometry_loops_(&geometry_loops(rational_, plan.level)),
       mode_(plan.geometry.mode),
       field_kernel_(&field_kernel(plan.level)),
-      read_(rows_of(box.read(), box_node_counts(space, box.spans), axes_)),
-      write_(rows_of(box.write(), box_node_counts(space, box.spans), axes_)) {
+      read_(rows_along(axes_, box_node_counts(space, box.spans), box.read())),
+      write_(rows_along(axes_, box_node_counts(space, box.spans), box.write())) {
   plane_ = row_ * box_node_counts(space, box.spans)[axes_[1]];
   field_ = row_ * read_.rows();
   if (rational_)
-    for (const int node : permuted(box_nodes(space, box.spans), box_node_counts(space, box.spans), axes_))
+    for (const int node : along(axes_, box_node_counts(space, box.spans), box_nodes(space, box.spans)))
       weights_.push_back(space.weight(node));
   if (plan.geometry.J && mode_ == GeometryMode::affine) {
     const Matrix3 K = plan.geometry.J->inverse();

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// The kernels of field_kernel.cpp, line_kernel.cpp and point_kernel.cpp, which are compiled once for each
-// instruction set.
+// The kernels of field_kernel.cpp, line_kernel.cpp, mass_kernel.cpp and point_kernel.cpp, which are compiled
+// once for each instruction set.
 #include <fmt/format.h>
 
 #include <stdexcept>
 
 #include "structure/sweep/field_kernel.h"
 #include "structure/sweep/line_kernel.h"
+#include "structure/sweep/mass_kernel.h"
 #include "structure/sweep/point_kernel.h"
 
 namespace structure {
@@ -17,6 +18,7 @@ using nurbs::SimdLevel;
   namespace level {                                                \
   const FieldKernel& field_kernel();                               \
   const LineKernel& line_kernel(int degree);                       \
+  const MassKernel& mass_kernel();                                 \
   const PointLoops& point_loops(GeometryMode mode, bool rational); \
   const PointLoops& aligned_loops(int shift);                      \
   const GeometryLoops& geometry_loops(bool rational);              \
@@ -50,6 +52,15 @@ const LineKernel& line_kernel(int degree, SimdLevel level) {
   if (level == SimdLevel::avx2) return avx2::line_kernel(degree);
 #endif
   return portable::line_kernel(degree);
+}
+
+const MassKernel& mass_kernel(SimdLevel level) {
+  expect(level);
+#ifdef NURBS_X86_64
+  if (level == SimdLevel::avx512) return avx512::mass_kernel();
+  if (level == SimdLevel::avx2) return avx2::mass_kernel();
+#endif
+  return portable::mass_kernel();
 }
 
 const PointLoops& point_loops(GeometryMode mode, bool rational, SimdLevel level) {

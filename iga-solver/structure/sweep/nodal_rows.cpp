@@ -26,6 +26,25 @@ NodalRows::NodalRows(std::vector<int> columns, int count)
   columns_ = std::move(columns);
 }
 
+std::vector<int> along(const std::array<int, 3>& axes, const std::array<int, 3>& count,
+                       const std::vector<int>& numbers) {
+  std::array<int, 3> index;
+  std::vector<int> out;
+  out.reserve(numbers.size());
+  for (int k = 0; k < count[axes[2]]; ++k)
+    for (int j = 0; j < count[axes[1]]; ++j)
+      for (int i = 0; i < count[axes[0]]; ++i) {
+        index[axes[0]] = i, index[axes[1]] = j, index[axes[2]] = k;
+        out.push_back(numbers[index[0] + count[0] * (index[1] + std::size_t(count[1]) * index[2])]);
+      }
+  return out;
+}
+
+NodalRows rows_along(const std::array<int, 3>& axes, const std::array<int, 3>& count,
+                     const std::vector<int>& columns) {
+  return {along(axes, count, columns), count[axes[0]]};
+}
+
 void NodalRows::fetch(const double* values, int row) const {
   if (row < rows_) nurbs::prefetch(values + 3 * std::size_t(column(row, 0)), 3 * count_ / 8 + 1);
 }

@@ -3,6 +3,7 @@
 // side, and a word of them is read or written at once.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "nurbs/patch.h"
@@ -36,5 +37,13 @@ class NodalRows {
   std::vector<int> first_,
       columns_;  // one of them is empty: of each row, if all stand side by side; of each node
 };
+
+/// Numbers of a box's control points, `count` in each of the patch's directions, the first fastest: the same
+/// with the direction axes[0] fastest, then axes[1].
+std::vector<int> along(const std::array<int, 3>& axes, const std::array<int, 3>& count,
+                       const std::vector<int>& numbers);
+/// Rows along axes[0] of columns.
+NodalRows rows_along(const std::array<int, 3>& axes, const std::array<int, 3>& count,
+                     const std::vector<int>& columns);
 
 }  // namespace structure

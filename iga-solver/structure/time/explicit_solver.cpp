@@ -17,13 +17,6 @@ namespace structure {
 
 namespace {
 
-/// 3 x n [1/mass]: 0 where a dof is fixed.
-NodalVectors inverse_mass_of_dofs(const MassOperator& mass, const Supports& supports) {
-  NodalVectors inverse = Vector3::Ones() * mass.nodal_mass().cwiseInverse().transpose();
-  supports.apply(inverse);
-  return inverse;
-}
-
 std::vector<Id> ids_of(const Halo& halo, Eigen::Index columns) {
   std::vector<Id> ids(columns);
   for (Eigen::Index i = 0; i < columns; ++i) ids[i] = halo.node_id(i);
@@ -38,8 +31,7 @@ ExplicitSolver::ExplicitSolver(std::unique_ptr<Body> body, Supports supports,
       supports_(std::move(supports)),
       halo_(std::move(halo)),
       node_ids_(ids_of(*halo_, body_->node_count())),
-      mass_(std::make_unique<LumpedMass>(whole(*halo_, body_->row_sum_mass()))),
-      inverse_mass_(inverse_mass_of_dofs(*mass_, supports_)),
+      mass_(mass_of(*body_, supports_, *halo_)),
       motion_(supports_, mass_->nodal_mass()),
       f_ext_(NodalVectors::Zero(3, body_->node_count())),
       f_int_(f_ext_),
@@ -65,6 +57,12 @@ void ExplicitSolver::add_load(std::unique_ptr<const ChangingLoad> load, std::str
   loads_.push_back(std::move(load));
   load_names_.push_back(std::move(name));
   budget_.reset();
+}
+
+void ExplicitSolver::set_mass_damping(double rate) {
+  if (rate > 0.0 && !mass_->is_diagonal())
+    throw std::invalid_argument("ExplicitSolver: damping by the mass, expected none with corrected mass");
+  damping_ = rate;
 }
 
 void ExplicitSolver::set_velocities(const NodalVectors& v) {
@@ -120,11 +118,12 @@ void ExplicitSolver::begin_step() {
 void ExplicitSolver::add_motion(const NodalVectors& displacements, const NodalVectors& velocities) {
   check_size(displacements, "displacements");
   check_size(velocities, "velocities");
+  momentum_.resize(3, v_.cols());
+  mass_->apply_mass(velocities, momentum_);
   halo_->for_each_run(v_.cols(), [&](Eigen::Index first, Eigen::Index count) {
     const auto gain = velocities.middleCols(first, count);
     const auto v = v_.middleCols(first, count);
-    const auto momentum = gain * mass_->nodal_mass().segment(first, count).asDiagonal();
-    const double energy = momentum.cwiseProduct(v + 0.5 * gain).sum();
+    const double energy = momentum_.middleCols(first, count).cwiseProduct(v + 0.5 * gain).sum();
     PerForce work = PerForce::Zero();
     work[kForces] = energy;
     ledger_.half_kick(work);
@@ -178,9 +177,13 @@ void ExplicitSolver::accelerate(const NodalVectors& F, double h) {
   const bool moves = !motion_.is_empty() && dt_ > 0.0;
   if (moves) motion_.find_velocities(conditions_time(time_ + dt_), dt_, h > 0.0, u_, v_);
   const NodalForces forces{f_int_, f_ext_, F};
+  if (!mass_->is_diagonal()) {
+    a_ = f_ext_ + F - f_int_;
+    mass_->apply_inverse_mass(a_, a_);
+  }
   sums_.clear();
   halo_->for_each_run(v_.cols(), [&](Eigen::Index first, Eigen::Index count) {
-    sums_.push_back(accelerate_and_kick(h, forces, inverse_mass_, first, count, a_, v_, damping_));
+    sums_.push_back(kick_run(forces, h, first, count));
     if (moves) motion_.add_accelerations(first, count, forces, a_, sums_.back());
   });
   if (keeps_reactions_) find_reactions(F);
@@ -193,11 +196,19 @@ void ExplicitSolver::accelerate(const NodalVectors& F, double h) {
   if (moves) motion_.set_velocities(v_);
 }
 
+ForceSums ExplicitSolver::kick_run(const NodalForces& forces, double h, Eigen::Index first,
+                                   Eigen::Index count) {
+  return mass_->is_diagonal()
+             ? accelerate_and_kick(h, forces, mass_->inverse_mass(), first, count, a_, v_, damping_)
+             : kick(h, forces, first, count, a_, v_);
+}
+
 void ExplicitSolver::find_reactions(const NodalVectors& F) {
   const std::vector<Eigen::Index>& fixed = supports_.fixed_dofs();
   reactions_.resize(fixed.size());
   for (std::size_t i = 0; i < fixed.size(); ++i) {
-    const double inertia = mass_->nodal_mass()[fixed[i] / 3] * a_.data()[fixed[i]];
+    const double inertia =
+        mass_->nodal_mass()[fixed[i] / 3] * a_.data()[fixed[i]] + mass_->force_on_support(fixed[i]);
     reactions_[i] = inertia + f_int_.data()[fixed[i]] - f_ext_.data()[fixed[i]] - F.data()[fixed[i]];
   }
 }
@@ -315,26 +326,6 @@ double ExplicitSolver::renew_stable_time_step() {
   return *stable_now_;
 }
 
-double ExplicitSolver::nodal_sum(const NodalVectors& q) const {
-  return halo_->sum_over_nodes(q.cols(), [&](Eigen::Index first, Eigen::Index count) {
-    const auto squares = q.middleCols(first, count).colwise().squaredNorm().transpose();
-    return squares.cwiseProduct(mass_->nodal_mass().segment(first, count)).sum();
-  });
-}
-
-double ExplicitSolver::largest_displacement() const {
-  const Eigen::VectorXd lengths = halo_->own(u_).colwise().norm();
-  return halo_->largest(lengths.size() > 0 ? lengths.maxCoeff() : 0.0);
-}
-
-double ExplicitSolver::kinetic_energy() const { return 0.5 * nodal_sum(v_); }
-
-double ExplicitSolver::strain_energy() const {
-  ExactSum sum = body_->strain_energy_sum(u_);
-  springs_.add_energy(u_, halo_->owned(u_.cols()), sum);
-  return halo_->total(sum);
-}
-
 // What the material has lost by viscosity is damped, not internal.
 Work ExplicitSolver::work() const {
   Work work = ledger_.work(*halo_);
@@ -352,37 +343,5 @@ double ExplicitSolver::dissipated_energy() const {
 }
 
 double ExplicitSolver::load_work() const { return loads_.empty() ? halo_->dot(f_ext_, u_) : work().loads; }
-
-Vector3 ExplicitSolver::sum_of_own(const std::function<Vector3(Eigen::Index node)>& value) const {
-  std::array<ExactSum, 3> sums;
-  for (Eigen::Index A = 0; A < halo_->owned(v_.cols()); ++A) {
-    const Vector3 term = value(A);
-    for (int i = 0; i < 3; ++i) sums[i].add(term[i]);
-  }
-  halo_->sum(sums.data(), sums.size());
-  return {sums[0].value(), sums[1].value(), sums[2].value()};
-}
-
-Vector3 ExplicitSolver::linear_momentum() const {
-  return sum_of_own([&](Eigen::Index A) { return Vector3(mass_->nodal_mass()[A] * v_.col(A)); });
-}
-
-Vector3 ExplicitSolver::angular_momentum(const Vector3& about) const {
-  return sum_of_own([&](Eigen::Index A) {
-    return Vector3((x_.col(A) - about).cross(mass_->nodal_mass()[A] * Vector3(v_.col(A))));
-  });
-}
-
-Vector3 ExplicitSolver::displacement(const Probe& probe) const {
-  std::array<ExactSum, 3> sums;
-  const auto begin = node_ids_.begin(), end = begin + halo_->owned(u_.cols());
-  for (std::size_t a = 0; a < probe.nodes.size(); ++a) {
-    const auto own = std::lower_bound(begin, end, Id(probe.nodes[a]));
-    if (own == end || *own != probe.nodes[a]) continue;
-    for (int i = 0; i < 3; ++i) sums[i].add(probe.weights[a] * u_(i, own - begin));
-  }
-  halo_->sum(sums.data(), sums.size());
-  return {sums[0].value(), sums[1].value(), sums[2].value()};
-}
 
 }  // namespace structure

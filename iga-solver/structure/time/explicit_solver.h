@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// A solid in time: central differences as velocity Verlet (Newmark with beta = 0, gamma = 1/2), lumped mass.
+// A solid in time: central differences as velocity Verlet (Newmark with beta = 0, gamma = 1/2), with the mass
+// that the body asks for (mass.h).
 //   begin_step  v(n+1/2) = v(n) + dt/2 a(n),  u(n+1) = u(n) + dt v(n+1/2)
 //   end_step    a(n+1) = M^-1 (F(n+1) + f_ext - f_int(u(n+1))),  v(n+1) = v(n+1/2) + dt/2 a(n+1)
 // Between the two calls somebody else may work out forces F at the new positions (contact); all of the step's
@@ -34,7 +35,7 @@ namespace structure {
 /// where they are told (support_motion.h).
 class ExplicitSolver {
  public:
-  /// At rest, undeformed, row-sum lumped mass.  Of a body that is cut, each part has a solver, and what is
+  /// At rest, undeformed.  Of a body that is cut, each part has a solver, and what is
   /// asked of all nodes (energies, momenta, work, stable step) is collective, as the steps are.
   ExplicitSolver(std::unique_ptr<Body> body, Supports supports,
                  std::unique_ptr<const Halo> halo = std::make_unique<const Halo>());
@@ -48,8 +49,9 @@ class ExplicitSolver {
   /// Springs to the ground: stiffness and strain energy count as the body's.  Before the stable step is asked
   /// for.
   void set_springs(Springs springs) { springs_ = std::move(springs); }
-  /// Forces - rate m v [1/time] from the next forces on.
-  void set_mass_damping(double rate) { damping_ = rate; }
+  /// Forces - rate m v [1/time] from the next forces on.  Throws std::invalid_argument if the mass is not
+  /// lumped.
+  void set_mass_damping(double rate);
   /// From the next forces on loads and supports are those of the time t, whenever it is.
   void hold_conditions_at(double t) { held_at_ = t; }
   /// Current velocities [length/time], set to 0 at fixed dofs that do not move; throws as above.
@@ -89,8 +91,6 @@ class ExplicitSolver {
   bool is_too_strained() const { return is_too_strained_; }
   /// Between steps: other forces F [force] than those of the last one, as if it had ended with them.
   void change_forces(const NodalVectors& F);
-  /// Of each dof [1/mass], 3 x node_count: 0 where it is fixed.
-  const NodalVectors& inverse_mass() const { return inverse_mass_; }
   const Halo& halo() const { return *halo_; }
 
   const Springs& springs() const { return springs_; }
@@ -120,7 +120,7 @@ class ExplicitSolver {
   double stable_time_step_now() const { return stable_now_.value_or(stable_time_step()); }
 
   double largest_displacement() const;  ///< of all nodes [length]
-  double kinetic_energy() const;        ///< sum m_A |v_A|^2 / 2
+  double kinetic_energy() const;        ///< p . v / 2 of momenta p = M v
   double strain_energy() const;
   /// Since initialise_forces: kinetic energy + internal + damped - loads - forces - supports is constant
   /// to round-off.
@@ -128,7 +128,7 @@ class ExplicitSolver {
   double load_work() const;  ///< f_ext . u: kinetic + strain energy - load work is conserved without further
                              ///< forces; of loads that change what the ledger has
   Vector3 linear_momentum() const;                       ///< sum m_A v_A
-  Vector3 angular_momentum(const Vector3& about) const;  ///< sum (x_A - about) x m_A v_A
+  Vector3 angular_momentum(const Vector3& about) const;  ///< sum (x_A - about) x p_A
 
   /// By how much the work against internal forces exceeds the change of strain energy since then:
   /// the error of the time step, of order dt^2, and what a material has dissipated otherwise than by
@@ -189,6 +189,7 @@ class ExplicitSolver {
   void add_forces_of_others();
   /// From f_int_, whole at own nodes: accelerations under F too, and a kick of `h` by them.
   void accelerate(const NodalVectors& F, double h);
+  ForceSums kick_run(const NodalForces& forces, double h, Eigen::Index first, Eigen::Index count);
   void find_reactions(const NodalVectors& F);
   /// Of loads and supports when the solid's is t.
   double conditions_time(double t) const { return held_at_.value_or(t); }
@@ -213,7 +214,6 @@ class ExplicitSolver {
   std::unique_ptr<const Halo> halo_;
   std::vector<Id> node_ids_;
   std::unique_ptr<MassOperator> mass_;
-  NodalVectors inverse_mass_;  // of each dof, 0 where it is fixed
   SupportMotion motion_;
   double dt_ = 0.0, time_ = 0.0;
   std::optional<double> held_at_;  // the time of loads and supports, if it does not go on
@@ -226,6 +226,7 @@ class ExplicitSolver {
   std::vector<std::unique_ptr<const ChangingLoad>> loads_;
   std::vector<std::string> load_names_;
   Springs springs_;
+  NodalVectors momentum_;        // of what is added
   NodalVectors led_u_;           // u + lead (v - spin x), where there is a lead
   double largest_u_ = 0.0;       // of all components that the part holds
   std::vector<ForceSums> sums_;  // of the last kick, for each run of nodes that the part owns

@@ -22,8 +22,8 @@ double random_entry(std::uint64_t n) {
   return std::ldexp(double((n ^ (n >> 31)) >> 11), -52) - 1.0;
 }
 
-/// Random forces sqrt(m) v, so that M^-1/2 times them is v.  By ids, so they are the same however a body is
-/// cut.
+/// Random forces sqrt(m) v, so that M^-1/2 times them is v, or hides less of any mode where M is less than
+/// its row sums.  By ids, so they are the same however a body is cut.
 NodalVectors start_forces(const Eigen::VectorXd& nodal_mass, const Halo& halo) {
   NodalVectors q = NodalVectors::Zero(3, nodal_mass.size());
   for (Eigen::Index A = 0; A < halo.held(q.cols()); ++A)

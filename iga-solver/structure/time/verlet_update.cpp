@@ -63,6 +63,13 @@ struct LaneSums {
     f_v[k].template head<n>() += f * velocity;
     f_a[k].template head<n>() += f * acceleration;
   }
+  /// Of the n numbers from i on.
+  template <int n, class Part>
+  void add(const NodalForces& f, Eigen::Index i, const Part& velocity, const Part& acceleration) {
+    add<n, Part>(kInternal, part<n>(f.internal, i), velocity, acceleration);
+    add<n, Part>(kLoads, part<n>(f.loads, i), velocity, acceleration);
+    add<n, Part>(kForces, part<n>(f.forces, i), velocity, acceleration);
+  }
   ForceSums total() const {
     ForceSums sums;
     for (const int k : kSummed) {
@@ -81,9 +88,9 @@ ForceSums accelerate_and_kick(double h, const NodalForces& f, const NodalVectors
   for_each_part(3 * first, 3 * (first + count), [&](auto width, Eigen::Index i) {
     constexpr int n = width;
     using Part = Eigen::Array<double, n, 1>;
-    const Part internal = part<n>(f.internal, i), loads = part<n>(f.loads, i), forces = part<n>(f.forces, i),
-               inverse = part<n>(inverse_mass, i);
-    Part acceleration = (loads + forces - internal) * inverse, velocity = part<n>(v, i);
+    const Part inverse = part<n>(inverse_mass, i);
+    Part acceleration = (part<n>(f.loads, i) + part<n>(f.forces, i) - part<n>(f.internal, i)) * inverse,
+         velocity = part<n>(v, i);
     if constexpr (is_damped) {
       const Part none = Part::Zero(), rate = (inverse > 0.0).select(Part::Constant(damping), none);
       velocity += h * ((acceleration - rate * velocity) / (1.0 + h * rate));
@@ -95,9 +102,7 @@ ForceSums accelerate_and_kick(double h, const NodalForces& f, const NodalVectors
     }
     part<n>(a, i) = acceleration;
     part<n>(v, i) = velocity;
-    sums.add<n>(kInternal, internal, velocity, acceleration);
-    sums.add<n>(kLoads, loads, velocity, acceleration);
-    sums.add<n>(kForces, forces, velocity, acceleration);
+    sums.add<n>(f, i, velocity, acceleration);
   });
   return sums.total();
 }
@@ -109,6 +114,19 @@ ForceSums accelerate_and_kick(double h, const NodalForces& f, const NodalVectors
                               double damping) {
   return damping > 0.0 ? accelerate_and_kick<true>(h, f, inverse_mass, first, count, a, v, damping)
                        : accelerate_and_kick<false>(h, f, inverse_mass, first, count, a, v, damping);
+}
+
+ForceSums kick(double h, const NodalForces& f, Eigen::Index first, Eigen::Index count, const NodalVectors& a,
+               NodalVectors& v) {
+  LaneSums sums;
+  for_each_part(3 * first, 3 * (first + count), [&](auto width, Eigen::Index i) {
+    constexpr int n = width;
+    const Eigen::Array<double, n, 1> acceleration = part<n>(a, i),
+                                     velocity = part<n>(v, i) + h * acceleration;
+    part<n>(v, i) = velocity;
+    sums.add<n>(f, i, velocity, acceleration);
+  });
+  return sums.total();
 }
 
 }  // namespace structure

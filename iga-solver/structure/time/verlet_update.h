@@ -41,4 +41,8 @@ ForceSums accelerate_and_kick(double h, const NodalForces& f, const NodalVectors
                               Eigen::Index first, Eigen::Index count, NodalVectors& a, NodalVectors& v,
                               double damping = 0.0);
 
+/// The same with accelerations a that are known.
+ForceSums kick(double h, const NodalForces& f, Eigen::Index first, Eigen::Index count, const NodalVectors& a,
+               NodalVectors& v);
+
 }  // namespace structure

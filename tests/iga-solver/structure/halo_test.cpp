@@ -114,9 +114,11 @@ struct Tower {
   nurbs::Volume whole =
       models::distorted(nurbs::box(Vector3::Zero(), Vector3(2, 2, 4), {fine, fine, tall}), 0.1);
 
+  structure::Integration integration = {};
+
   std::unique_ptr<Solid> solid(nurbs::Volume patch) const {
-    return std::make_unique<Solid>(std::move(patch),
-                                   std::make_shared<test::StandardLinearSolid>(1.0, 0.3, 1.0, 0.4, 2.0));
+    return std::make_unique<Solid>(
+        std::move(patch), std::make_shared<test::StandardLinearSolid>(1.0, 0.3, 1.0, 0.4, 2.0), integration);
   }
   std::unique_ptr<Solid> half(int part) const {
     return solid({nurbs::Space<3>({fine, fine, fine}), own(whole.control_points, part)});
@@ -177,8 +179,10 @@ struct Runs {
 };
 
 /// From `state` instead, if there is one.
-Runs run_both(double dt, int steps, const std::vector<double>& state = {}) {
-  const Tower tower;
+Runs run_both(double dt, int steps, const std::vector<double>& state = {},
+              structure::TimeMass mass = structure::TimeMass::lumped) {
+  Tower tower;
+  tower.integration.mass = mass;
   const NodalVectors v = 0.1 * models::random_vectors(kWhole, 5),
                      F = 0.01 * models::random_vectors(kWhole, 6);
   Runs runs;
@@ -197,8 +201,8 @@ Runs run_both(double dt, int steps, const std::vector<double>& state = {}) {
   return runs;
 }
 
-TEST(Halo, TwoPartsMoveAsTheWholeBodyDoes) {
-  const Runs runs = run_both(0.1, 100);
+void expect_parts_to_move_as_the_whole(structure::TimeMass mass) {
+  const Runs runs = run_both(0.1, 100, {}, mass);
   const Results& whole = runs.whole;
   ASSERT_EQ(whole.u.cols(), kWhole);
   for (int part = 0; part < 2; ++part) {
@@ -221,6 +225,10 @@ TEST(Halo, TwoPartsMoveAsTheWholeBodyDoes) {
   EXPECT_EQ(runs.parts[0].kinetic, runs.parts[1].kinetic);
   EXPECT_EQ(runs.parts[0].stable, runs.parts[1].stable);
 }
+
+TEST(Halo, TwoPartsMoveAsTheWholeBodyDoes) { expect_parts_to_move_as_the_whole(structure::TimeMass::lumped); }
+
+TEST(Halo, SoTheyDoWithCorrectedMass) { expect_parts_to_move_as_the_whole(structure::TimeMass::corrected); }
 
 double distance(const std::vector<double>& a, const std::vector<double>& b) {
   using Values = Eigen::Map<const Eigen::VectorXd>;

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "structure/time/mass.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace structure {
+
+LumpedMass::LumpedMass(Eigen::VectorXd nodal_mass, const Supports& supports)
+    : mass_(std::move(nodal_mass)), inverse_(Vector3::Ones() * mass_.cwiseInverse().transpose()) {
+  if (!(mass_.array() > 0.0).all() || !mass_.allFinite())
+    throw std::invalid_argument("LumpedMass: every nodal mass must be > 0 and finite");
+  supports.apply(inverse_);
+}
+
+CorrectedMass::CorrectedMass(const Body& body, Eigen::VectorXd nodal_mass, const Supports& supports,
+                             const Halo& halo)
+    : body_(body),
+      halo_(halo),
+      lumped_(std::move(nodal_mass), supports),
+      bound_(2.0 * lumped_.inverse_mass()),
+      predicted_(NodalVectors::Zero(3, bound_.cols())),
+      product_(predicted_) {
+  if (!supports.motions().empty())
+    throw std::invalid_argument("CorrectedMass: a support moves, expected supports that are fixed");
+}
+
+void CorrectedMass::apply_inverse_mass(const NodalVectors& f, NodalVectors& a) const {
+  lumped_.apply_inverse_mass(f, predicted_);
+  halo_.owners_to_ghosts(predicted_);
+  // Columns that are no nodes stay where they are.
+  predicted_.rightCols(predicted_.cols() - halo_.held(predicted_.cols())).setZero();
+  body_.mass_product(predicted_, product_, [this] { halo_.begin_sum(product_); });
+  halo_.finish_sum(product_);
+  a = 2.0 * predicted_ - product_.cwiseProduct(lumped_.inverse_mass());
+}
+
+// Row sums are the preconditioner: of M^-1 times them all eigenvalues are 1 to 2.
+void CorrectedMass::apply_mass(const NodalVectors& v, NodalVectors& p) const {
+  constexpr int kMostProducts = 100;
+  constexpr double kRoundOff = std::numeric_limits<double>::epsilon();
+  const auto preconditioned = [&](const NodalVectors& r) -> NodalVectors {
+    return r * lumped_.nodal_mass().asDiagonal();
+  };
+  p = preconditioned(v);
+  NodalVectors product(3, v.cols());
+  apply_inverse_mass(p, product);
+  NodalVectors r = v - product, z = preconditioned(r), direction = z;
+  double square = halo_.dot(r, z);
+  const double enough = kRoundOff * kRoundOff * halo_.dot(v, p);
+  for (int k = 0; k < kMostProducts && square > enough; ++k) {
+    apply_inverse_mass(direction, product);
+    const double step = square / halo_.dot(direction, product);
+    p += step * direction;
+    r -= step * product;
+    z = preconditioned(r);
+    const double before = std::exchange(square, halo_.dot(r, z));
+    direction = z + square / before * direction;
+  }
+}
+
+std::unique_ptr<MassOperator> mass_of(const Body& body, const Supports& supports, const Halo& halo) {
+  Eigen::VectorXd row_sums = whole(halo, body.row_sum_mass());
+  if (body.corrects_mass()) return std::make_unique<CorrectedMass>(body, std::move(row_sums), supports, halo);
+  return std::make_unique<LumpedMass>(std::move(row_sums), supports);
+}
+
+}  // namespace structure
