@@ -50,6 +50,7 @@ class GradedBlock:
     degree: int = 2
     layers: int = 0  # equal ones, through the thickness of a plate; 0: graded, too
     degree_through: int | None = None  # of the thickness; None: as the others
+    mass: str = "lumped"  # or corrected
 
     def breaks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         x, y = (across(self.h, self.half, self.largest, self.place in places)
@@ -70,6 +71,6 @@ class GradedBlock:
             f"    - degrees: {degrees}\n"
             f"      knots: {[k.tolist() for k in knots]}\n"
             "      control_points:\n        [" + ",\n        ".join(points) + "]\n"
-            f"material: {{{constants}}}\n"
+            f"material: {{{constants}}}\nintegration: {{mass: {self.mass}}}\n"
             "surfaces: {top: zeta+}\nprobes:\n  under_ball: {face: zeta+, at: [0.5, 0.5]}\n"
         )

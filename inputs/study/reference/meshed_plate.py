@@ -3,7 +3,7 @@
 
 The plate is periodic and its mesh uniform, so plane waves over the control points, exp(i (theta_x i + theta_y j)), fall apart:
 for each of them 3 unknowns per layer of control points.  Their modes turn exactly, the contact's force acts in kicks.  Mass
-matrices are row sums.  What the mesh gives way more than the plate, c, is the same mesh's answer to the half-space's tractions
+matrices are row sums, or these corrected once by the consistent matrix.  What the mesh gives way more than the plate, c, is the same mesh's answer to the half-space's tractions
 on both sides (Johnson 1985, sec. 3.2, and its transform), without any limit of a patch.  What is left beside three-dimensional
 elasticity (elastic_plate.py) is the mesh's own: waves in its elements, shear of its layers.  All quantities are SI; z is the
 depth below the side that is hit.
@@ -54,6 +54,7 @@ class MeshedPlate:
     side: float  # of the plate
     degree: int = 2
     degree_through: int | None = None  # of the thickness; None: the same
+    mass: str = "lumped"  # or corrected
 
     @property
     def shift(self) -> float:
@@ -94,6 +95,15 @@ class MeshedPlate:
                 K[:, i * n : (i + 1) * n, j * n : (j + 1) * n] = lame * product(i, j) + mu * product(j, i)
             K[:, i * n : (i + 1) * n, i * n : (i + 1) * n] += same
         return K
+
+    def root_of_inverse_mass(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """[wave, unknown, unknown]: L of the inverse mass L L^H."""
+        lumped = self.rho * self.h**2 * self.through.row_sums
+        inverse = np.broadcast_to(np.diag(1.0 / lumped), (len(x), len(lumped), len(lumped)))
+        if self.mass == "corrected":
+            waves = Along(self.h, self.degree, x).values * Along(self.h, self.degree, y).values
+            inverse = 2.0 * inverse - self.rho * waves[:, None, None] * (self.through.values / np.outer(lumped, lumped))
+        return np.kron(np.eye(3), np.linalg.cholesky(inverse))
 
     def at_foot(self, theta: np.ndarray) -> np.ndarray:
         """Value at the place of a wave of one direction."""
@@ -139,11 +149,11 @@ class MeshedPlate:
         weight = np.full(len(theta), 2.0 / number)
         weight[[0, -1]] = 1.0 / number
         x, y = (a.ravel() for a in np.meshgrid(theta, theta))
-        scale = (self.rho * self.h**2 * np.tile(self.through.row_sums, 3)) ** -0.5
-        squares, shapes = np.linalg.eigh(self.stiffness(x, y) * np.outer(scale, scale))
+        root = self.root_of_inverse_mass(x, y)
+        squares, shapes = np.linalg.eigh(root.conj().swapaxes(1, 2) @ self.stiffness(x, y) @ root)
         top = 2 * self.through.count
         R = self.at_foot(x) * self.at_foot(y) * np.sqrt(np.outer(weight, weight).ravel())
-        phi = (scale[top] * np.abs(shapes[:, top, :] * R[:, None])).ravel()
+        phi = np.abs((root[:, top : top + 1] @ shapes)[:, 0] * R[:, None]).ravel()
         moved = phi > 1e-12 * phi.max()
         return np.sqrt(np.maximum(squares.ravel()[moved], 0.0)), phi[moved]
 

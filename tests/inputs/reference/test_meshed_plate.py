@@ -2,6 +2,7 @@
 """Plates of equal elements: an independent code on the same meshes, and three-dimensional elasticity as the meshes get finer."""
 
 import unittest
+from dataclasses import replace
 
 import numpy as np
 
@@ -54,6 +55,23 @@ class SameMesh(unittest.TestCase):
         self.assertAlmostEqual(plate("Z1", 1e-3, 3).through.row_sums.sum(), 1e-3, delta=1e-15)
 
 
+    def test_corrected_mass(self):
+        """Once: 2 M_L - M between row sums' inverses; a uniform motion has the mass of row sums, waves have less."""
+        of = replace(plate("Z1", 1e-3, 2), mass="corrected")
+        theta = np.array([0.0, 1.3])
+        root = of.root_of_inverse_mass(theta, 0.5 * theta)
+        inverse = root @ root.conj().swapaxes(1, 2)
+        n = of.through.count
+        lumped = GLASS[2] * 1e-6 * np.tile(of.through.row_sums, 3)
+        np.testing.assert_allclose(inverse[0] @ lumped, 1.0, rtol=1e-12)
+        scaled = np.linalg.eigvalsh(inverse * np.sqrt(np.outer(lumped, lumped)))
+        self.assertGreater(scaled.min(), 1.0 - 1e-12)
+        self.assertLess(scaled.max(), 2.0)
+        self.assertEqual(np.abs(inverse[:, :n, n:]).max(), 0.0, "directions are apart")
+        lumped_root = replace(of, mass="lumped").root_of_inverse_mass(theta, theta)
+        np.testing.assert_allclose(lumped_root[1], np.diag(lumped**-0.5), rtol=1e-12)
+
+
 class Compliance(unittest.TestCase):
     def test_cubes(self):
         """Of a half-space of cubes: 0.804 and 1.274 in 1/(E' h), to 0.5 % from four layers on."""
@@ -76,6 +94,14 @@ class Elasticity(unittest.TestCase):
             self.assertLess(errors[1][1], 0.25 * errors[0][1])
             self.assertLess(errors[2][1], 5e-4)
             self.assertLess(errors[2][0], 5e-4)
+
+    def test_corrected_mass_takes_half_of_what_is_left(self):
+        """With elements as large as the plate is thick, two layers of them: the rest is waves in the stiffness."""
+        rigid = sphere("Z1")
+        exact = ElasticPlateImpact(rigid.m, rigid.V, rigid.k, *GLASS, 1.0e-3)
+        lumped, corrected = (replace(plate("Z1", 1e-3, 2), mass=mass).impact(rigid, 1e-8) for mass in ("lumped", "corrected"))
+        for value, reference in zip(range(2), (exact.restitution, exact.peak_force)):
+            self.assertLess(abs(corrected[value] - reference), 0.55 * abs(lumped[value] - reference))
 
     def test_one_layer_stays_away(self):
         """What a mesh of one quadratic layer is too stiff by it stays, however fine it is in the plane: its shear, which cubic
