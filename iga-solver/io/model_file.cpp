@@ -63,9 +63,6 @@ void expect_fit_for_corrected_mass(const YamlMap& document, const ModelFile& mod
       "expected none of it with 'integration: {mass: corrected}' (or 'mass: lumped')";
   if (model.mass_damping > 0.0)
     document.fail("damping", fmt::format("damping.mass is {}, {}", model.mass_damping, kExpected));
-  for (const BoundaryEntry& entry : model.boundary)
-    if (entry.moves)
-      document.fail("boundary", fmt::format("boundary has a support that moves, {}", kExpected));
 }
 
 bool wants_welds(const YamlMap& document) {

@@ -32,13 +32,15 @@ ExplicitSolver::ExplicitSolver(std::unique_ptr<Body> body, Supports supports,
       halo_(std::move(halo)),
       node_ids_(ids_of(*halo_, body_->node_count())),
       mass_(mass_of(*body_, supports_, *halo_)),
-      motion_(supports_, mass_->nodal_mass()),
+      motion_(supports_),
       f_ext_(NodalVectors::Zero(3, body_->node_count())),
       f_int_(f_ext_),
       u_(f_ext_),
       x_(body_->reference()),
       v_(f_ext_),
-      a_(f_ext_) {}
+      a_(f_ext_) {
+  if (!motion_.is_empty() && !mass_->is_diagonal()) of_supports_ = f_ext_;
+}
 
 void ExplicitSolver::check_size(const NodalVectors& values, const char* what) const {
   if (values.cols() != u_.cols())
@@ -179,12 +181,13 @@ void ExplicitSolver::accelerate(const NodalVectors& F, double h) {
   const NodalForces forces{f_int_, f_ext_, F};
   if (!mass_->is_diagonal()) {
     a_ = f_ext_ + F - f_int_;
-    mass_->apply_inverse_mass(a_, a_);
+    if (moves) motion_.set_accelerations(of_supports_);
+    mass_->apply_inverse_mass(a_, a_, moves ? &of_supports_ : nullptr);
   }
   sums_.clear();
   halo_->for_each_run(v_.cols(), [&](Eigen::Index first, Eigen::Index count) {
     sums_.push_back(kick_run(forces, h, first, count));
-    if (moves) motion_.add_accelerations(first, count, forces, a_, sums_.back());
+    if (moves) motion_.add_accelerations(first, count, forces, *mass_, a_, sums_.back());
   });
   if (keeps_reactions_) find_reactions(F);
   halo_->owners_to_ghosts(a_);
@@ -207,8 +210,7 @@ void ExplicitSolver::find_reactions(const NodalVectors& F) {
   const std::vector<Eigen::Index>& fixed = supports_.fixed_dofs();
   reactions_.resize(fixed.size());
   for (std::size_t i = 0; i < fixed.size(); ++i) {
-    const double inertia =
-        mass_->nodal_mass()[fixed[i] / 3] * a_.data()[fixed[i]] + mass_->force_on_support(fixed[i]);
+    const double inertia = mass_->inertia_of_support(fixed[i], a_.data()[fixed[i]]);
     reactions_[i] = inertia + f_int_.data()[fixed[i]] - f_ext_.data()[fixed[i]] - F.data()[fixed[i]];
   }
 }

@@ -226,6 +226,7 @@ class ExplicitSolver {
   std::vector<std::unique_ptr<const ChangingLoad>> loads_;
   std::vector<std::string> load_names_;
   Springs springs_;
+  NodalVectors of_supports_;     // accelerations of those that move, if the mass is not diagonal
   NodalVectors momentum_;        // of what is added
   NodalVectors led_u_;           // u + lead (v - spin x), where there is a lead
   double largest_u_ = 0.0;       // of all components that the part holds

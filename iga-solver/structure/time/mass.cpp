@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 namespace structure {
 
@@ -20,35 +21,55 @@ CorrectedMass::CorrectedMass(const Body& body, Eigen::VectorXd nodal_mass, const
       halo_(halo),
       lumped_(std::move(nodal_mass), supports),
       bound_(2.0 * lumped_.inverse_mass()),
+      supports_move_(halo.any(!supports.motions().empty())),
       predicted_(NodalVectors::Zero(3, bound_.cols())),
-      product_(predicted_) {
-  if (!supports.motions().empty())
-    throw std::invalid_argument("CorrectedMass: a support moves, expected supports that are fixed");
-}
+      product_(predicted_) {}
 
-void CorrectedMass::apply_inverse_mass(const NodalVectors& f, NodalVectors& a) const {
-  lumped_.apply_inverse_mass(f, predicted_);
+/// product = M z, whole at own nodes.
+void CorrectedMass::multiply_predicted() const {
   halo_.owners_to_ghosts(predicted_);
   // Columns that are no nodes stay where they are.
   predicted_.rightCols(predicted_.cols() - halo_.held(predicted_.cols())).setZero();
   body_.mass_product(predicted_, product_, [this] { halo_.begin_sum(product_); });
   halo_.finish_sum(product_);
-  a = 2.0 * predicted_ - product_.cwiseProduct(lumped_.inverse_mass());
 }
 
-// Row sums are the preconditioner: of M^-1 times them all eigenvalues are 1 to 2.
+void CorrectedMass::apply_inverse_mass(const NodalVectors& f, NodalVectors& a,
+                                       const NodalVectors* of_supports) const {
+  lumped_.apply_inverse_mass(f, predicted_);
+  a = 2.0 * predicted_;
+  if (of_supports) predicted_ += *of_supports;
+  multiply_predicted();
+  a -= product_.cwiseProduct(lumped_.inverse_mass());
+}
+
+/// v where a dof is fixed, 0 elsewhere.
+NodalVectors CorrectedMass::of_fixed(const NodalVectors& v) const {
+  return (lumped_.inverse_mass().array() > 0.0).select(NodalVectors::Zero(3, v.cols()), v);
+}
+
+// Of free dofs from inverse mass p = v + (M_fs/m) v_s; row sums are the preconditioner: of the inverse mass
+// times them all eigenvalues are 1 to 2.
 void CorrectedMass::apply_mass(const NodalVectors& v, NodalVectors& p) const {
   constexpr int kMostProducts = 100;
   constexpr double kRoundOff = std::numeric_limits<double>::epsilon();
-  const auto preconditioned = [&](const NodalVectors& r) -> NodalVectors {
-    return r * lumped_.nodal_mass().asDiagonal();
+  const NodalVectors v_s = of_fixed(v);
+  NodalVectors r = v - v_s;
+  if (supports_move_) {
+    predicted_ = v_s;
+    multiply_predicted();
+    r += product_.cwiseProduct(lumped_.inverse_mass());
+  }
+  const auto preconditioned = [&](const NodalVectors& values) -> NodalVectors {
+    return values * lumped_.nodal_mass().asDiagonal();
   };
-  p = preconditioned(v);
+  p = preconditioned(r);
+  const double enough = kRoundOff * kRoundOff * halo_.dot(r, p);
   NodalVectors product(3, v.cols());
   apply_inverse_mass(p, product);
-  NodalVectors r = v - product, z = preconditioned(r), direction = z;
+  r -= product;
+  NodalVectors z = preconditioned(r), direction = z;
   double square = halo_.dot(r, z);
-  const double enough = kRoundOff * kRoundOff * halo_.dot(v, p);
   for (int k = 0; k < kMostProducts && square > enough; ++k) {
     apply_inverse_mass(direction, product);
     const double step = square / halo_.dot(direction, product);
@@ -58,6 +79,8 @@ void CorrectedMass::apply_mass(const NodalVectors& v, NodalVectors& p) const {
     const double before = std::exchange(square, halo_.dot(r, z));
     direction = z + square / before * direction;
   }
+  apply_inverse_mass(p, product, &v_s);
+  p += of_fixed(product_);
 }
 
 std::unique_ptr<MassOperator> mass_of(const Body& body, const Supports& supports, const Halo& halo) {

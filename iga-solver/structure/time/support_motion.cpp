@@ -5,10 +5,10 @@
 
 namespace structure {
 
-SupportMotion::SupportMotion(const Supports& supports, const Eigen::VectorXd& nodal_mass) {
+SupportMotion::SupportMotion(const Supports& supports) {
   for (const Motion& motion : supports.motions()) {
     for (std::size_t i = 0; i < motion.dofs.size(); ++i)
-      moved_.push_back({motion.dofs[i], times_.size(), motion.size[i], nodal_mass[motion.dofs[i] / 3]});
+      moved_.push_back({motion.dofs[i], times_.size(), motion.size[i]});
     times_.push_back(motion.time);
   }
   std::sort(moved_.begin(), moved_.end(), [](const Dof& a, const Dof& b) { return a.dof < b.dof; });
@@ -39,13 +39,17 @@ void SupportMotion::find_velocities(double t_next, double dt, bool holds_half, c
   set_velocities(v);
 }
 
+void SupportMotion::set_accelerations(NodalVectors& a) const {
+  for (const Dof& d : moved_) a.data()[d.dof] = d.acceleration;
+}
+
 void SupportMotion::add_accelerations(Eigen::Index first, Eigen::Index count, const NodalForces& f,
-                                      NodalVectors& a, ForceSums& sums) const {
+                                      const MassOperator& mass, NodalVectors& a, ForceSums& sums) const {
   const auto begin = std::lower_bound(moved_.begin(), moved_.end(), 3 * first,
                                       [](const Dof& d, Eigen::Index dof) { return d.dof < dof; });
   for (auto d = begin; d != moved_.end() && d->dof < 3 * (first + count); ++d) {
     const double internal = f.internal.data()[d->dof], loads = f.loads.data()[d->dof],
-                 forces = f.forces.data()[d->dof], inertia = d->mass * d->acceleration;
+                 forces = f.forces.data()[d->dof], inertia = mass.inertia_of_support(d->dof, d->acceleration);
     a.data()[d->dof] = d->acceleration;
     sums.f_a[kInternal] += internal * d->acceleration;
     sums.f_a[kLoads] += loads * d->acceleration;

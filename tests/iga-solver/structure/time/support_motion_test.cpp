@@ -16,6 +16,7 @@ using models::Vector3;
 using nurbs::Face;
 using structure::ExplicitSolver;
 using structure::NodeSet;
+using structure::TimeMass;
 
 constexpr double kStep = 0.05;
 
@@ -24,11 +25,12 @@ nurbs::Volume block() { return models::block({2, 1, 1}, {4, 2, 2}, 2); }
 NodeSet moved_nodes() { return structure::nodes_on(block().space, {Face::xi_plus}); }
 
 /// Held on the left, moved on the right in x and z.
-ExplicitSolver solver(structure::TimeFunction time) {
+ExplicitSolver solver(structure::TimeFunction time, TimeMass mass) {
   structure::Supports supports;
   supports.fix(structure::nodes_on(block().space, {Face::xi_minus}), {true, true, true});
   supports.move(moved_nodes(), {true, false, true}, {0.02, 5.0, -0.01}, std::move(time));
-  ExplicitSolver solver(std::make_unique<structure::Solid>(block(), models::large_strain_laws().front()),
+  ExplicitSolver solver(std::make_unique<structure::Solid>(block(), models::large_strain_laws().front(),
+                                                           structure::Integration{{}, {}, mass}),
                         supports);
   solver.set_time_step(kStep);
   return solver;
@@ -41,9 +43,13 @@ void unloaded_step(ExplicitSolver& solver) {
   solver.end_step(no_forces());
 }
 
-TEST(SupportMotion, IsAtTheGivenPlacesWithTheVelocitiesAndAccelerationsOfTheScheme) {
+class SupportMotion : public testing::TestWithParam<TimeMass> {};
+INSTANTIATE_TEST_SUITE_P(Masses, SupportMotion, testing::Values(TimeMass::lumped, TimeMass::corrected),
+                         [](const auto& of) { return std::string(name(of.param)); });
+
+TEST_P(SupportMotion, IsAtTheGivenPlacesWithTheVelocitiesAndAccelerationsOfTheScheme) {
   const structure::TimeFunction sine = structure::sine(0.3, 0.4);
-  ExplicitSolver body = solver(sine);
+  ExplicitSolver body = solver(sine, GetParam());
   body.initialise_forces(no_forces());
   const int node = moved_nodes()[3];
   const auto given = [&](int n) { return Vector3(Vector3(0.02, 0, -0.01) * sine(n * kStep)); };
@@ -61,8 +67,8 @@ TEST(SupportMotion, IsAtTheGivenPlacesWithTheVelocitiesAndAccelerationsOfTheSche
 }
 
 // Of any motion, also one that begins with a jump of the velocity, and whose table has kinks.
-TEST(SupportMotion, DoesTheWorkThatTheBodyGets) {
-  ExplicitSolver body = solver(structure::table({{0, 0}, {0.33, 1}, {0.9, -0.5}, {1.2, 0.5}}));
+TEST_P(SupportMotion, DoesTheWorkThatTheBodyGets) {
+  ExplicitSolver body = solver(structure::table({{0, 0}, {0.33, 1}, {0.9, -0.5}, {1.2, 0.5}}), GetParam());
   body.initialise_forces(no_forces());
   double kinetic = body.kinetic_energy(), most = 0.0;
   structure::Work before = body.work();
@@ -79,8 +85,8 @@ TEST(SupportMotion, DoesTheWorkThatTheBodyGets) {
   EXPECT_NEAR(body.truncation(body.strain_energy()), 0.0, 0.05 * before.supports);
 }
 
-TEST(SupportMotion, ReactionsAreTheChangeOfMomentum) {
-  ExplicitSolver body = solver(structure::ramp(0.2, 1.0));
+TEST_P(SupportMotion, ReactionsAreTheChangeOfMomentum) {
+  ExplicitSolver body = solver(structure::ramp(0.2, 1.0), GetParam());
   body.keep_reactions();
   const structure::NamedSupport all{"all", body.fixed_dofs()};
   body.initialise_forces(no_forces());
@@ -94,9 +100,9 @@ TEST(SupportMotion, ReactionsAreTheChangeOfMomentum) {
   }
 }
 
-TEST(SupportMotion, GoesOnFromASavedStateToTheLastBit) {
+TEST_P(SupportMotion, GoesOnFromASavedStateToTheLastBit) {
   const structure::TimeFunction ramp = structure::ramp(0.2, 2.2);
-  ExplicitSolver one = solver(ramp), other = solver(ramp);
+  ExplicitSolver one = solver(ramp, GetParam()), other = solver(ramp, GetParam());
   one.initialise_forces(no_forces());
   for (int n = 0; n < 17; ++n) unloaded_step(one);
   other.load(one.save());
