@@ -29,6 +29,28 @@ SpanBases bases_of(const nurbs::Space<3>& space, const SpanBox& box, int directi
           rules_of(space.knots(direction), Quadrature::full)};
 }
 
+int points_of(const SpanBases& bases) {
+  int points = 0;
+  for (int span = 0; span < bases.spans(); ++span) points += bases.at(span).points;
+  return points;
+}
+
+LineMass line_mass(const SpanBases& bases, int degree, int count) {
+  LineMass line{std::min(2 * degree + 1, count), {}, {}};
+  for (int i = 0; i < count; ++i) line.first.push_back(std::clamp(i - degree, 0, count - line.width));
+  line.value.assign(std::size_t(count) * line.width, 0.0);
+  for (int span = 0; span < bases.spans(); ++span)
+    for (int q = 0; q < bases.at(span).points; ++q) {
+      const double* const B = bases.at(span).basis + 2 * q * (degree + 1);
+      for (int a = 0; a <= degree; ++a)
+        for (int b = 0; b <= degree; ++b) {
+          const int i = bases.first(span) + a, j = bases.first(span) + b;
+          line.value[std::size_t(i) * line.width + j - line.first[i]] += bases.weight(span, q) * B[a] * B[b];
+        }
+    }
+  return line;
+}
+
 }  // namespace
 
 /// A quadrature point of a direction: its functions B and dB, from a first control point on.
@@ -67,15 +89,19 @@ MassBox::MassBox(const nurbs::Space<3>& space, const PlacedBox& box, const Nodal
   read_.read(*field_kernel_, X, weights_, net.data(), field_, row_);
   for (int r = 0; rational_ && r < read_.rows(); ++r)
     std::copy_n(&weights_[std::size_t(r) * read_.count()], read_.count(), &net[3 * field_ + r * row_]);
+  if (is_affine) {
+    line_y_ = line_mass(y_, degree_[1], count[axes_[1]]);
+    line_z_ = line_mass(z_, degree_[2], count[axes_[2]]);
+  }
+  bands_.assign(row_bands_ * (is_affine ? 1 : std::size_t(points_of(y_)) * points_of(z_)), 0.0);
+  double* bands = bands_.data();
   for (int span_z = 0; span_z < z_.spans(); ++span_z)
     for (int q_z = 0; q_z < z_.at(span_z).points; ++q_z)
       for (int span_y = 0; span_y < y_.spans(); ++span_y)
-        for (int q_y = 0; q_y < y_.at(span_y).points; ++q_y) {
-          if (is_affine && !bands_.empty()) return;
-          bands_.resize(bands_.size() + row_bands_, 0.0);
+        for (int q_y = 0; q_y < y_.at(span_y).points && bands < bands_.data() + bands_.size();
+             ++q_y, bands += row_bands_)
           add_bands(Point::of(y_, degree_[1], span_y, q_y), Point::of(z_, degree_[2], span_z, q_z), net,
-                    density, &bands_[bands_.size() - row_bands_]);
-        }
+                    density, bands);
 }
 
 /// Integrals along x of density |J| / W^2 B_i B_(i+k), at one point of y and z.
@@ -124,33 +150,51 @@ void MassBox::reserve(MassSpace& space) const {
   grow(space.row_out, row_);
 }
 
+/// row_out from row_in, whose ends are 0.
+void MassBox::multiply_row(const double* bands, MassSpace& space) const {
+  kernel_->multiply(bands + kWord, band_, degree_[0], space.row_in.data() + kWord, row_,
+                    space.row_out.data());
+}
+
+/// out = M in, direction by direction; in is lost.
+void MassBox::multiply_by_lines(MassSpace& space) const {
+  const int planes = static_cast<int>(field_ / plane_), rows = static_cast<int>(plane_ / row_);
+  for (std::size_t row = 0; row < 3 * field_; row += row_) {
+    std::copy_n(&space.in[row], row_, space.row_in.data() + kWord);
+    multiply_row(bands_.data(), space);
+    std::copy_n(space.row_out.data(), row_, &space.out[row]);
+  }
+  for (std::size_t plane = 0; plane < 3 * field_; plane += plane_)
+    for (int y = 0; y < rows; ++y)
+      kernel_->gather(line_y_.row(y), line_y_.width, &space.out[plane + line_y_.first[y] * row_], row_, row_,
+                      &space.in[plane + y * row_]);
+  for (std::size_t field = 0; field < 3 * field_; field += field_)
+    for (int z = 0; z < planes; ++z)
+      kernel_->gather(line_z_.row(z), line_z_.width, &space.in[field + line_z_.first[z] * plane_], plane_,
+                      plane_, &space.out[field + z * plane_]);
+}
+
 /// Of one point of z; `bands`: of its first point of y.
 void MassBox::sweep_plane(const double* bands, double scale, MassSpace& space) const {
-  double* const row_in = space.row_in.data() + kWord;
-  std::fill_n(row_in - kWord, kWord, 0.0);
-  std::fill_n(row_in + row_, kWord, 0.0);
-  const std::size_t next = bands_.size() > row_bands_ ? row_bands_ : 0;
   for (int span = 0; span < y_.spans(); ++span)
-    for (int q = 0; q < y_.at(span).points; ++q, bands += next) {
+    for (int q = 0; q < y_.at(span).points; ++q, bands += row_bands_) {
       const Point y = Point::of(y_, degree_[1], span, q);
       double scaled[kLargestDegree + 1];
       for (int b = 0; b < y.count; ++b) scaled[b] = scale * y_.weight(span, q) * y.B[b];
       for (int c = 0; c < 3; ++c) {
         const std::size_t first = c * plane_ + y.first * row_;
-        kernel_->gather(y.B, y.count, &space.plane_in[first], row_, row_, row_in);
-        kernel_->multiply(bands + kWord, band_, degree_[0], row_in, row_, space.row_out.data());
+        kernel_->gather(y.B, y.count, &space.plane_in[first], row_, row_, space.row_in.data() + kWord);
+        multiply_row(bands, space);
         kernel_->scatter(scaled, y.count, space.row_out.data(), row_, &space.plane_out[first], row_);
       }
     }
 }
 
-void MassBox::add_product(const NodalVectors& a, NodalVectors& f, MassSpace& space) const {
-  read_.read(*field_kernel_, a, weights_, space.in.data(), field_, row_);
+/// out = M in, point by point of y and z.
+void MassBox::sweep(MassSpace& space) const {
   std::fill_n(space.out.data(), 3 * field_, 0.0);
   const double* bands = bands_.data();
-  std::size_t rows_of_plane = 0;
-  for (int span = 0; span < y_.spans(); ++span) rows_of_plane += y_.at(span).points;
-  const std::size_t next = bands_.size() > row_bands_ ? rows_of_plane * row_bands_ : 0;
+  const std::size_t next = points_of(y_) * row_bands_;
   for (int span = 0; span < z_.spans(); ++span)
     for (int q = 0; q < z_.at(span).points; ++q, bands += next) {
       const Point z = Point::of(z_, degree_[2], span, q);
@@ -163,6 +207,16 @@ void MassBox::add_product(const NodalVectors& a, NodalVectors& f, MassSpace& spa
         kernel_->scatter(z.B, z.count, &space.plane_out[c * plane_], plane_,
                          &space.out[c * field_ + z.first * plane_], plane_);
     }
+}
+
+void MassBox::add_product(const NodalVectors& a, NodalVectors& f, MassSpace& space) const {
+  read_.read(*field_kernel_, a, weights_, space.in.data(), field_, row_);
+  std::fill_n(space.row_in.data(), kWord, 0.0);
+  std::fill_n(space.row_in.data() + kWord + row_, kWord, 0.0);
+  if (line_y_.width > 0)
+    multiply_by_lines(space);
+  else
+    sweep(space);
   write_.add(*field_kernel_, space.out.data(), field_, row_, weights_, f);
 }
 

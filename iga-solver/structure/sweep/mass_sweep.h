@@ -3,6 +3,7 @@
 // body, by sum factorisation: along y and z from point to point, along x by band matrices that know the sum
 // over the points there.  R = Bx By Bz / W, so with sums over points of y and z
 //   M = sum (By Bz)^T [integral along x of rho |J| / W^2 Bx Bx^T] (By Bz), times weights on both sides.
+// Where the map is affine it is a product of three band matrices, of x, y and z.
 // Degrees are any.  Source: Orszag (1980), J. Comput. Phys. 37, 70-92.
 #pragma once
 
@@ -24,11 +25,18 @@ struct MassSpace {
   AlignedNumbers in, out, plane_in, plane_out, row_in, row_out;
 };
 
+/// Integrals of products of functions of one direction, for each of its control points.
+struct LineMass {
+  int width = 0;              ///< functions that a row has
+  std::vector<int> first;     ///< the first of them
+  std::vector<double> value;  ///< [control point][width]
+  const double* row(int i) const { return &value[std::size_t(i) * width]; }
+};
+
 /// One box.  x, y, z are its directions, of which x is the longest.
 class MassBox {
  public:
-  /// X: undeformed positions [length], 3 x columns.  `is_affine`: its map's Jacobian is the same everywhere,
-  /// so that one band matrix is that of all rows.
+  /// X: undeformed positions [length], 3 x columns.  `is_affine`: its map's Jacobian is the same everywhere.
   MassBox(const nurbs::Space<3>& space, const PlacedBox& box, const NodalVectors& X, double density,
           bool is_affine, nurbs::SimdLevel level);
   void reserve(MassSpace& space) const;
@@ -40,7 +48,10 @@ class MassBox {
   struct Point;  // of y and z
   void add_bands(const Point& y, const Point& z, const std::vector<double>& net, double density,
                  double* bands) const;
+  void multiply_by_lines(MassSpace& space) const;
+  void sweep(MassSpace& space) const;
   void sweep_plane(const double* bands, double scale, MassSpace& space) const;
+  void multiply_row(const double* bands, MassSpace& space) const;
 
   std::array<int, 3> axes_;  // patch directions of x, y, z: a cyclic permutation, which keeps |J|
   bool rational_;
@@ -52,7 +63,8 @@ class MassBox {
   const FieldKernel* field_kernel_;
   NodalRows read_, write_;
   std::vector<double> weights_;  // of the control points, if rational
-  AlignedNumbers bands_;         // of each point of z and y, or of one for all
+  AlignedNumbers bands_;         // of each point of z and y; of one, if the map is affine, and then:
+  LineMass line_y_, line_z_;
 };
 
 /// For one thread at a time.

@@ -3,13 +3,15 @@
 //   lumped      a = f / m, m the row sums of the consistent mass matrix M: of second order in the mesh
 //   corrected   a = z + (f - M z) / m with z = f / m, one pass of a corrector more: what M and row sums
 //               differ by is taken into account once; of fourth order where waves are long beside elements
+// Both are symmetric and positive definite, move a body that is pushed alike everywhere alike, and keep its
+// momentum: of M / m no eigenvalue is above 1 (Gershgorin), so 1/m <= inverse mass < 2/m, and the stable step
+// of the second is less than that of the first by a factor of sqrt(2) at most.
+//
 // M is that of the whole body: supports s whose motion is given have z_s = a_s, and the kinetic energy is
-// that of v_f + (M_fs / m) v_s, by the inverse of the inverse mass, and of v_s, by M_ss. Both are symmetric
-// and positive definite, move a body that is pushed alike everywhere alike, and keep its momentum: of M / m
-// no eigenvalue is above 1 (Gershgorin), so 1/m <= inverse mass < 2/m, and the stable step of the second is
-// less than that of the first by a factor of sqrt(2) at most. Source: Auricchio, Beirao da Veiga, Hughes,
-// Reali & Sangalli (2012), Comput. Methods Appl. Mech. Eng. 249-252, 2-14; Evans, Hiemstra, Hughes & Reali
-// (2018), ibid. 338, 208-240: predictor and multicorrector.
+// that of v_f + (M_fs / m) v_s, by the inverse of the inverse mass, and of v_s, by M_ss.
+//
+// Source: Auricchio, Beirao da Veiga, Hughes, Reali & Sangalli (2012), Comput. Methods Appl. Mech. Eng.
+// 249-252, 2-14; Evans, Hiemstra, Hughes & Reali (2018), ibid. 338, 208-240: predictor and multicorrector.
 #pragma once
 
 #include <Eigen/Core>
