@@ -41,8 +41,7 @@ Substeps::Substeps(std::unique_ptr<IgaStructure> body, SubstepOptions options)
       x_(body_->positions()),
       v_(body_->velocities()),
       du_(F_.values),
-      dv_(F_.values),
-      a_(F_.values) {
+      dv_(F_.values) {
   if (!options_.count) solver_.go_on_when_strained();
 }
 

@@ -32,7 +32,7 @@ void print_model(const io::ModelFile& model, const ExplicitSolver& solver) {
     print_on_first("  welds        {} nodes of several patches\n", model.nodes.welded().size());
   print_on_first("  dof          {}, {} of them fixed\n", 3L * model.nodes.node_count(),
                  static_cast<long>(fixed_dofs));
-  print_on_first("  mass         {:.8g}\n", mass);
+  print_on_first("  mass         {:.8g}{}\n", mass, solver.body().corrects_mass() ? ", corrected" : "");
 }
 
 namespace {

@@ -362,8 +362,9 @@ def draw_plate(path: Path, results: Mapping[str, Result]) -> None:
         return 100.0 * (F / plate.peak - 1.0)
 
     kinds = {(1, 2): "1 layer", (1, 3): "1 layer, cubic", (2, 2): "2 layers", (4, 2): "4 layers"}
-    for (kind, words), colour, marker in zip(kinds.items(), COLOURS, MARKERS):
-        meshes = sorted(mesh for mesh in ALL_MESHES if mesh[1:] == kind)
+    of_mass = {(*kind, "lumped"): words for kind, words in kinds.items()} | {(2, 2, "corrected"): "2 layers, mass corrected"}
+    for (kind, words), colour, marker in zip(of_mass.items(), COLOURS, MARKERS):
+        meshes = sorted(mesh for mesh in (*ALL_MESHES, *CORRECTED_MASS) if mesh[1:] == kind)
         ratios = [mesh.ratio for mesh in meshes]
         found = [results[plate_case("Z1", mesh, "corner").name] for mesh in meshes]
         expected = [mesh.of(plate, "corner").impact(impact(of.values), of.values["dt"])[1] for mesh, of in zip(meshes, found)]
@@ -378,7 +379,7 @@ def draw_plate(path: Path, results: Mapping[str, Result]) -> None:
              ylabel="peak force less elasticity's [%]", title="A glass ball on 1 mm of glass (Z1), hit in a corner of elements")  # fmt: skip
     axes.set_xticks([1.0, 0.5, 0.25, 0.125], ["1", "1/2", "1/4", "1/8"])
     axes.minorticks_off()
-    axes.legend(frameon=False, loc="lower right")
+    axes.legend(frameon=False, loc="center left", bbox_to_anchor=(0.0, 0.42))
     axes.grid(color="0.92", linewidth=0.6)
     axes.set_axisbelow(True)
     save(picture, path)
