@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "structure/time/mass.h"
 
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <utility>

@@ -21,7 +21,6 @@ namespace {
 using models::NodalVectors;
 using models::Vector3;
 using nurbs::Face;
-using structure::CorrectedMass;
 using structure::ExplicitSolver;
 using structure::Halo;
 using structure::MassKind;
