@@ -174,7 +174,8 @@ double longest_step(const SolveOptions& options, const io::ModelFile& model, dou
 
 Steps steps_to(double end, const SolveOptions& options, const io::ModelFile& model, double stable,
                const std::optional<Moment>& continued) {
-  constexpr double kWhole = 0.01;  // of a step: what round-off may add up to
+  constexpr double kWhole = 0.01;      // of a step: what round-off may add up to
+  constexpr double kRoundOff = 1e-12;  // of a step, by which an end over a number of steps may be longer
   const double begin = continued ? continued->time : 0.0;
   const double longest = with_name(model, [&] { return longest_step(options, model, stable); });
   if (continued) {
@@ -183,7 +184,7 @@ Steps steps_to(double end, const SolveOptions& options, const io::ModelFile& mod
       throw std::runtime_error(fmt::format(
           "{}: the saved state is at time {:.6g}, expected a later end than {:.6g}", model.file, begin, end));
     if (std::abs(rest - std::round(rest)) <= kWhole &&
-        continued->step <= (wanted_step(options, model) ? longest : stable))
+        continued->step <= (wanted_step(options, model) ? (1.0 + kRoundOff) * longest : stable))
       return {std::lround(rest), continued->step, continued->step};
   }
   const long count = step_count(end - begin, longest, model);
