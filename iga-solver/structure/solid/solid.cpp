@@ -72,7 +72,8 @@ void Solid::expect_equal_memories() {
 /// Whether solid, and a solver for it, fit.
 void Solid::expect_memory() const {
   constexpr double kBytesPerNode = 230.0;  // as measured by tests/benchmark/structure/large_solid
-  double bytes = kBytesPerNode * node_count();
+  constexpr double kOfCorrectedMass = 3 * 3 * sizeof(double);  // its bound, predictions and products
+  double bytes = (kBytesPerNode + (corrects_mass() ? kOfCorrectedMass : 0.0)) * node_count();
   for (const auto& patch : patches_) bytes += patch->expected_bytes();
   const nurbs::Space<3>& space = patches_.front()->space();
   nurbs::expect_memory(bytes, fmt::format("a solid of {} elements of degrees {}, {}, {}", element_count(),
