@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "structure/solid/enum_words.h"
+
 namespace structure {
 
 namespace {
@@ -30,10 +32,7 @@ int points_of_span(const nurbs::KnotVector& knots, int span, Quadrature quadratu
 const char* name(Quadrature quadrature) { return kNames[static_cast<int>(quadrature)]; }
 
 Quadrature quadrature_from_name(const std::string& word) {
-  for (int i = 0; i < 3; ++i)
-    if (word == kNames[i]) return static_cast<Quadrature>(i);
-  throw std::invalid_argument(
-      fmt::format("quadrature is '{}', expected one of: {}", word, fmt::join(kNames, ", ")));
+  return enum_from_name<Quadrature>("quadrature", kNames, word);
 }
 
 std::vector<nurbs::QuadratureRule> rules_of(const nurbs::KnotVector& knots, Quadrature quadrature) {

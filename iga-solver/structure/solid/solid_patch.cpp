@@ -12,6 +12,7 @@
 #include "nurbs/assert.h"
 #include "structure/body.h"
 #include "structure/solid/element_loop.h"
+#include "structure/solid/enum_words.h"
 #include "structure/sweep/affine_map.h"
 #include "structure/sweep/patch_sweep.h"
 
@@ -46,19 +47,13 @@ Matrix3 parameter_gradient(const nurbs::RationalBasis<3>& basis, const std::vect
 const char* name(IntegrationMethod method) { return kMethods[static_cast<int>(method)]; }
 
 IntegrationMethod integration_method_from_name(const std::string& word) {
-  for (int i = 0; i < 5; ++i)
-    if (word == kMethods[i]) return static_cast<IntegrationMethod>(i);
-  throw std::invalid_argument(
-      fmt::format("method is '{}', expected one of: {}", word, fmt::join(kMethods, ", ")));
+  return enum_from_name<IntegrationMethod>("method", kMethods, word);
 }
 
 const char* name(TimeMass mass) { return kMasses[static_cast<int>(mass)]; }
 
 TimeMass time_mass_from_name(const std::string& word) {
-  for (int i = 0; i < 2; ++i)
-    if (word == kMasses[i]) return static_cast<TimeMass>(i);
-  throw std::invalid_argument(
-      fmt::format("mass is '{}', expected one of: {}", word, fmt::join(kMasses, ", ")));
+  return enum_from_name<TimeMass>("mass", kMasses, word);
 }
 
 SolidPatch::SolidPatch(const nurbs::Volume& volume, std::shared_ptr<const Material> material,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "structure/time/mass.h"
 
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -47,36 +46,21 @@ NodalVectors CorrectedMass::of_fixed(const NodalVectors& v) const {
   return (lumped_.inverse_mass().array() > 0.0).select(NodalVectors::Zero(3, v.cols()), v);
 }
 
-// Of free dofs from inverse mass p = v + (M_fs/m) v_s; row sums are the preconditioner: of the inverse mass
-// times them all eigenvalues are 1 to 2.
+// Of free dofs from inverse mass p = v + (M_fs/m) v_s = r.  Of the inverse mass times row sums all
+// eigenvalues are 1 to 2, so a pass with 2/3 of what is left over leaves a third of the error.
 void CorrectedMass::apply_mass(const NodalVectors& v, NodalVectors& p) const {
-  constexpr int kMostProducts = 100;
-  constexpr double kRoundOff = std::numeric_limits<double>::epsilon();
+  constexpr int kPasses = 34;  // to round-off
   const NodalVectors v_s = of_fixed(v);
-  NodalVectors r = v - v_s;
+  NodalVectors r = v - v_s, product(3, v.cols());
   if (supports_move_) {
     predicted_ = v_s;
     multiply_predicted();
     r += product_.cwiseProduct(lumped_.inverse_mass());
   }
-  const auto preconditioned = [&](const NodalVectors& values) -> NodalVectors {
-    return values * lumped_.nodal_mass().asDiagonal();
-  };
-  p = preconditioned(r);
-  const double enough = kRoundOff * kRoundOff * halo_.dot(r, p);
-  NodalVectors product(3, v.cols());
-  apply_inverse_mass(p, product);
-  r -= product;
-  NodalVectors z = preconditioned(r), direction = z;
-  double square = halo_.dot(r, z);
-  for (int k = 0; k < kMostProducts && square > enough; ++k) {
-    apply_inverse_mass(direction, product);
-    const double step = square / halo_.dot(direction, product);
-    p += step * direction;
-    r -= step * product;
-    z = preconditioned(r);
-    const double before = std::exchange(square, halo_.dot(r, z));
-    direction = z + square / before * direction;
+  lumped_.apply_mass(r, p);
+  for (int pass = 0; pass < kPasses; ++pass) {
+    apply_inverse_mass(p, product);
+    p += 2.0 / 3.0 * (r - product) * lumped_.nodal_mass().asDiagonal();
   }
   apply_inverse_mass(p, product, &v_s);
   p += of_fixed(product_);
