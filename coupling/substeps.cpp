@@ -261,9 +261,9 @@ std::vector<double> Substeps::save() const {
 }
 
 void Substeps::load(const std::vector<double>& state) {
-  const std::size_t own = solver_.state_size(), motion = 3 * solver_.all_nodes(),
-                    within = own + 3 + 2 * motion;
-  if (state.size() != within) {
+  const std::size_t motion = 3 * solver_.all_nodes(), of_outer_step = 3 + 2 * motion,
+                    own = state.size() - std::min(state.size(), of_outer_step);
+  if (!solver_.can_load(own)) {
     body_->load(state);
     done_ = 0;
   } else {

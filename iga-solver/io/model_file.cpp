@@ -58,13 +58,6 @@ structure::Integration read_integration(const YamlMap& map) {
   return integration;
 }
 
-void expect_fit_for_corrected_mass(const YamlMap& document, const ModelFile& model) {
-  constexpr const char* kExpected =
-      "expected none of it with 'integration: {mass: corrected}' (or 'mass: lumped')";
-  if (model.mass_damping > 0.0)
-    document.fail("damping", fmt::format("damping.mass is {}, {}", model.mass_damping, kExpected));
-}
-
 bool wants_welds(const YamlMap& document) {
   return !document.has("weld") || document.word_of("weld", {"yes", "no"}) == "yes";
 }
@@ -137,8 +130,6 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
     model.modal_damping = damping.modal;
     if (damping.stiffness > 0.0) add_viscosity(damping.stiffness, model.materials);
   }
-  if (model.integration.mass == structure::TimeMass::corrected)
-    expect_fit_for_corrected_mass(document, model);
   if (document.has("time"))
     model.time = read_time_span(document.map("time", "{end: 1e-3}"), inputs, model.output);
   if (document.has("analysis")) model.analysis = read_analysis(document, inputs, model.output);

@@ -47,7 +47,7 @@ double read_number(const Hdf5Input& file, const std::string& path) {
 void take(const SavedState& state, double time, structure::ExplicitSolver& solver) {
   constexpr double kSame = 1e-9;  // of the size
   const NodalVectors reference = nodal_vectors(solver.in_order(solver.body().reference()));
-  const std::size_t expected = solver.state_size();
+  const std::size_t remembered = solver.memory_size();
   if (reference.cols() != state.reference.cols() ||
       (reference - state.reference).lpNorm<Eigen::Infinity>() > kSame * reference.lpNorm<Eigen::Infinity>())
     throw InputError(
@@ -58,11 +58,12 @@ void take(const SavedState& state, double time, structure::ExplicitSolver& solve
   append(state.displacement, numbers);
   append(state.velocity, numbers);
   append(NodalVectors::Zero(3, reference.cols()), numbers);  // accelerations: found from the forces
-  numbers.insert(numbers.end(), state.memory.begin(), state.memory.end());
-  if (numbers.size() != expected)
+  if (state.memory.size() != remembered)
     throw InputError(fmt::format("{}: has a memory of {} numbers, expected {}: the material is another",
-                                 state.file, state.memory.size(),
-                                 state.memory.size() + expected - numbers.size()));
+                                 state.file, state.memory.size(), remembered));
+  numbers.insert(numbers.end(), state.memory.begin(), state.memory.end());
+  if (state.moment)
+    numbers.insert(numbers.end(), state.moment->momentum.begin(), state.moment->momentum.end());
   solver.load(numbers);
 }
 
@@ -85,6 +86,7 @@ void write_state(const std::string& path, geometry_io::Units units, const SavedS
     file.add_numbers("/state/time", {1}, &state.moment->time);
     file.add_numbers("/state/time_step", {1}, &state.moment->step);
     file.add_numbers("/state/work", {state.moment->work.size()}, state.moment->work.data());
+    if (!state.moment->momentum.empty()) add("momentum", nodal_vectors(state.moment->momentum));
   }
   if (!state.settings.empty()) file.add_texts("/state/settings", to_texts(state.settings));
   const std::string problem = geometry_io::write_file(path, [&](std::ostream& out) { out << file.bytes(); });
@@ -114,8 +116,17 @@ SavedState read_state(const std::string& path, geometry_io::Units units, const g
                                       state.reference.cols(), values->cols()));
   if (file.has("/state/memory")) state.memory = file.numbers("/state/memory").numbers;
   if (file.has("/state/time"))
-    state.moment = {read_number(file, "/state/time"), read_number(file, "/state/time_step"),
-                    file.numbers("/state/work").numbers};
+    state.moment = {read_number(file, "/state/time"),
+                    read_number(file, "/state/time_step"),
+                    file.numbers("/state/work").numbers,
+                    {}};
+  if (state.moment && file.has("/state/momentum")) {
+    const NodalVectors momentum = read_vectors(file, "/state/momentum");
+    if (momentum.cols() != state.reference.cols())
+      file.fail("/state/momentum", fmt::format("has {} nodes, expected {} as the other data sets",
+                                               momentum.cols(), state.reference.cols()));
+    append(momentum, state.moment->momentum);
+  }
   if (file.has("/state/settings")) state.settings = settings_from(file.texts("/state/settings"));
   return state;
 }
@@ -143,7 +154,7 @@ SavedState state_of(const structure::ExplicitSolver& solver) {
 
 SavedState moment_of(const structure::ExplicitSolver& solver) {
   SavedState state = state_of(solver);
-  state.moment = {solver.time(), solver.time_step(), solver.save_work_done()};
+  state.moment = {solver.time(), solver.time_step(), solver.save_work_done(), solver.momenta_in_order()};
   return state;
 }
 

@@ -4,6 +4,7 @@
 //   /state/reference     [nodes][3] undeformed positions of the control points: a state belongs to one mesh
 //   /state/displacement  [nodes][3],  /state/velocity [nodes][3],  /state/memory [numbers], if any
 //   /state/time, /state/time_step [1], /state/work [numbers], of a motion that may be continued
+//   /state/momentum      [nodes][3], of one that is damped by the mass, if that is corrected
 //   /state/settings      texts: names and values, in turn, of what the model said beside the mesh; older
 //                        files have none
 #pragma once
@@ -25,10 +26,10 @@ struct SavedState {
   nurbs::NodalVectors reference, displacement, velocity;
   std::vector<double> memory;
   /// Of a motion: when it was saved, the time step to go on with [time], and what forces had done
-  /// (ExplicitSolver's save_work_done).
+  /// (ExplicitSolver's save_work_done); its momenta_in_order().
   struct Moment {
     double time, step;
-    std::vector<double> work;
+    std::vector<double> work, momentum;
   };
   std::optional<Moment> moment = {};
   Settings settings = {};  ///< of the model of then, if the file tells

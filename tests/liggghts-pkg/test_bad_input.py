@@ -120,7 +120,6 @@ MODEL_FILES = {
     "an unknown quadrature": (
         GOOD, {"block.yaml": BLOCK + "integration: {quadrature: gauss}\n"}, ["quadrature is 'gauss'", "full, reduced, zou"]),
     "an unknown mass": (GOOD, {"block.yaml": MASS.replace("corrected", "full")}, ["block.yaml:", "mass is 'full'", "lumped, corrected"]),
-    "corrected mass that is damped": (GOOD, {"block.yaml": MASS + "damping: {mass: 20}\n"}, ["block.yaml:", "is 20", "mass: lumped"]),
     "number beyond all sense": (GOOD, in_block("density: 1000.0", "density: 1e101"), ["block.yaml:5", "density", r"1e\+100"]),
     "degree too high": (GOOD, in_block("degree: 2", "degree: 7"), ["degree", "7", "6"]),
     "negative size": (GOOD, in_block("size: [0.004, 0.004", "size: [0.004, -0.004"), ["size", "-0.004"]),

@@ -51,7 +51,7 @@ class Ranks(unittest.TestCase):
         self.check(IN_ONE_BOX, (4, "2 2 1"), (4, "1 1 4"))
 
     def test_corrected_mass(self):
-        self.check(IN_FOUR_BOXES + "integration: {mass: corrected}\n", (4, "2 2 1"))
+        self.check(IN_FOUR_BOXES + "integration: {mass: corrected}\ndamping: {mass: 1e4}\n", (4, "2 2 1"))
 
 
 if __name__ == "__main__":

@@ -125,7 +125,7 @@ class Restart(unittest.TestCase):
                 self.check_continues(self.read(reader(), restart, ranks, block=block), whole)
 
     def test_corrected_mass_goes_on(self):
-        block = BLOCK + "integration: {mass: corrected}\n"
+        block = BLOCK + "integration: {mass: corrected}\ndamping: {mass: 1e4}\n"
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "contact"
             whole = decks.good(writer().replace("write_restart contact", f"write_restart {path}"), files={"block.yaml": block})

@@ -62,9 +62,10 @@ void ExplicitSolver::add_load(std::unique_ptr<const ChangingLoad> load, std::str
 }
 
 void ExplicitSolver::set_mass_damping(double rate) {
-  if (rate > 0.0 && !mass_->is_diagonal())
-    throw std::invalid_argument("ExplicitSolver: damping by the mass, expected none with corrected mass");
   damping_ = rate;
+  momenta_damped_.reset();
+  if (rate > 0.0 && !mass_->is_diagonal())
+    momenta_damped_ = std::make_unique<MomentumDamping>(rate, *mass_, halo_->owned(v_.cols()));
 }
 
 void ExplicitSolver::set_velocities(const NodalVectors& v) {
@@ -73,6 +74,7 @@ void ExplicitSolver::set_velocities(const NodalVectors& v) {
   supports_.apply(v_);
   for (const Motion& motion : supports_.motions())
     for (const Eigen::Index dof : motion.dofs) v_.data()[dof] = v.data()[dof];
+  if (momenta_damped_) momenta_damped_->forget();
   budget_.reset();
 }
 
@@ -97,6 +99,7 @@ void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   body_->internal_force(led_displacements(), f_int_);
   halo_->sum_to_owners(f_int_);
   add_forces_of_others();
+  if (momenta_damped_) momenta_damped_->start(*mass_, v_);
   accelerate(F, 0.0);
   largest_u_ = u_.lpNorm<Eigen::Infinity>();
   ledger_ = WorkLedger();
@@ -113,6 +116,7 @@ void ExplicitSolver::begin_step() {
     watch_.emplace(*body_, room * room);
   }
   for (const ForceSums& run : sums_) ledger_.half_kick(run.work_from_now(0.5 * dt_));
+  if (momenta_damped_) momenta_damped_->kick_on(0.5 * dt_);
   largest_u_ = kick_and_drift(dt_, a_, body_->reference(), v_, u_, x_);
   motion_.place(conditions_time(time_ + dt_), body_->reference(), u_, x_);
 }
@@ -131,6 +135,7 @@ void ExplicitSolver::add_motion(const NodalVectors& displacements, const NodalVe
     ledger_.half_kick(work);
     added_energy_.add(energy);
   });
+  if (momenta_damped_) momenta_damped_->add(momentum_);
   u_ += displacements;
   v_ += velocities;
   halo_->owners_to_ghosts(u_);  // they have no forces of others
@@ -178,9 +183,10 @@ void ExplicitSolver::add_forces_of_others() {
 void ExplicitSolver::accelerate(const NodalVectors& F, double h) {
   const bool moves = !motion_.is_empty() && dt_ > 0.0;
   if (moves) motion_.find_velocities(conditions_time(time_ + dt_), dt_, h > 0.0, u_, v_);
-  const NodalForces forces{f_int_, f_ext_, F};
+  const NodalForces forces{f_int_, f_ext_, F, momenta_damped_ ? &momenta_damped_->forces() : nullptr};
   if (!mass_->is_diagonal()) {
     a_ = f_ext_ + F - f_int_;
+    if (momenta_damped_) momenta_damped_->kick(h, a_);
     if (moves) motion_.set_accelerations(of_supports_);
     mass_->apply_inverse_mass(a_, a_, moves ? &of_supports_ : nullptr);
   }

@@ -24,6 +24,7 @@
 #include "structure/time/divergence.h"
 #include "structure/time/element_watch.h"
 #include "structure/time/mass.h"
+#include "structure/time/momentum_damping.h"
 #include "structure/time/stretch_watch.h"
 #include "structure/time/support_motion.h"
 #include "structure/time/verlet_update.h"
@@ -49,8 +50,7 @@ class ExplicitSolver {
   /// Springs to the ground: stiffness and strain energy count as the body's.  Before the stable step is asked
   /// for.
   void set_springs(Springs springs) { springs_ = std::move(springs); }
-  /// Forces - rate m v [1/time] from the next forces on.  Throws std::invalid_argument if the mass is not
-  /// lumped.
+  /// Forces - rate M v [1/time] from the next forces on.
   void set_mass_damping(double rate);
   /// From the next forces on loads and supports are those of the time t, whenever it is.
   void hold_conditions_at(double t) { held_at_ = t; }
@@ -157,13 +157,15 @@ class ExplicitSolver {
   /// Fixed degrees of freedom of the whole body, 3 node + direction, rising.  Collective.
   std::vector<Id> fixed_dofs() const;
 
-  /// The whole body's time, displacements, velocities and accelerations in the order of node ids, and what
-  /// the material remembers in the order of element ids, to continue in parts cut in any way, to the last bit
-  /// if cut in the same.  Collective.
+  /// The whole body's time, displacements, velocities and accelerations in the order of node ids, what the
+  /// material remembers in the order of element ids, and momenta_in_order(), to continue in parts cut in any
+  /// way, to the last bit if cut in the same.  Collective.
   std::vector<double> save() const;
-  /// Takes what is of the part.  Throws std::invalid_argument if the size does not fit.  Collective.
+  /// Takes what is of the part; momenta only if they are kept, and there may be none.  Throws
+  /// std::invalid_argument if the size does not fit.  Collective.
   void load(const std::vector<double>& state);
-  std::size_t state_size() const;  ///< what save() gives, collective
+  std::size_t state_size() const;         ///< what save() gives, collective
+  bool can_load(std::size_t size) const;  ///< a state of so many numbers, collective
   /// The work since initialise_forces as numbers, without round-off, and back, after initialise_forces: so a
   /// later run goes on with it.  Both collective; load_work_done throws as load().
   std::vector<double> save_work_done() const;
@@ -174,6 +176,9 @@ class ExplicitSolver {
   /// Nodal values of the whole body in the order of node ids, collective; and back to the part's.
   std::vector<double> in_order(const NodalVectors& values) const;
   void from_order(const double* rows, NodalVectors& values) const;
+  /// Of the whole body, where damping has momenta carried from step to step; else none.  Collective.
+  std::vector<double> momenta_in_order() const;
+  std::size_t memory_size() const;  ///< of the next, collective
   /// What the material of the whole body remembers, in the order of element ids, collective.
   std::vector<double> memory_in_order() const {
     return halo_->in_order(element_ids(), body_->memory().data(), body_->memory().size());
@@ -220,7 +225,8 @@ class ExplicitSolver {
   double lead_ = 0.0;
   bool turns_freely_ = false;  // nothing holds it, and there is a lead
   Vector3 led_spin_ = Vector3::Zero();
-  double damping_ = 0.0;  // rate
+  double damping_ = 0.0;                             // rate
+  std::unique_ptr<MomentumDamping> momenta_damped_;  // by it, if the mass is not diagonal
   NodalVectors f_ext_, f_int_, u_, x_, v_, a_;
   NodalVectors f_dead_;  // what does not change of f_ext, if something does
   std::vector<std::unique_ptr<const ChangingLoad>> loads_;

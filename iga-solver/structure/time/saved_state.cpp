@@ -39,8 +39,21 @@ std::size_t ExplicitSolver::all_nodes() const {
   return std::llround(halo_->sum(static_cast<double>(halo_->owned(u_.cols()))));
 }
 
+std::size_t ExplicitSolver::memory_size() const {
+  return std::llround(halo_->sum(static_cast<double>(body_->memory().size())));
+}
+
 std::size_t ExplicitSolver::state_size() const {
-  return 1 + 9 * all_nodes() + std::llround(halo_->sum(static_cast<double>(body_->memory().size())));
+  return 1 + (momenta_damped_ ? 12 : 9) * all_nodes() + memory_size();
+}
+
+bool ExplicitSolver::can_load(std::size_t size) const {
+  const std::size_t nodes = all_nodes(), without_momenta = 1 + 9 * nodes + memory_size();
+  return size == without_momenta || size == without_momenta + 3 * nodes;
+}
+
+std::vector<double> ExplicitSolver::momenta_in_order() const {
+  return momenta_damped_ ? in_order(momenta_damped_->momenta()) : std::vector<double>();
 }
 
 NodalVectors ExplicitSolver::reference_of(const std::vector<Id>& nodes) const {
@@ -82,14 +95,15 @@ std::vector<double> ExplicitSolver::save() const {
   };
   for (const NodalVectors* values : {&u_, &v_, &a_}) append(in_order(*values));
   append(memory_in_order());
+  append(momenta_in_order());
   return state;
 }
 
 void ExplicitSolver::load(const std::vector<double>& state) {
-  const std::size_t expected = state_size(), all_values = 3 * all_nodes();
-  if (state.size() != expected)
+  const std::size_t all_values = 3 * all_nodes();
+  if (!can_load(state.size()))
     throw std::invalid_argument(
-        fmt::format("ExplicitSolver: state of {} numbers, expected {}", state.size(), expected));
+        fmt::format("ExplicitSolver: state of {} numbers, expected {}", state.size(), state_size()));
   const double* next = state.data();
   time_ = *next++;
   for (NodalVectors* values : {&u_, &v_, &a_}) {
@@ -102,6 +116,14 @@ void ExplicitSolver::load(const std::vector<double>& state) {
   for (std::size_t i = 0; i < elements.size(); ++i)
     std::copy_n(next + width * elements[i], width, memory.data() + width * i);
   body_->set_memory(std::move(memory));
+  next += memory_size();
+  if (momenta_damped_ && next != state.data() + state.size()) {
+    NodalVectors momenta = NodalVectors::Zero(3, u_.cols());
+    from_order(next, momenta);
+    momenta_damped_->set_momenta(momenta);
+  } else if (momenta_damped_) {
+    momenta_damped_->forget();
+  }
   x_ = body_->reference() + u_;
   budget_.reset();
 }
@@ -138,6 +160,7 @@ void ExplicitSolver::set_motion(const NodalVectors& u, const NodalVectors& v, do
   v_ = v;
   x_ = body_->reference() + u;
   time_ = time;
+  if (momenta_damped_) momenta_damped_->forget();
   budget_.reset();
 }
 

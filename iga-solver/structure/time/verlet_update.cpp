@@ -125,6 +125,9 @@ ForceSums kick(double h, const NodalForces& f, Eigen::Index first, Eigen::Index 
                                      velocity = part<n>(v, i) + h * acceleration;
     part<n>(v, i) = velocity;
     sums.add<n>(f, i, velocity, acceleration);
+    if (!f.damping) return;
+    const Eigen::Array<double, n, 1> damping = part<n>(*f.damping, i);
+    sums.add<n>(kDamping, damping, velocity, acceleration);
   });
   return sums.total();
 }

@@ -27,6 +27,7 @@ struct ForceSums {
 /// Nodal forces [force], 3 x n.
 struct NodalForces {
   const NodalVectors &internal, &loads, &forces;
+  const NodalVectors* damping = nullptr;  ///< if it is known before the kick
 };
 
 /// v += dt/2 a, u += dt v, x = reference + u, all 3 x n.  Returns the largest |u_i| [length].
