@@ -82,9 +82,7 @@ structure::ModalSystem ModalStructure::system_of(const ModalBasis& basis, const 
     const NodalVectors m_psi = times_mass(basis.follow[j], solver_);
     NodalVectors free = m_psi, K_psi(3, m_psi.cols());
     solver_.supports().apply(free);
-    solver_.body().internal_force(basis.follow[j], K_psi);
-    halo.sum_to_owners(K_psi);
-    solver_.springs().add_forces(basis.follow[j], K_psi);
+    solver_.internal_forces(basis.follow[j], K_psi);
     for (Index k = 0; k < modes; ++k) system.share(k, j) = halo.dot(basis.modes[k], m_psi);
     for (Index i = 0; i < motions; ++i) {
       system.stiffness(i, j) = halo.dot(basis.follow[i], K_psi);
@@ -116,9 +114,7 @@ void ModalStructure::measure_shapes(const ModalBasis& basis) {
     for (std::size_t i = 0; i < probes_.size(); ++i)
       probes_[i].col(k) = solver_.displacement(body_->watched_points()[i]);
     if (supports_.empty()) continue;
-    solver_.body().internal_force(shape, force);
-    solver_.halo().sum_to_owners(force);
-    solver_.springs().add_forces(shape, force);
+    solver_.internal_forces(shape, force);
     for (std::size_t i = 0; i < supports_.size(); ++i) {
       const structure::NamedSupport& support = body_->watched_supports()[i];
       supports_[i].stiffness.col(k) = force_at(support, force) + spring_force(support, shape);

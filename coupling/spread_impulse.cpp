@@ -32,14 +32,12 @@ void SpreadImpulse::average(NodalVectors& forces, double half_square, int count)
   }
 }
 
-/// f = half_square K M^-1 q, whole at own nodes.
+/// f = half_square K M^-1 q, whole at own nodes; K holds springs, too.
 void SpreadImpulse::multiply(const NodalVectors& q, double half_square) {
-  const structure::Halo& halo = solver_.halo();
   solver_.mass().apply_inverse_mass(q, z_);
   z_ *= half_square;
-  halo.owners_to_ghosts(z_);
-  solver_.body().internal_force(z_, f_);
-  halo.sum_to_owners(f_);
+  solver_.halo().owners_to_ghosts(z_);
+  solver_.internal_forces(z_, f_);
 }
 
 double spread_share(double omega, double h, int count) {

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "coupling/spread_impulse.h"
+#include "nurbs/types.h"
 
 namespace coupling {
 
@@ -94,7 +95,13 @@ double most_growth_of_structure_substeps(const TwoMasses& highest, double dt, in
   });
 }
 
+// Resonances are undamped, and too narrow for a grid: they are where a contact, as a spring between the two
+// masses, turns by k pi in an outer step.
 int most_particle_substeps(const TwoMasses& highest, double dt, int most) {
+  constexpr double kBefore = 0.97 * nurbs::kPi;
+  const double contact = highest.contact * std::sqrt(1.0 + highest.mass_ratio),
+               turn = 2.0 * std::asin(std::min(1.0, 0.5 * contact * dt));
+  most = static_cast<int>(std::min<double>(most, kBefore / turn));
   int count = 1;
   while (count < most && most_growth_of_particle_substeps(highest, dt, count + 1) <= kMostGrowth) ++count;
   return count;

@@ -37,7 +37,7 @@ double most_growth_of_structure_substeps(const TwoMasses& highest, double dt, in
                                          bool spread = false);
 
 /// The largest number of particle steps dt in a step of the body, up to `most`, up to which no number lets
-/// anything grow beyond kMostGrowth.
+/// anything grow beyond kMostGrowth, and before the first resonance.
 int most_particle_substeps(const TwoMasses& highest, double dt, int most);
 
 }  // namespace coupling

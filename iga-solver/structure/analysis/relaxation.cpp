@@ -15,8 +15,7 @@ namespace {
 double relative_residual(const ExplicitSolver& solver, double conditions_time, NodalVectors& f) {
   NodalVectors loads;
   solver.external_forces(solver.displacements(), conditions_time, loads);
-  solver.body().internal_force(solver.displacements(), f);
-  solver.springs().add_forces(solver.displacements(), f);
+  solver.internal_forces(solver.displacements(), f);
   const double size = std::max({loads.norm(), f.norm(), std::numeric_limits<double>::min()});
   f = loads - f;
   solver.supports().apply(f);

@@ -86,6 +86,12 @@ void ExplicitSolver::set_time_step(double dt) {
   is_too_strained_ = false;
 }
 
+void ExplicitSolver::internal_forces(const NodalVectors& u, NodalVectors& f) const {
+  body_->internal_force(u, f);
+  halo_->sum_to_owners(f);
+  springs_.add_forces(u, f);
+}
+
 void ExplicitSolver::external_forces(const NodalVectors& u, double t, NodalVectors& f) const {
   f = load();
   if (loads_.empty()) return;
@@ -96,9 +102,8 @@ void ExplicitSolver::external_forces(const NodalVectors& u, double t, NodalVecto
 void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   check_size(F, "forces");
   motion_.place(conditions_time(time_), body_->reference(), u_, x_);
-  body_->internal_force(led_displacements(), f_int_);
-  halo_->sum_to_owners(f_int_);
-  add_forces_of_others();
+  internal_forces(led_displacements(), f_int_);
+  find_loads();
   if (momenta_damped_) momenta_damped_->start(*mass_, v_);
   accelerate(F, 0.0);
   largest_u_ = u_.lpNorm<Eigen::Infinity>();
@@ -157,8 +162,9 @@ void ExplicitSolver::end_step(const NodalVectors& F) {
   check_size(F, "forces");
   body_->evolve(led_displacements(), dt_, f_int_, [this] { halo_->begin_sum(f_int_); });
   halo_->finish_sum(f_int_);
+  springs_.add_forces(lead_ == 0.0 ? u_ : led_u_, f_int_);
   time_ += dt_;
-  add_forces_of_others();
+  find_loads();
   accelerate(F, 0.5 * dt_);
   if (added_displacements_) add_strain_energy();
   for (const ForceSums& run : sums_) ledger_.half_kick(run.work_until_now(0.5 * dt_));
@@ -172,8 +178,7 @@ void ExplicitSolver::change_forces(const NodalVectors& F) {
   budget_.reset();
 }
 
-void ExplicitSolver::add_forces_of_others() {
-  springs_.add_forces(lead_ == 0.0 ? u_ : led_u_, f_int_);
+void ExplicitSolver::find_loads() {
   if (loads_.empty()) return;
   f_ext_ = f_dead_;
   for (const std::unique_ptr<const ChangingLoad>& load : loads_)

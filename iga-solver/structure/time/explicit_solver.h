@@ -95,6 +95,9 @@ class ExplicitSolver {
 
   const Springs& springs() const { return springs_; }
   bool has_changing_loads() const { return !loads_.empty(); }
+  /// Of the body and its springs [force] at displacements u of all columns, whole at own nodes; 3 x n.
+  /// Collective.
+  void internal_forces(const NodalVectors& u, NodalVectors& f) const;
   /// All loads [force] at displacements u and the time t, 3 x n.  Collective.
   void external_forces(const NodalVectors& u, double t, NodalVectors& f) const;
   /// Throws Diverged if a load on the undeformed body or the motion of a support is not finite then.
@@ -190,8 +193,8 @@ class ExplicitSolver {
   void add_strain_energy();
   /// The displacements whose internal forces count.
   const NodalVectors& led_displacements();
-  /// From f_int_ of the body, whole at own nodes: forces of springs, loads now.
-  void add_forces_of_others();
+  /// f_ext_ now.
+  void find_loads();
   /// From f_int_, whole at own nodes: accelerations under F too, and a kick of `h` by them.
   void accelerate(const NodalVectors& F, double h);
   ForceSums kick_run(const NodalForces& forces, double h, Eigen::Index first, Eigen::Index count);
