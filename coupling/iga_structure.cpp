@@ -105,6 +105,12 @@ FingerprintPart supports_part(const std::vector<structure::Id>& fixed) {
           {static_cast<double>(fixed.size()), checksum({fixed.begin(), fixed.end()})}};
 }
 
+double total_mass(const structure::ExplicitSolver& solver) {
+  const Eigen::VectorXd& m = solver.mass().nodal_mass();
+  return solver.halo().sum_over_nodes(
+      m.size(), [&](Eigen::Index first, Eigen::Index count) { return m.segment(first, count).sum(); });
+}
+
 }  // namespace
 
 IgaStructure::IgaStructure(structure::ExplicitSolver solver, std::vector<structure::SkinPiece> skin,
@@ -116,6 +122,7 @@ IgaStructure::IgaStructure(structure::ExplicitSolver solver, std::vector<structu
       in_parts_(in_parts),
       supports_(supports_part(solver_.fixed_dofs())),
       surface_(surface_of(solver_, skin_)),
+      mass_(total_mass(solver_)),
       probes_(std::move(probes)),
       gravity_(gravity) {}
 
@@ -175,7 +182,8 @@ std::optional<SurfaceMaterial> IgaStructure::material() const {
 std::optional<MeshedSolid> IgaStructure::solid_below(int patch) const {
   const structure::Material& material = *solver_.body().materials()[skin_[patch].patch];
   const double E = material.youngs_modulus(), nu = material.poissons_ratio();
-  return MeshedSolid{E / (1.0 - nu * nu), std::sqrt(0.5 * E / (1.0 + nu) / material.density())};
+  const double density = material.density();
+  return MeshedSolid{E / (1.0 - nu * nu), std::sqrt(0.5 * E / (1.0 + nu) / density), density, mass_};
 }
 
 Work IgaStructure::work() const {

@@ -94,6 +94,7 @@ class IgaStructure final : public StructureSolver {
   bool in_parts_;
   FingerprintPart supports_;
   ContactSurface surface_;
+  double mass_;
   std::unique_ptr<MeshCompliance> compliance_;
   std::vector<structure::Probe> probes_;
   std::vector<structure::NamedSupport> named_supports_;

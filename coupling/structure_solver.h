@@ -31,6 +31,8 @@ struct SurfaceMaterial {
 struct MeshedSolid {
   double plane_modulus;  ///< E' = E / (1 - nu^2) [pressure]
   double shear_speed;    ///< of waves [length/time]
+  double density;        ///< [mass/length^3]
+  double mass;           ///< of the whole body
 };
 
 /// A displacement history that the model file asks for.

@@ -92,7 +92,8 @@ void check_origin(const WallState::Origin& saved, const WallState::Origin& now, 
   if (saved.history != now.history)
     throw std::invalid_argument(fmt::format(
         "the restart file holds contacts of {} history values each, the contact models here keep {}; use the "
-        "models of then, or give the fix another ID, which starts the wall anew",
+        "models, and the word after 'compliance', of then, or give the fix another ID, which starts the wall "
+        "anew",
         saved.history, now.history));
   if (saved.contacts > now.contacts)
     throw std::invalid_argument(

@@ -30,6 +30,9 @@ void advance(ApproachBlock& b, double passed) {
     b.memory[0][k] = b.x[k] = now;
     b.memory[1][k] = speed;
     b.memory[2][k] = x > 0.0 ? ended : w;
+    b.memory[ApproachBlock::kTaken][k] = x > 0.0 ? b.memory[ApproachBlock::kTaken][k] : b.credit[k];
+    b.memory[ApproachBlock::kForce][k] *= x > 0.0;
+    b.memory[ApproachBlock::kOverlap][k] *= x > 0.0;
     b.rate[k] = rate;
   }
   for (int k = 0; k < kAll; ++k) b.quarter[k] = __builtin_sqrt(__builtin_sqrt(most(b.x[k], 0.0)));
@@ -130,6 +133,27 @@ void elastic(ApproachBlock& b, const ApproachStep& step) {
   }
 }
 
+// Of what the contact is asked for as much as it may: it gives no energy that it has not taken, beside its
+// credit, and less by what a spring of compliance kSpare c holds under its force, so that it ends by degrees,
+//   kSpare c F^2/2 <= taken + (F_before + F)/2 (overlap - overlap_before).
+// Between the roots, which have both signs or none, for what is left with no force at all.
+void keep_account(ApproachBlock& b) {
+  constexpr double kSpare = 0.3;
+  double *const taken = b.memory[ApproachBlock::kTaken], *const before = b.memory[ApproachBlock::kForce],
+                *const overlap = b.memory[ApproachBlock::kOverlap];
+  for (int k = 0; k < kAll; ++k) {
+    const double half_way = 0.5 * (b.overlap[k] - overlap[k]), left = taken[k] + before[k] * half_way,
+                 spare = kSpare * most(b.give[k], 0.0),
+                 root = __builtin_sqrt(most(half_way * half_way + 2.0 * spare * left, 0.0));
+    const double top = half_way > 0.0 ? (half_way + root) / spare : 2.0 * left / (root - half_way),
+                 bottom = half_way < 0.0 ? (half_way - root) / spare : -2.0 * left / (root + half_way);
+    const double F = least(most(b.force[k], least(bottom, 0.0)), most(top, 0.0));
+    b.force[k] = F;
+    taken[k] = left + F * half_way;
+    before[k] = F, overlap[k] = b.overlap[k];
+  }
+}
+
 // The law is asked with the x that is kept, and with a rate by which its force is that of both.
 void damped(ApproachBlock& b, const ApproachStep& step) {
   know_law(b);
@@ -137,6 +161,7 @@ void damped(ApproachBlock& b, const ApproachStep& step) {
   let_damper_turn(b, step.passed);
   solve(b, step.limit);
   answer(b, step.limit);
+  keep_account(b);
   const double per_time = step.passed > 0.0 ? 1.0 / step.passed : 0.0;
   for (int k = 0; k < kAll; ++k) {
     const double x = b.memory[0][k], root = b.quarter[k] * b.quarter[k], turn = b.turn[k];

@@ -25,6 +25,12 @@
 //   (omega^3 - omega f^2 + 3 i omega^2 f) / (omega + i f)^3
 // of the body's speed, whose real part is never negative: whatever the frequency, the damper takes energy.
 // Without omega e it would feed all that is faster than 1.6 omega, as long as the contact lasts.
+//
+// Of a body that is as light as the particle, or lighter where it is hit, the observer knows too late that it
+// is gone, and the damper would go on to push what goes away.  So the contact keeps an account of F
+// d(overlap), and gives no more than it has taken: no energy comes of it, whatever the body does.  A dent
+// holds energy that comes back; strong damping makes it deeper than the bodies have come together.  A heavy
+// body lets a contact have that as a credit.
 #pragma once
 
 #include "nurbs/simd_level.h"
@@ -34,7 +40,10 @@ namespace contact {
 /// Contacts with a law after Hertz, number by number.
 struct ApproachBlock {
   static constexpr int kCapacity = 16;
-  static constexpr int kMemory = 3;  ///< numbers that a damped contact keeps: x, u, w; all 0 in a new one
+  /// Numbers that a damped contact keeps, all 0 in a new one: x, u, w; the energy that it has taken, its
+  /// force, its overlap.
+  static constexpr int kMemory = 6;
+  enum { kX, kU, kW, kTaken, kForce, kOverlap };
   using Lanes = double[kCapacity];
 
   alignas(64) Lanes overlap = {};  // geometric [length]
@@ -47,6 +56,7 @@ struct ApproachBlock {
   Lanes damping = {};          // D / radius^(1/4) [force time/length^(3/2)]
   Lanes inertia = {};          // of the particle; infinite: as heavy as can be [mass]
   Lanes delay = {};            // h/c_s, until the mesh gives way [time]
+  Lanes credit = {};           // what it may give more than it has taken, if it is new [energy]
   Lanes memory[kMemory] = {};  // before and after the step; where x is negative it is over, although the
                                // surfaces may not have come apart yet
 

@@ -45,7 +45,22 @@ double* memory_of(const ParticleView& particles, const Contact& contact) {
 }
 
 double* shear_memory_of(const ParticleView& particles, const Contact& contact) {
-  return memory_of(particles, contact) + ApproachBlock::kMemory;
+  return memory_of(particles, contact) + ComplianceCorrection::kApproach;
+}
+
+/// u, as a vector in space, so that it does not depend on who looks, and how the normal turns.
+Eigen::Map<Vector3> body_speed(double* memory) {
+  return Eigen::Map<Vector3>(memory + ApproachBlock::kMemory - 1);
+}
+
+/// Of the other numbers, where they are kept.
+int place_of(int m) { return m < ApproachBlock::kU ? m : m - 1; }
+
+/// A contact without damping keeps nothing: it is asked what it gives way now.
+void forget(const ParticleView& particles, const Contact& contact) {
+  const int kept = particles.memory.history_count - ComplianceCorrection::kMemory;
+  if (kept >= 0 && contact.history[kept] != 0.0)
+    std::fill_n(contact.history + kept, ComplianceCorrection::kApproach, 0.0);
 }
 
 /// Vectors to and from a lane.
@@ -103,7 +118,7 @@ void ComplianceCorrection::enter(const ParticleView& particles, const ContactMod
   before.block = nullptr, before.shear_lane = -1;
   const double damping = model.hertz_damping(i);
   const bool is_damped = damping > 0.0;
-  const double* const memory = is_damped ? memory_of(particles, contact) : nullptr;
+  double* const memory = is_damped ? memory_of(particles, contact) : nullptr;
   if (!(contact.overlap > 0.0) && !(is_damped && held_gap(memory) > 0.0)) return;
   before.has_shear = model.shear_constant(i) > 0.0;
   before.directions.find(wall_, contact.foot, contact.delta);
@@ -121,11 +136,24 @@ void ComplianceCorrection::enter(const ParticleView& particles, const ContactMod
   block.radius[lane] = contact.effective_radius;
   block.constant[lane] = model.hertz_constant(i);
   block.give[lane] = before.give.normal.c;
-  if (!is_damped) return;
+  if (!is_damped) return forget(particles, contact);
   block.damping[lane] = damping;
   block.inertia[lane] = mass_of(particles, i);
   block.delay[lane] = mesh_ ? mesh_->delay(contact.foot.patch, element) : 0.0;
-  for (int m = 0; m < ApproachBlock::kMemory; ++m) block.memory[m][lane] = memory[m];
+  block.credit[lane] = memory[ApproachBlock::kX] > 0.0 ? 0.0 : credit(particles, model, contact, before);
+  for (int m = 0; m < ApproachBlock::kMemory; ++m)
+    block.memory[m][lane] = m == ApproachBlock::kU ? before.n.dot(body_speed(memory)) : memory[place_of(m)];
+}
+
+// The energy of the impact, from bodies that weigh a dozen times as much, none from those that weigh thrice
+// as much as the particle: where they are hit plates follow it.
+double ComplianceCorrection::credit(const ParticleView& particles, const ContactModel& model,
+                                    const Contact& contact, const Before& before) const {
+  constexpr double kLight = 3.0, kHeavy = 13.0;
+  if (!mesh_ || !particles.mass || !(before.approach > 0.0)) return 0.0;
+  const double m = particles.mass[contact.particle], v = before.approach,
+               ratio = mesh_->mass_near(contact, model.hertz_constant(contact.particle), m, v) / m;
+  return 0.5 * m * v * v * std::clamp((ratio - kLight) / (kHeavy - kLight), 0.0, 1.0);
 }
 
 void ComplianceCorrection::see_overlap(const ParticleView& particles, const Time& now, Contact& contact,
@@ -135,7 +163,10 @@ void ComplianceCorrection::see_overlap(const ParticleView& particles, const Time
   if (&block == &damped_) {
     if (!now.is_setup) {
       double* const memory = memory_of(particles, contact);
-      for (int m = 0; m < ApproachBlock::kMemory; ++m) memory[m] = block.memory[m][lane];
+      for (int m = 0; m < ApproachBlock::kMemory; ++m)
+        if (m != ApproachBlock::kU) memory[place_of(m)] = block.memory[m][lane];
+      body_speed(memory) =
+          before.wall_velocity + (block.memory[ApproachBlock::kU][lane] - block.of_surface[lane]) * before.n;
     }
     contact.touches = block.x[lane] > 0.0;
     if (!contact.touches) {

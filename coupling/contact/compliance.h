@@ -35,8 +35,10 @@ class ComplianceCorrection {
   /// Keeps references to all.  `mesh`: null if nothing is known of it, which then gives way at once.
   ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall, const MeshEstimate* mesh);
 
-  /// Numbers that a contact keeps behind those of the model, in each slot of the particles' memory.
-  static constexpr int kMemory = ApproachBlock::kMemory + ShearBlock::kMemory;
+  /// Numbers that a contact keeps behind those of the model, in each slot of the particles' memory: of its
+  /// approach with u as a vector, as the normal turns, behind the others; of its spring along the surface.
+  static constexpr int kApproach = ApproachBlock::kMemory - 1 + 3;
+  static constexpr int kMemory = kApproach + ShearBlock::kMemory;
   struct Time {
     long step;
     double dt;      ///< [time]
@@ -54,7 +56,7 @@ class ComplianceCorrection {
   /// How far the surfaces may be apart while a damped contact that keeps this goes on [length].
   static double held_gap(const double* memory) {
     constexpr double kDent = 10.0;
-    return memory[0] > 0.0 ? kDent * memory[0] : 0.0;
+    return memory[ApproachBlock::kX] > 0.0 ? kDent * memory[ApproachBlock::kX] : 0.0;
   }
   /// The same of any contact in these slots.
   static double held_gap(const ParticleSlots& slots, int history_count);
@@ -73,6 +75,9 @@ class ComplianceCorrection {
     SurfaceDirections directions;
     coupling::LocalCompliance::Value give;
   };
+  /// Of a contact that begins [energy] (approach_kernel.h).
+  double credit(const ParticleView& particles, const ContactModel& model, const Contact& contact,
+                const Before& before) const;
   void enter(const ParticleView& particles, const ContactModel& model, const Contact& contact,
              Before& before);
   void see_overlap(const ParticleView& particles, const Time& now, Contact& contact, Before& before);

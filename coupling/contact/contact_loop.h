@@ -142,7 +142,8 @@ class ContactLoop {
                 const ParticleSlots& slots, const Vector3& delta) const;
   static void begin_contact(const ParticleView& particles, int particle, int slot, double distance,
                             Contact& contact);
-  void push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact);
+  void push_body(const ParticleView& particles, const StepInfo& step, const ContactModel& model,
+                 const Contact& contact);
   void turn_body(const Contact& contact, coupling::ContactForce& on_body) const;
   void answer(const ParticleView& particles, const StepInfo& step, ContactModel& model,
               ContactObserver* observer, std::size_t first);
@@ -152,7 +153,8 @@ class ContactLoop {
                ContactObserver* observer, std::size_t first);
   void look_at_mesh(const ParticleView& particles, const StepInfo& step, double hertz_constant,
                     Contact& contact);
-  void expect_stable(const ParticleView& particles, const StepInfo& step, const Contact& contact);
+  void expect_stable(const ParticleView& particles, const StepInfo& step, double hertz_damping,
+                     const Contact& contact);
   /// `squared_frequency` of the particle on the spring of the contact; `speed` along the normal.
   void expect_long(const ParticleView& particles, const StepInfo& step, const Contact& contact,
                    double squared_frequency, double speed);

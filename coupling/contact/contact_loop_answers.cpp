@@ -76,7 +76,7 @@ void ContactLoop::look_at(const ParticleView& particles, const StepInfo& step, c
     Contact& contact = contacts_[k];
     const int i = contact.particle;
     if (mesh_) look_at_mesh(particles, step, model.hertz_constant(i), contact);
-    if (wall_.needs_forces()) push_body(particles, step, contact);
+    if (wall_.needs_forces()) push_body(particles, step, model, contact);
     if (contact.inside) inside_.raise(contact.tag, particles.radius[i], particles.velocity(i).norm());
     if (observer) observer->see(contact);
   }
@@ -101,8 +101,9 @@ inline void ContactLoop::look_at_mesh(const ParticleView& particles, const StepI
   if (waves > 1.0) raise(not_static_, waves);
 }
 
-void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
-  expect_stable(particles, step, contact);
+void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step, const ContactModel& model,
+                            const Contact& contact) {
+  expect_stable(particles, step, model.hertz_damping(contact.particle), contact);
   const Vector3 on_body = -wall_.to_frame_direction(contact.force);
   coupling::ContactForce& force = forces_on_body_.emplace_back();  // a copy of the whole waits for its parts
   force.tag = particles.tag[contact.particle];
@@ -140,9 +141,10 @@ inline void ContactLoop::turn_body(const Contact& contact, coupling::ContactForc
 namespace {
 
 /// A contact's springs between a particle and a surface that gives way like masses, along the normal and
-/// along the surface, each with a damper that acts on the particle alone.
+/// along the surface, each with a damper that acts on the particle alone; and one along the normal that acts
+/// on both.
 struct ContactSprings {
-  double stiffness, dashpot, shear_stiffness, shear_dashpot;
+  double stiffness, dashpot, shear_stiffness, shear_dashpot, dashpot_of_both;
   double of_particle;  // 1 / mass
 
   /// Squared frequency k / m, and gamma / m.
@@ -155,7 +157,8 @@ struct ContactSprings {
   Frequency highest(double of_wall) const {
     constexpr double kSphere = 3.5;  // a sphere's surface gives way along itself like 2/7 of its mass
     const double along = kSphere * of_particle;
-    const Frequency normal = {stiffness * (of_wall + of_particle), dashpot * of_particle},
+    const double of_both = of_wall + of_particle;
+    const Frequency normal = {stiffness * of_both, dashpot * of_particle + dashpot_of_both * of_both},
                     shear = {shear_stiffness * (of_wall + along), shear_dashpot * along};
     return normal.stable_step() < shear.stable_step() ? normal : shear;
   }
@@ -167,8 +170,10 @@ struct ContactSprings {
 // the body's own stiffness only adds to the largest (Rayleigh's quotient), at most its own largest (Weyl):
 // beyond 4 / dt^2 the run blows up whatever the body, and below it together with the body's it does not.  k
 // is the secant of the law, no more than its tangent as overlaps grow; in the first step of a touch it is
-// that over the way of a step.  A dashpot takes 2 gamma / (m dt) of 4 / dt^2.
-void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& step, const Contact& contact) {
+// that over the way of a step.  A dashpot takes 2 gamma / (m dt) of 4 / dt^2; that of the law, which acts on
+// the particle and on the nodes, 2 gamma (sum R_A^2 / m_A + 1 / m) / dt.
+void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& step, double hertz_damping,
+                                const Contact& contact) {
   const nurbs::NodalVectors& inverse_masses = wall_.inverse_masses();
   if (inverse_masses.cols() == 0) return;
   const int i = contact.particle;
@@ -179,8 +184,10 @@ void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& s
   const double stiffness = by.tangent > 0.0 ? by.tangent : n.dot(contact.force) / depth;
   const double of_particle = particles.mass ? 1.0 / particles.mass[i] : 0.0;
   expect_long(particles, step, contact, stiffness * of_particle, n.dot(v));
-  const ContactSprings springs = {std::max(stiffness, 0.0), by.dashpot, by.shear_tangent, by.shear_dashpot,
-                                  of_particle};
+  const double law = contact.correction ? 0.0 : hertz_damping,
+               of_both = law * std::pow(contact.effective_radius * std::max(contact.overlap, 0.0), 0.25);
+  const ContactSprings springs = {std::max(stiffness, 0.0), by.dashpot, by.shear_tangent,
+                                  by.shear_dashpot,         of_both,    of_particle};
   const auto is_stable = [&](ContactSprings::Frequency frequency, double of_body) {
     frequency.squared += of_body;
     return !(frequency.stable_step() < step.dt);
@@ -197,10 +204,11 @@ void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& s
   }
   throw std::runtime_error(
       fmt::format("the contact of particle {} is too stiff for the timestep {:.6g} at step {}: stiffness "
-                  "{:.4g} between a particle of mass {:.4g} and a surface that gives way there like a mass "
+                  "{:.4g}{} between a particle of mass {:.4g} and a surface that gives way there like a mass "
                   "of {:.4g} is stable below {:.4g}; use a timestep of at most {:.2g}",
-                  particles.tag[i], step.dt, step.number, stiffness, 1.0 / of_particle, 1.0 / of_wall, stable,
-                  0.5 * stable));
+                  particles.tag[i], step.dt, step.number, stiffness,
+                  of_both > 0.0 ? fmt::format(" with a damping of {:.4g}", of_both) : "", 1.0 / of_particle,
+                  1.0 / of_wall, stable, 0.5 * stable));
 }
 
 // Where a contact is deepest its damping is out of it.  A sphere's after Hertz lasts 2.943 delta / V, and the

@@ -48,6 +48,7 @@ MeshEstimate::MeshEstimate(const nurbs::MultiPatch& surface, std::vector<couplin
   for (int p = 0; p < surface.patch_count(); ++p)
     for (int e = 0; e < surface.patch(p).element_count(); ++e)
       size_.push_back(size_of(surface.patch(p), e, control_points, surface.first_control_point(p)));
+  for (const double size : size_) area_ += size * size;
 }
 
 double MeshEstimate::missing(const Contact& contact, double hertz_constant) const {
@@ -57,12 +58,24 @@ double MeshEstimate::missing(const Contact& contact, double hertz_constant) cons
   return std::max(0.0, kCorner * E_star * a / (modulus * size(contact.foot)));
 }
 
+double MeshEstimate::duration(const Contact& contact, double hertz_constant, double mass, double speed) {
+  constexpr double kDuration = 2.943;
+  const double K = hertz_constant * std::sqrt(contact.effective_radius);
+  return kDuration * std::pow(1.25 * mass * speed * speed / K, 0.4) / speed;
+}
+
 double MeshEstimate::waves(const Contact& contact, double hertz_constant, double mass, double speed) const {
-  constexpr double kLayers = 3.0, kDuration = 2.943;
-  const double K = hertz_constant * std::sqrt(contact.effective_radius),
-               deepest = std::pow(1.25 * mass * speed * speed / K, 0.4);
+  constexpr double kLayers = 3.0;
   const double waves = kLayers * (size(contact.foot) / solids_[contact.foot.patch].shear_speed);
-  return std::max(0.0, waves * speed / (kDuration * deepest));
+  return std::max(0.0, waves / duration(contact, hertz_constant, mass, speed));
+}
+
+double MeshEstimate::mass_near(const Contact& contact, double hertz_constant, double mass,
+                               double speed) const {
+  const coupling::MeshedSolid& solid = solids_[contact.foot.patch];
+  const double reach = 0.5 * solid.shear_speed * duration(contact, hertz_constant, mass, speed),
+               deep = std::min(reach, solid.mass / (solid.density * area_));
+  return std::min(nurbs::kPi * solid.density * reach * deep * deep, solid.mass);
 }
 
 }  // namespace contact

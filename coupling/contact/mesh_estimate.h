@@ -24,6 +24,9 @@ class MeshEstimate {
   /// 3 h/c_s over the time that a sphere of this mass is in contact after an impact at a speed, 2.943 delta/V
   /// with delta = (5 m V^2 / (4 K))^(2/5) (Johnson 1985, sec. 11.4) [-]; 0 if the constant is not a number.
   double waves(const Contact& contact, double hertz_constant, double mass, double speed) const;
+  /// Of the body, what waves reach and come back from while that sphere is in contact: pi rho a min(a, T)^2
+  /// within a = c_s t/2 [mass]; T: its thickness, from volume and area of the surface.
+  double mass_near(const Contact& contact, double hertz_constant, double mass, double speed) const;
   /// h/c_s, how long a shear wave takes through that element [time].
   double delay(int patch, const nurbs::Indices<2>& element) const {
     const int number = surface_.first_element(patch) + surface_.patch(patch).element_index(element);
@@ -39,9 +42,13 @@ class MeshEstimate {
     return surface_.first_element(foot.patch) + surface_.patch(foot.patch).element_at(foot.xi);
   }
 
+  /// How long that sphere is in contact [time].
+  static double duration(const Contact& contact, double hertz_constant, double mass, double speed);
+
   const nurbs::MultiPatch& surface_;
   std::vector<coupling::MeshedSolid> solids_;  // below each patch
   std::vector<double> size_;                   // of each element
+  double area_ = 0.0;                          // of the surface
 };
 
 }  // namespace contact

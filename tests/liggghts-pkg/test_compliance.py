@@ -246,6 +246,45 @@ surfaces: {top: zeta+}
                 self.assertLess(energies[-1], restitution)
 
 
+class HeavyBalls(unittest.TestCase):
+    """Of steel, on a thin plate of it that weighs a fifth and less: where it is hit it is gone at once."""
+
+    def deck(self, side, timestep, words):
+        plate = bob.block(size=(side, side, side / 30), elements=(30, 30, 1), youngs_modulus=STEEL[0], nu=STEEL[1], density=7850.0, fixed=("xi-", "xi+"))
+        settings = SETTINGS | dict(ball=STEEL, wall=STEEL, restitution=0.5, friction=0.0, timestep=timestep, velocity=(0, 0, -1))
+        deck = bob.prelude(**settings).replace(f"density {bob.DENSITY}", "density 7850") + bob.wall(MODELS, words)
+        return deck + bob.output((15, 16), every=10), {"block.yaml": plate.replace("linear_elastic", "saint_venant_kirchhoff")}
+
+    def test_they_gain_no_energy(self):
+        deck, files = self.deck(3e-3, 1.5e-9, CORRECTED)
+        table = decks.good(deck + "run 6000\n", files=files).table
+        energy = table["KinEng"] + table["plate15"] + table["plate16"]
+        self.assertLess(energy.max() / energy[0], 1.0 + 1e-6)
+        self.assertLess(energy[-1] / energy[0], 0.99)
+
+    def test_a_damper_that_is_too_strong_for_light_nodes_stops_the_run(self):
+        deck, files = self.deck(2.25e-3, 2.5e-9, WITHOUT)
+        run = decks.run(deck + "run 10000\n", files=files)
+        self.assertNotEqual(run.code, 0)
+        self.assertRegex(run.errors[0], "particle 1 is too stiff for the timestep 2.5e-09 .* with a damping of .* use a timestep of at most")
+
+
+class Moving(unittest.TestCase):
+    """What flies along with ball and body sees the same, although the normal turns."""
+
+    def speed(self, along):
+        block = glass((4e-3, 4e-3, 0.5e-3), (8, 8, 1), ()).replace("linear_elastic", "neo_hooke").replace(f"{GLASS[0]}", "1e7")
+        settings = SETTINGS | dict(wall=(1e7, GLASS[1]), ball=(1e7, 0.3), restitution=0.3, friction=0.0, timestep=2e-7)
+        deck = bob.prelude(**settings | dict(balls=((1e-3, 0.2e-3, 1e-3),), velocity=(along, 0, -0.5))) + bob.wall(MODELS, CORRECTED)
+        files = {"block.yaml": block + f"initial: {{velocity: [{along}, 0, 0]}}\n"}
+        return decks.good(deck + bob.output((3,), every=100) + "run 3000\n", files=files).table["vz"][-1]
+
+    def test_a_damped_contact_is_the_same(self):
+        still = self.speed(0.0)
+        self.assertGreater(still, -0.4)
+        self.assertAlmostEqual(self.speed(3.0), still, delta=1e-9)
+
+
 def missing(overlap, size):
     """0.8 (E*/E') a/h of a ball and a block of the same glass: E* = E'/2."""
     return 0.8 * 0.5 * np.sqrt(bob.RADIUS * overlap) / size
