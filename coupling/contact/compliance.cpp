@@ -53,6 +53,9 @@ Eigen::Map<Vector3> body_speed(double* memory) {
   return Eigen::Map<Vector3>(memory + ApproachBlock::kMemory - 1);
 }
 
+/// Whether the body is light, 0 or 1.
+double& lightness(double* memory) { return memory[ComplianceCorrection::kApproach - 1]; }
+
 /// Of the other numbers, where they are kept.
 int place_of(int m) { return m < ApproachBlock::kU ? m : m - 1; }
 
@@ -102,7 +105,8 @@ void ComplianceCorrection::before(const ParticleView& particles, const Time& now
   for (int k = 0; k < count; ++k) {
     if (!before_[k].block) continue;
     see_overlap(particles, now, contacts[k], before_[k]);
-    if (before_[k].block && before_[k].has_shear) enter_shear(particles, model, contacts[k], before_[k]);
+    if (before_[k].block && before_[k].has_shear && !before_[k].is_light)
+      enter_shear(particles, model, contacts[k], before_[k]);
   }
   if (shear_count_ == 0) return;
   shear_kernel_.begin(shear_, now.dt);
@@ -115,7 +119,7 @@ void ComplianceCorrection::enter(const ParticleView& particles, const ContactMod
   const int i = contact.particle;
   before.overlap = contact.overlap, before.distance = contact.distance, before.touches = contact.touches;
   before.delta = contact.delta, before.wall_velocity = contact.wall_velocity;
-  before.block = nullptr, before.shear_lane = -1;
+  before.block = nullptr, before.shear_lane = -1, before.is_light = false;
   const double damping = model.hertz_damping(i);
   const bool is_damped = damping > 0.0;
   double* const memory = is_damped ? memory_of(particles, contact) : nullptr;
@@ -140,7 +144,9 @@ void ComplianceCorrection::enter(const ParticleView& particles, const ContactMod
   block.damping[lane] = damping;
   block.inertia[lane] = mass_of(particles, i);
   block.delay[lane] = mesh_ ? mesh_->delay(contact.foot.patch, element) : 0.0;
-  block.credit[lane] = memory[ApproachBlock::kX] > 0.0 ? 0.0 : credit(particles, model, contact, before);
+  const bool is_new = !(memory[ApproachBlock::kX] > 0.0);
+  block.credit[lane] = is_new ? credit(particles, model, contact, before) : 0.0;
+  before.is_light = is_new ? block.credit[lane] == 0.0 : lightness(memory) > 0.0;
   for (int m = 0; m < ApproachBlock::kMemory; ++m)
     block.memory[m][lane] = m == ApproachBlock::kU ? before.n.dot(body_speed(memory)) : memory[place_of(m)];
 }
@@ -165,6 +171,7 @@ void ComplianceCorrection::see_overlap(const ParticleView& particles, const Time
       double* const memory = memory_of(particles, contact);
       for (int m = 0; m < ApproachBlock::kMemory; ++m)
         if (m != ApproachBlock::kU) memory[place_of(m)] = block.memory[m][lane];
+      lightness(memory) = before.is_light ? 1.0 : 0.0;
       body_speed(memory) =
           before.wall_velocity + (block.memory[ApproachBlock::kU][lane] - block.of_surface[lane]) * before.n;
     }

@@ -36,8 +36,9 @@ class ComplianceCorrection {
   ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall, const MeshEstimate* mesh);
 
   /// Numbers that a contact keeps behind those of the model, in each slot of the particles' memory: of its
-  /// approach with u as a vector, as the normal turns, behind the others; of its spring along the surface.
-  static constexpr int kApproach = ApproachBlock::kMemory - 1 + 3;
+  /// approach with u as a vector, as the normal turns, behind the others, and whether the body is light; of
+  /// its spring along the surface.
+  static constexpr int kApproach = ApproachBlock::kMemory - 1 + 3 + 1;
   static constexpr int kMemory = kApproach + ShearBlock::kMemory;
   struct Time {
     long step;
@@ -70,6 +71,7 @@ class ComplianceCorrection {
     const ApproachBlock* block;  // null: not corrected, or over
     int lane, shear_lane;        // shear_lane < 0: no spring along the surface that goes on
     bool has_shear;              // it has one
+    bool is_light;               // the body, and the contact damped
     Vector3 n;
     double approach;  // [length/time]
     SurfaceDirections directions;

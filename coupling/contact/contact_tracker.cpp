@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/contact/contact_tracker.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 

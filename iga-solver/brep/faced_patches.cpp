@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "brep/faced_patches.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <numeric>
 
