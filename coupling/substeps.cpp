@@ -41,7 +41,9 @@ Substeps::Substeps(std::unique_ptr<IgaStructure> body, SubstepOptions options)
       x_(body_->positions()),
       v_(body_->velocities()),
       du_(F_.values),
-      dv_(F_.values) {
+      dv_(F_.values),
+      J_(F_.values),
+      a_(F_.values) {
   if (!options_.count) solver_.go_on_when_strained();
 }
 
@@ -160,13 +162,14 @@ std::string Substeps::describe_step() const {
 }
 
 void Substeps::initialise_forces(const NodalForces& forces) {
-  F_ = forces;
   if (!particles_fast()) {
+    F_ = forces;
     set_impulse();
     return body_->initialise_forces(F_);
   }
-  solver_.halo().owners_to_ghosts(F_.values);
   body_->initialise_forces(no_forces_);
+  take_contacts(forces);
+  solver_.press_on_supports(F_.values, 1.0);
   place_surface();
 }
 
@@ -190,12 +193,12 @@ void Substeps::begin_step() {
 
 void Substeps::end_step(const NodalForces& forces) {
   is_within_step_ = false;
-  F_ = forces;
   if (!particles_fast()) {
+    F_ = forces;
     set_impulse();
     body_->end_step(F_);
   } else {
-    solver_.halo().owners_to_ghosts(F_.values);
+    take_contacts(forces);
     kick_by_contact();
     if (done_ == count_) end_outer_step();
     place_surface();
@@ -205,11 +208,10 @@ void Substeps::end_step(const NodalForces& forces) {
 
 void Substeps::end_outer_step() {
   body_->begin_step();
-  solver_.add_motion(du_, dv_);
+  solver_.add_motion(du_, dv_, J_);
   body_->end_step(no_forces_);
   done_ = 0;
-  du_.setZero();
-  dv_.setZero();
+  for (NodalVectors* sum : {&du_, &dv_, &J_}) sum->setZero();
 }
 
 // From the forces of the step: two half kicks of dt/count, which are to be those of dt.
@@ -218,15 +220,31 @@ void Substeps::set_impulse() {
   if (spreads_) spread_.apply(F_.values, dt_ / count_, count_);
 }
 
-void Substeps::kick_by_contact() {
-  if (solver_.mass().is_diagonal()) {
+// For two half kicks: the second of this particle step and the first of the next.
+void Substeps::take_contacts(const NodalForces& forces) {
+  const structure::Halo& halo = solver_.halo();
+  const structure::MassOperator& mass = solver_.mass();
+  F_ = forces;
+  halo.owners_to_ghosts(F_.values);
+  if (mass.is_diagonal()) {
     for (const Eigen::Index A : surface_nodes_)
-      dv_.col(A) += 0.5 * dt_ * solver_.mass().inverse_mass().col(A).cwiseProduct(F_.values.col(A));
+      a_.col(A) = mass.inverse_mass().col(A).cwiseProduct(F_.values.col(A));
+  } else if (halo.any(!F_.touched.empty())) {
+    mass.apply_inverse_mass(F_.values, a_);
+    halo.owners_to_ghosts(a_);
   } else {
-    solver_.mass().apply_inverse_mass(F_.values, a_);
-    solver_.halo().owners_to_ghosts(a_);
-    dv_ += 0.5 * dt_ * a_;
+    a_.setZero();
   }
+}
+
+void Substeps::kick_by_contact() {
+  const double h = 0.5 * dt_;
+  for (const Eigen::Index A : surface_nodes_) J_.col(A) += h * F_.values.col(A);
+  if (!solver_.mass().is_diagonal()) {
+    dv_ += h * a_;
+    return;
+  }
+  for (const Eigen::Index A : surface_nodes_) dv_.col(A) += h * a_.col(A);
 }
 
 void Substeps::drift_by_contact() {
@@ -253,7 +271,7 @@ std::vector<double> Substeps::save() const {
   std::vector<double> state = body_->save();
   if (done_ == 0) return state;
   state.insert(state.end(), {static_cast<double>(done_), static_cast<double>(count_), dt_});
-  for (const NodalVectors* values : {&du_, &dv_}) {
+  for (const NodalVectors* values : {&du_, &dv_, &J_}) {
     const std::vector<double> rows = solver_.in_order(*values);
     state.insert(state.end(), rows.begin(), rows.end());
   }
@@ -261,7 +279,7 @@ std::vector<double> Substeps::save() const {
 }
 
 void Substeps::load(const std::vector<double>& state) {
-  const std::size_t motion = 3 * solver_.all_nodes(), of_outer_step = 3 + 2 * motion,
+  const std::size_t motion = 3 * solver_.all_nodes(), of_outer_step = 3 + 3 * motion,
                     own = state.size() - std::min(state.size(), of_outer_step);
   if (!solver_.can_load(own)) {
     body_->load(state);
@@ -278,6 +296,7 @@ void Substeps::load(const std::vector<double>& state) {
     dt_ = state[own + 2];
     solver_.from_order(state.data() + own + 3, du_);
     solver_.from_order(state.data() + own + 3 + motion, dv_);
+    solver_.from_order(state.data() + own + 3 + 2 * motion, J_);
   }
   x_ = body_->positions();
   v_ = body_->velocities();

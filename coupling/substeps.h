@@ -8,7 +8,7 @@
 //   the ends of these.  Such impulses resonate: the body's fast modes are damped a little and, beside heavy
 //   particles, the impulses are spread (spread_impulse.h).
 // Both are symmetric, of second order (but for the damping), and keep momentum and the ledger of work to
-// round-off.
+// round-off; what contacts do to nodes that are held or moved, the supports carry.
 #pragma once
 
 #include <memory>
@@ -77,7 +77,7 @@ class Substeps final : public StructureSolver {
   std::vector<Reaction> reactions() const override { return body_->reactions(); }
 
   /// The body's own state; within an outer step followed by where in it particles stand, and what contacts
-  /// have moved the nodes by.
+  /// have done to the nodes.
   std::vector<double> save() const override;
   void load(const std::vector<double>& state) override;
   Fingerprint fingerprint() const override { return body_->fingerprint(); }
@@ -94,6 +94,7 @@ class Substeps final : public StructureSolver {
   double heaviest_ratio() const;
   bool needs_spread(double dt);
   void set_impulse();
+  void take_contacts(const NodalForces& forces);
   void kick_by_contact();
   void drift_by_contact();
   void end_outer_step();
@@ -115,7 +116,8 @@ class Substeps final : public StructureSolver {
   // Particles fast: the surface now, and what contacts have added since the outer step began.  Structure
   // fast: where the step began, and how fast it is on the mean.
   NodalVectors x_, v_, du_, dv_;
-  NodalVectors a_;  // of contacts alone, where the mass is not diagonal
+  NodalVectors J_;  // particles fast: impulse of contacts since then, on what supports hold, too
+  NodalVectors a_;  // M^-1 F of contacts now
 };
 
 }  // namespace coupling

@@ -105,6 +105,7 @@ void ExplicitSolver::initialise_forces(const NodalVectors& F) {
   internal_forces(led_displacements(), f_int_);
   find_loads();
   if (momenta_damped_) momenta_damped_->start(*mass_, v_);
+  carried_.clear();
   accelerate(F, 0.0);
   largest_u_ = u_.lpNorm<Eigen::Infinity>();
   ledger_ = WorkLedger();
@@ -120,27 +121,29 @@ void ExplicitSolver::begin_step() {
     const double room = *stable_time_step_ / undamped_step(dt_, lead_);
     watch_.emplace(*body_, room * room);
   }
+  carried_.clear();
   for (const ForceSums& run : sums_) ledger_.half_kick(run.work_from_now(0.5 * dt_));
   if (momenta_damped_) momenta_damped_->kick_on(0.5 * dt_);
   largest_u_ = kick_and_drift(dt_, a_, body_->reference(), v_, u_, x_);
   motion_.place(conditions_time(time_ + dt_), body_->reference(), u_, x_);
 }
 
-void ExplicitSolver::add_motion(const NodalVectors& displacements, const NodalVectors& velocities) {
+void ExplicitSolver::add_motion(const NodalVectors& displacements, const NodalVectors& velocities,
+                                const NodalVectors& impulses) {
   check_size(displacements, "displacements");
   check_size(velocities, "velocities");
-  momentum_.resize(3, v_.cols());
-  mass_->apply_mass(velocities, momentum_);
+  check_size(impulses, "impulses");
+  press_on_supports(impulses, dt_);
   halo_->for_each_run(v_.cols(), [&](Eigen::Index first, Eigen::Index count) {
     const auto gain = velocities.middleCols(first, count);
     const auto v = v_.middleCols(first, count);
-    const double energy = momentum_.middleCols(first, count).cwiseProduct(v + 0.5 * gain).sum();
     PerForce work = PerForce::Zero();
-    work[kForces] = energy;
+    work[kForces] = impulses.middleCols(first, count).cwiseProduct(v + 0.5 * gain).sum();
+    work[kSupports] = dt_ * power_of_carried(first, count);
     ledger_.half_kick(work);
-    added_energy_.add(energy);
+    added_energy_.add(work.sum());
   });
-  if (momenta_damped_) momenta_damped_->add(momentum_);
+  if (momenta_damped_) momenta_damped_->add(impulses);
   u_ += displacements;
   v_ += velocities;
   halo_->owners_to_ghosts(u_);  // they have no forces of others
@@ -148,6 +151,26 @@ void ExplicitSolver::add_motion(const NodalVectors& displacements, const NodalVe
   x_ = body_->reference() + u_;
   largest_u_ = u_.lpNorm<Eigen::Infinity>();
   added_displacements_ = &displacements;
+}
+
+// That is inertia of the accelerations that impulses cause, less what acts on the support itself.
+void ExplicitSolver::press_on_supports(const NodalVectors& impulses, double duration) {
+  if (!keeps_reactions_ && supports_.motions().empty()) return;
+  if (!mass_->is_diagonal()) {
+    NodalVectors gain(3, impulses.cols());
+    mass_->apply_inverse_mass(impulses, gain);
+  }
+  carried_.clear();
+  for (const Eigen::Index dof : supports_.fixed_dofs())
+    carried_.push_back((mass_->inertia_of_support(dof, 0.0) - impulses.data()[dof]) / duration);
+}
+
+double ExplicitSolver::power_of_carried(Eigen::Index first, Eigen::Index count) const {
+  const std::vector<Eigen::Index>& fixed = supports_.fixed_dofs();
+  double power = 0.0;
+  for (std::size_t i = 0; i < carried_.size(); ++i)
+    if (fixed[i] >= 3 * first && fixed[i] < 3 * (first + count)) power += carried_[i] * v_.data()[fixed[i]];
+  return power;
 }
 
 void ExplicitSolver::add_strain_energy() {
@@ -174,6 +197,7 @@ void ExplicitSolver::end_step(const NodalVectors& F) {
 
 void ExplicitSolver::change_forces(const NodalVectors& F) {
   check_size(F, "forces");
+  carried_.clear();
   accelerate(F, 0.0);
   budget_.reset();
 }
@@ -233,7 +257,7 @@ Vector3 ExplicitSolver::reaction(const NamedSupport& support) const {
     const Eigen::Index dof = supports_.fixed_dofs()[i];
     if (dof < own &&
         std::binary_search(support.dofs.begin(), support.dofs.end(), 3 * node_ids_[dof / 3] + Id(dof % 3)))
-      sums[dof % 3].add(reactions_[i]);
+      sums[dof % 3].add(reactions_[i] + (carried_.empty() ? 0.0 : carried_[i]));
   }
   if (support.spring_group)
     springs_.add_reaction(*support.spring_group, u_, halo_->owned(u_.cols()), sums.data());

@@ -76,10 +76,15 @@ class ExplicitSolver {
   void end_step(const NodalVectors& F);
 
   // For time steps that are made of several (coupling/substeps.h).
-  /// Between begin_step and end_step: adds displacements [length] and velocities [length/time] that
-  /// somebody's forces have given to the nodes meanwhile; 0 at fixed dofs.  The ledger books the change of
-  /// kinetic energy as their work.  The displacements must live until end_step.
-  void add_motion(const NodalVectors& displacements, const NodalVectors& velocities);
+  /// Between begin_step and end_step: adds displacements [length] and velocities dv [length/time] that
+  /// somebody's forces have given to the nodes meanwhile, 0 at fixed dofs, whose supports carry the impulses
+  /// there.  `impulses` [mass length/time]: of these forces, on fixed dofs, too; dv = M^-1 impulses.  Their
+  /// work is that of velocities v(n+1/2) + dv/2.  The displacements must live until end_step.
+  void add_motion(const NodalVectors& displacements, const NodalVectors& velocities,
+                  const NodalVectors& impulses);
+  /// Until the next step or other forces, reactions have the mean of what supports carry of such impulses in
+  /// `duration` [time].  Collective.
+  void press_on_supports(const NodalVectors& impulses, double duration);
   /// Internal forces are those of the displacements u + lead v from now on: a mode of frequency omega is
   /// damped by the ratio omega lead/2.  Collective.
   void set_lead(double lead);
@@ -189,6 +194,8 @@ class ExplicitSolver {
 
  private:
   void check_size(const NodalVectors& values, const char* what) const;
+  /// What supports that move carry of impulses, times their velocities: in some columns.
+  double power_of_carried(Eigen::Index first, Eigen::Index count) const;
   /// What add_motion's displacements have added to the strain energy, at most, if that is convex.
   void add_strain_energy();
   /// The displacements whose internal forces count.
@@ -236,7 +243,6 @@ class ExplicitSolver {
   std::vector<std::string> load_names_;
   Springs springs_;
   NodalVectors of_supports_;     // accelerations of those that move, if the mass is not diagonal
-  NodalVectors momentum_;        // of what is added
   NodalVectors led_u_;           // u + lead (v - spin x), where there is a lead
   double largest_u_ = 0.0;       // of all components that the part holds
   std::vector<ForceSums> sums_;  // of the last kick, for each run of nodes that the part owns
@@ -245,6 +251,7 @@ class ExplicitSolver {
   const NodalVectors* added_displacements_ = nullptr;  // likewise
   bool keeps_reactions_ = false;
   std::vector<double> reactions_;       // of the supports' fixed dofs
+  std::vector<double> carried_;         // beside them, of impulses
   std::optional<double> strain_start_;  // strain energy when the ledger began
   double dissipated_start_ = 0.0;       // likewise
   double kinetic_start_ = 0.0;          // what the ledger's work goes on from
