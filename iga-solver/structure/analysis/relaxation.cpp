@@ -38,6 +38,7 @@ RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
   expect_held("relax", solver.body(), solver.supports(), solver.springs());
   const NodalVectors none = NodalVectors::Zero(3, solver.body().node_count());
   NodalVectors f = none;
+  NodalVectors at_peak = none;  // displacements
   double kinetic = 0.0;
   solver.hold_conditions_at(options.conditions_time);
   solver.set_velocities(none);
@@ -54,13 +55,14 @@ RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
     const double now = kinetic_energy(solver);
     if (now >= kinetic) {
       kinetic = now;
+      at_peak = solver.displacements();
       continue;
     }
+    solver.set_motion(at_peak, none, solver.time());
+    solver.initialise_forces(none);
     peak = {step, relative_residual(solver, options.conditions_time, f)};
     if (on_peak) on_peak(peak);
     kinetic = 0.0;
-    solver.set_velocities(none);
-    solver.initialise_forces(none);
   }
   return peak;
 }
