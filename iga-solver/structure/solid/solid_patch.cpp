@@ -79,9 +79,8 @@ double SolidPatch::expected_bytes() const {
   if (integration_.method == IntegrationMethod::stored) per_element += element_table_bytes();
   if (integration_.method == IntegrationMethod::elements)
     per_element += sizeof(double) * (3.0 * padded_ + 1.0) * tabulate_.slots();
-  if (integration_.mass == TimeMass::corrected && !J_)
-    per_element += sizeof(double) * MassSweep::table_numbers(space_);
-  return per_element * element_count();
+  const bool has_bands = integration_.mass == TimeMass::corrected && !J_;
+  return per_element * element_count() + (has_bands ? MassSweep::expected_bytes(space_, boxes_) : 0.0);
 }
 
 const MassSweep& SolidPatch::mass_sweep() const {

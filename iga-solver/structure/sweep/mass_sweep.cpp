@@ -234,8 +234,15 @@ double MassSweep::table_bytes() const {
   return bytes;
 }
 
-double MassSweep::table_numbers(const nurbs::Space<3>& space) {
-  return double(space.degree(0) + 1) * (space.degree(1) + 1) * (space.degree(2) + 1);
+double MassSweep::expected_bytes(const nurbs::Space<3>& space, const std::vector<PlacedBox>& boxes) {
+  double numbers = 0.0;
+  for (const PlacedBox& box : boxes) {
+    const auto [x, y, z] = longest_first(box.spans);
+    const std::size_t row = whole_words(box_node_counts(space, box.spans)[x]);
+    numbers += double(points_of(bases_of(space, box.spans, y))) * points_of(bases_of(space, box.spans, z)) *
+               (space.degree(x) + 1) * double(kWord + row);
+  }
+  return sizeof(double) * numbers;
 }
 
 }  // namespace structure

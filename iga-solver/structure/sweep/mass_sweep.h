@@ -80,8 +80,8 @@ class MassSweep {
     for (int b = first; b < end; ++b) boxes_[b].add_product(a, f, space_);
   }
   double table_bytes() const;
-  /// What it keeps per element, unless the map is affine.
-  static double table_numbers(const nurbs::Space<3>& space);
+  /// What that will be, unless the map is affine.
+  static double expected_bytes(const nurbs::Space<3>& space, const std::vector<PlacedBox>& boxes);
 
  private:
   std::vector<MassBox> boxes_;

@@ -80,6 +80,17 @@ TEST(MassProduct, IsThatOfTheConsistentMatrix) {
   }
 }
 
+TEST(MassProduct, SaysBeforehandWhatItKeeps) {
+  for (const int degree : {1, 2, 3})
+    for (const std::array<int, 3>& elements : {std::array<int, 3>{8, 8, 8}, {20, 20, 1}, {3, 31, 17}}) {
+      const nurbs::Volume block = models::block({1, 1, 1}, elements, degree);
+      const auto boxes = structure::whole_patch(block.space);
+      const structure::MassSweep sweep(block.space, block.control_points, boxes, 1.0, false);
+      const double expected = structure::MassSweep::expected_bytes(block.space, boxes);
+      EXPECT_NEAR(expected, sweep.table_bytes(), 0.03 * sweep.table_bytes()) << degree;
+    }
+}
+
 TEST(MassProduct, KnowsWeldsAndTheDensityOfEachPatch) {
   const nurbs::Volume below = models::block({2, 2, 1}, {3, 2, 2}, 2);
   nurbs::Volume above = below;
