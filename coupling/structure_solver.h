@@ -129,23 +129,24 @@ class StructureSolver {
   /// Whether initialise_forces and end_step use the forces; if not, they may be called with forces of zero.
   virtual bool needs_forces() const { return moves(); }
   /// 1 / mass of each degree of freedom of the nodes held [1/mass], 3 x nodes, 0 where it is fixed: for nodes
-  /// that are control points of the surface.  Empty if nothing is known, or nothing is integrated.
+  /// that are control points of the surface.  Where the mass is no diagonal matrix, what 1 / mass never
+  /// exceeds.  Empty if nothing is known, or nothing is integrated.
   virtual NodalVectors inverse_node_mass() const { return {}; }
   virtual Eigen::VectorXd control_node_mass()
       const = 0;                              ///< [mass], one per node held; empty for a rigid surface
-  virtual double kinetic_energy() const = 0;  ///< sum m_A |v_A|^2 / 2 [energy]
+  virtual double kinetic_energy() const = 0;  ///< p . v / 2 of momenta p = M v [energy]
   virtual double strain_energy() const = 0;   ///< [energy]; may cost as much as a step
   virtual Work work() const { return {}; }    ///< zero for a body that is not integrated
   /// Internal work - the change of strain energy: the error of the time step, and what is dissipated
   /// by a memory of another kind than damping [energy].
   virtual double truncation() const { return 0.0; }
   virtual Vector3 linear_momentum() const = 0;                       ///< sum m_A v_A
-  virtual Vector3 angular_momentum(const Vector3& about) const = 0;  ///< sum (x_A - about) x m_A v_A
+  virtual Vector3 angular_momentum(const Vector3& about) const = 0;  ///< sum (x_A - about) x p_A
   virtual std::optional<SurfaceMaterial> material() const = 0;
-  /// Gravity among its own loads [length/time^2]; nothing if they have none.
   /// Whether its gravity shall be the deck's, which is then set before each run.
   virtual bool takes_gravity_of_deck() const { return false; }
   virtual void set_gravity(const Vector3& /*g*/) {}
+  /// Gravity among its own loads [length/time^2]; nothing if they have none.
   virtual std::optional<Vector3> gravity() const { return std::nullopt; }
   virtual std::vector<Probe> probes() const = 0;
   /// At the time of the last forces; always the same supports.

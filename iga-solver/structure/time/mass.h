@@ -74,7 +74,7 @@ class CorrectedMass final : public MassOperator {
   CorrectedMass(const Body& body, Eigen::VectorXd nodal_mass, const Supports& supports, const Halo& halo);
   void apply_inverse_mass(const NodalVectors& f, NodalVectors& a,
                           const NodalVectors* of_supports = nullptr) const override;
-  /// By iteration, to round-off: 35 products.
+  /// By iteration, to round-off: 35 products, and one more where supports move.
   void apply_mass(const NodalVectors& v, NodalVectors& p) const override;
   const Eigen::VectorXd& nodal_mass() const override { return lumped_.nodal_mass(); }
   const NodalVectors& inverse_mass() const override { return bound_; }
