@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "feet.h"
+#include "nurbs/kernel_choice.h"
 #include "trial_surfaces.h"
 
 namespace search {
@@ -23,6 +24,16 @@ std::vector<SimdLevel> levels() {
   for (const SimdLevel level : {SimdLevel::portable, SimdLevel::avx2, SimdLevel::avx512})
     if (available(level)) found.push_back(level);
   return found;
+}
+
+template <int number>
+int number_of() {
+  return number;
+}
+
+TEST(KernelChoice, TakesTheOneOfTheLevel) {
+  for (const SimdLevel level : levels())
+    EXPECT_EQ(kernel_of(level, number_of<0>, number_of<1>, number_of<2>)(), static_cast<int>(level));
 }
 
 // Sets the variable that names the level for as long as it lives.
