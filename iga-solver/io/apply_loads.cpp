@@ -17,6 +17,13 @@ using structure::NodalVectors;
 
 namespace {
 
+/// On all ranks alike, though one alone may see what is not; collective.
+void expect_finite(const NodalVectors& values, const std::string& place, const structure::Halo& halo) {
+  if (halo.any(!values.allFinite()))
+    throw geometry_io::InputError(
+        fmt::format("{}: the expression is not finite somewhere on the solid, expected numbers", place));
+}
+
 class Applied {
  public:
   Applied(const geometry_io::GeometryFile& geometry, const structure::NodeNumbering& nodes,
@@ -61,9 +68,7 @@ class Applied {
     return std::get<nurbs::Volume>(geometry_.patches[patch]);
   }
   void take(const NodalVectors& f, const structure::TimeFunction& time, const std::string& place = "") {
-    if (!f.allFinite())
-      throw geometry_io::InputError(
-          fmt::format("{}: the expression is not finite somewhere on the solid, expected numbers", place));
+    expect_finite(f, place, solver_.halo());
     if (time)
       solver_.add_load(std::make_unique<structure::FactoredLoad>(f, time));
     else
@@ -113,9 +118,7 @@ NodalVectors velocities_of(const FieldKey& velocity, const ExplicitSolver& solve
   const NodalVectors& X = solver.body().reference();
   NodalVectors v = NodalVectors::Zero(3, X.cols());
   for (Eigen::Index A = 0; A < solver.halo().held(X.cols()); ++A) v.col(A) = velocity.field(X.col(A), 0.0);
-  if (!v.allFinite())
-    throw geometry_io::InputError(fmt::format(
-        "{}: the expression is not finite somewhere on the solid, expected numbers", velocity.place));
+  expect_finite(v, velocity.place, solver.halo());
   return v;
 }
 

@@ -61,9 +61,10 @@ Loads read_loads(const geometry_io::YamlMap& map, const geometry_io::GeometryFil
 FieldKey read_initial_velocity(const geometry_io::YamlMap& map);
 
 /// Gives a solver these loads.  Throws geometry_io::InputError if an expression is not finite somewhere.
+/// Collective.
 void apply_loads(const Loads& loads, const geometry_io::GeometryFile& geometry,
                  const structure::NodeNumbering& nodes, structure::ExplicitSolver& solver);
-/// The nodal velocities, 3 x n.
+/// The nodal velocities, 3 x n; likewise.
 structure::NodalVectors velocities_of(const FieldKey& velocity, const structure::ExplicitSolver& solver);
 
 }  // namespace io

@@ -15,7 +15,8 @@ namespace structure {
 class SupportMotion {
  public:
   explicit SupportMotion(const Supports& supports);
-  bool is_empty() const { return moved_.empty(); }
+  /// Of all parts alike: a part that nothing moves asks for the factors, too, which may throw.
+  bool is_empty() const { return times_.empty(); }
 
   /// u(t), and x = reference + u.
   void place(double t, const NodalVectors& reference, NodalVectors& u, NodalVectors& x);

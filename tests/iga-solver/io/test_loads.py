@@ -239,6 +239,20 @@ class Loads(unittest.TestCase):
                     self.assertNotEqual(done.returncode, 0)
                     self.assertRegex(done.stderr, rf"model.yaml: step \d+: {expected} at time 0.001\d*, expected .*; the histories before it are")
 
+    def test_what_one_rank_alone_sees_is_told_as_on_one(self):
+        """The others do not wait for it."""
+        for more in (
+            'initial: {velocity: ["sqrt(1.9-x)", 0, 0]}',
+            'loads: {lines: [{edge: [xi+, zeta+], value: [0, 0, "ln(y-0.6)"]}]}',
+            'loads: {tractions: [{face: xi+, value: [0, 0, "ln(y-0.6)"]}]}',
+            'loads: {body_force: {value: [0, 0, "sqrt(1.9-x)"]}}',
+            'boundary: [{move: {x: 1e-6}, faces: [xi+], time: "sqrt((t-1e-3)*(t-2e-3))"}]',
+        ):
+            one, two = (run(block(more, elements="[40, 36, 3]"), 4e-3, 1e-5, ranks)[0] for ranks in (1, 2))
+            with self.subTest(more):
+                self.assertRegex(one.stderr, "^ERROR: model.yaml:.* expected (a number|numbers)\\b")
+                self.assertEqual([two.stderr.splitlines()[0] + "\n", two.stderr.count("ERROR")], [one.stderr, 1])
+
 
 if __name__ == "__main__":
     unittest.main()
