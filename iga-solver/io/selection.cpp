@@ -2,6 +2,7 @@
 #include "io/selection.h"
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <iterator>
@@ -52,7 +53,17 @@ NodeSet points_of_patch(const Selection& selection, const nurbs::Volume& patch) 
   return all;
 }
 
-std::array<Vector3, 2> read_box(const YamlMap& map) {
+double size_of(const GeometryFile& geometry) {
+  Eigen::AlignedBox3d box;
+  for (const geometry_io::Shape& patch : geometry.patches)
+    for (const auto& point : std::get<nurbs::Volume>(patch).control_points.colwise())
+      box.extend(Vector3(point));
+  return box.sizes().norm();
+}
+
+/// Larger by the round-off of control points that are meant to stand on its borders.
+std::array<Vector3, 2> read_box(const YamlMap& map, const GeometryFile& geometry) {
+  constexpr double kSame = 1e-9;  // of the body's size, as of welds
   const std::vector<std::vector<double>> rows = map.table("box");
   if (rows.size() != 2 || rows[0].size() != 3 || rows[1].size() != 3)
     map.fail("box", "box is of another shape, expected [[x, y, z], [x, y, z]]");
@@ -61,7 +72,8 @@ std::array<Vector3, 2> read_box(const YamlMap& map) {
     map.fail("box", fmt::format("box is from {} to {}, expected the lowest corner first",
                                 fmt::format("({}, {}, {})", low[0], low[1], low[2]),
                                 fmt::format("({}, {}, {})", high[0], high[1], high[2])));
-  return {low, high};
+  const Vector3 margin = Vector3::Constant(kSame * size_of(geometry));
+  return {low - margin, high + margin};
 }
 
 void expect_faces(const YamlMap& map, const std::string& key, const std::vector<nurbs::Face>& faces,
@@ -119,7 +131,7 @@ Selection read_selection(const YamlMap& map, const GeometryFile& geometry,
                     "or patch alone",
                     given.empty() ? "nothing says" : "more than one key says"));
   const std::string key = given.empty() ? "patch" : given.front();
-  if (key == "box") selection.box = read_box(map);
+  if (key == "box") selection.box = read_box(map, geometry);
   if (key == "faces" || key == "edge" || key == "corner") selection.faces = read_faces(map, key);
   if (key == "faces")
     if (const auto twice = first_repeated(selection.faces); twice != selection.faces.end())

@@ -22,8 +22,9 @@ using nurbs::Vector3;
 struct Selection {
   std::vector<int> patches = {0};
   std::vector<nurbs::Face> faces = {};
-  bool on_all_of_them = false;                     ///< an edge, a corner, or, without faces, all of the patch
-  std::optional<std::array<Vector3, 2>> box = {};  ///< lowest and highest corner [length]
+  bool on_all_of_them = false;  ///< an edge, a corner, or, without faces, all of the patch
+  /// Lowest and highest corner [length], with room for round-off.
+  std::optional<std::array<Vector3, 2>> box = {};
 };
 
 /// Keys of a selection, to be allowed beside those of the condition.

@@ -107,14 +107,26 @@ class Supports(unittest.TestCase):
         """As many fixed degrees of freedom as the control points there: 6 x 5 x 4 of them."""
         for where, count in (("faces: [xi-, eta-]", 5 * 4 + 6 * 4 - 4), ("edge: [xi-, eta+]", 4), ("corner: [xi-, eta+, zeta-]", 1),
                              ("patch: 0", 120), ("box: [[0, 0, 0], [0.01, 1, 0]]", 2 * 5)):
-            boundary = f"{{fix: [x, y], {where}}}"
-            with tempfile.TemporaryDirectory() as folder:
-                model = PLATE.format(origin="[0, 0, 0]", size="[0.04, 0.012, 0.004]", elements="[4, 3, 2]", degree=2, middle="[0, 0]",
-                                     boundary=boundary)
-                (Path(folder) / "model.yaml").write_text(model)
-                done = subprocess.run([PROGRAM, "model.yaml", "--end", "1e-9"], cwd=folder, capture_output=True, text=True,
-                                      timeout=60, check=False)
-                self.assertIn(f"{2 * count} of them fixed", done.stdout, where)
+            self.check_selected(PLATE.format(origin="[0, 0, 0]", size="[0.04, 0.012, 0.004]", elements="[4, 3, 2]", degree=2,
+                                             middle="[0, 0]", boundary=f"{{fix: [x, y], {where}}}"), 2 * count)  # fmt: skip
+
+    def check_selected(self, model: str, dofs: int) -> None:
+        with tempfile.TemporaryDirectory() as folder:
+            (Path(folder) / "model.yaml").write_text(model)
+            done = subprocess.run([PROGRAM, "model.yaml", "--end", "1e-9"], cwd=folder, capture_output=True, text=True,
+                                  timeout=60, check=False)  # fmt: skip
+            self.assertIn(f"{dofs} of them fixed", done.stdout, model)
+
+    def test_the_borders_of_a_box_are_within_round_off(self):
+        """0.1 + 0.2 is not 0.3; nor are turned control points where they are meant to be.  What is off by more is off."""
+        plate = PLATE.format(origin="[0.1, 0.1, 0.1]", size="[0.2, 0.6, 0.3]", elements="[2, 3, 3]", degree=1, middle="[0, 0]",
+                             boundary="{fix: [x], box: [[0.1, 0.1, 0.1], [0.3, 0.7, 0.1]]}")  # fmt: skip
+        self.check_selected(plate, 3 * 4)
+        self.check_selected(plate.replace("[0.3, 0.7, 0.1]", "[0.299999, 0.7, 0.1]"), 2 * 4)
+        turned = PLATE.format(origin="[0, 0, 0]", size="[1, 0.4, 0.3]", elements="[4, 2, 2]", degree=2, middle="[0, 0]",
+                              boundary="{fix: [x], box: [[0.2, 0, 0], [0.2, 0.4, 0.3]]}")  # fmt: skip
+        turned = turned.replace("degree: 2}", "degree: 2}, rotate: {origin: [0.1, 0.2, 0.3], axis: [0, 0, 1], angle: 180}")
+        self.check_selected(turned, 4 * 4)
 
     def test_ranks(self):
         model = PLATE.format(origin="[0, 0, 0]", size="[0.04, 0.036, 0.004]", elements="[40, 36, 2]", degree=2, middle="[0.5, 0.5]",
