@@ -3,12 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
 #include <stdexcept>
 
 #include "geometry_io/hdf5_file.h"
 #include "geometry_io/regular_file.h"
+#include "structure/material/viscous.h"
 
 namespace io {
 
@@ -44,6 +46,14 @@ double read_number(const Hdf5Input& file, const std::string& path) {
   return value.numbers.front();
 }
 
+/// Whether a law remembers more than viscosity, which may be given and taken away.
+bool has_own_memory(const structure::Body& body) {
+  const std::vector<const structure::Material*> materials = body.materials();
+  return std::any_of(materials.begin(), materials.end(), [](const structure::Material* material) {
+    return material->state_size() > 0 && structure::viscosity(*material) == 0.0;
+  });
+}
+
 void take(const SavedState& state, double time, structure::ExplicitSolver& solver) {
   constexpr double kSame = 1e-9;  // of the size
   const NodalVectors reference = nodal_vectors(solver.in_order(solver.body().reference()));
@@ -58,13 +68,18 @@ void take(const SavedState& state, double time, structure::ExplicitSolver& solve
   append(state.displacement, numbers);
   append(state.velocity, numbers);
   append(NodalVectors::Zero(3, reference.cols()), numbers);  // accelerations: found from the forces
-  if (state.memory.size() != remembered)
-    throw InputError(fmt::format("{}: has a memory of {} numbers, expected {}: the material is another",
-                                 state.file, state.memory.size(), remembered));
-  numbers.insert(numbers.end(), state.memory.begin(), state.memory.end());
+  const bool is_kept = state.memory.size() == remembered;
+  if (!is_kept && has_own_memory(solver.body()))
+    throw InputError(
+        fmt::format("{}: has a memory of {} numbers, expected {}: that of the law '{}'; give "
+                    "the material of then, or a state that was found with this one",
+                    state.file, state.memory.size(), remembered, solver.body().materials().front()->law()));
+  if (is_kept) numbers.insert(numbers.end(), state.memory.begin(), state.memory.end());
+  numbers.resize(1 + 9 * static_cast<std::size_t>(reference.cols()) + remembered, 0.0);
   if (state.moment)
     numbers.insert(numbers.end(), state.moment->momentum.begin(), state.moment->momentum.end());
   solver.load(numbers);
+  if (!is_kept) solver.settle();
 }
 
 }  // namespace
@@ -138,12 +153,8 @@ SavedState read_state(const geometry_io::YamlMap& document, geometry_io::Units u
 }
 
 void put_at_rest(structure::ExplicitSolver& solver, const NodalVectors& u, double time) {
-  std::vector<double> numbers{time};
-  append(u, numbers);
-  numbers.resize(numbers.size() + 2 * static_cast<std::size_t>(u.size()), 0.0);
-  const std::vector<double> memory = solver.memory_in_order();
-  numbers.insert(numbers.end(), memory.begin(), memory.end());
-  solver.load(numbers);
+  solver.set_motion(u, NodalVectors::Zero(3, u.cols()), time);
+  solver.settle();
 }
 
 SavedState state_of(const structure::ExplicitSolver& solver) {

@@ -50,8 +50,9 @@ void put_at_rest(structure::ExplicitSolver& solver, const nurbs::NodalVectors& u
 SavedState state_of(const structure::ExplicitSolver& solver);
 /// The same in a motion, to be continued.
 SavedState moment_of(const structure::ExplicitSolver& solver);
-/// The solver goes on from there, at time 0; loads and supports are its own.  Throws geometry_io::InputError
-/// if the state is of another mesh.  Collective.
+/// The solver goes on from there, at time 0; loads and supports are its own.  Viscosity that has nothing to
+/// remember of its points begins at rest.  Throws geometry_io::InputError if the state is of another mesh, or
+/// of a law with another memory.  Collective.
 void start_from(const SavedState& state, structure::ExplicitSolver& solver);
 /// The same at the time of the state: with the same time step, and after initialise_forces the work of then,
 /// the motion is that of a run that was not interrupted, to the last bit, cut in any way.  Also throws if the

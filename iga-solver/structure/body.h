@@ -68,7 +68,8 @@ class Body {
   virtual void internal_force(const NodalVectors& u, NodalVectors& f) const = 0;
   /// The same at the end of a time step dt [time], over which the memory evolves from what it was at the last
   /// commit(): the step may be worked out again, and nothing else sees it before commit().  Velocities are
-  /// not asked for: the mean one of the step is what u has moved since, over dt.
+  /// not asked for: the mean one of the step is what u has moved since, over dt; if that is 0 the body was
+  /// put there and rests.
   /// `shares_ready` is called as soon as f holds what other parts wait for (Halo::begin_sum).
   virtual void evolve(
       const NodalVectors& u, double dt, NodalVectors& f,

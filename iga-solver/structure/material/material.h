@@ -36,7 +36,8 @@ class Material {
   /// Numbers that a point remembers, all 0 before the first step; none for an elastic law, which may ignore
   /// its state and is never asked to evolve it.
   virtual int state_size() const { return 0; }
-  /// Memory after a time step dt [time] from `old` that ends at H: sets all of `next`.
+  /// Memory after a time step dt [time] from `old` that ends at H: sets all of `next`.  If dt is 0 the point
+  /// was put there and rests: nothing has a rate.
   virtual void evolve(const Matrix3& /*H*/, double /*dt*/, const double* /*old*/, double* /*next*/) const {}
 
   /// Energy per reference volume that a point has lost for good, if its memory tells [J/m^3].

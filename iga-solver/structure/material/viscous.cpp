@@ -32,6 +32,12 @@ Matrix3 Viscous::cauchy_stress(const Matrix3& H, const double* state) const {
 
 // dP = dH S + F C : sym(F^T dH).
 void Viscous::evolve(const Matrix3& H, double dt, const double* old, double* next) const {
+  if (dt == 0.0) {
+    Matrix3::Map(next) = H;
+    Matrix3::Map(next + 9).setZero();
+    next[18] = old[18];
+    return;
+  }
   const Matrix3 before = Matrix3::Map(old), change = H - before, middle = 0.5 * (H + before);
   Matrix3 viscous = viscosity_ / dt * elastic_->stress_change(middle, change, nullptr);
   double work = viscous.cwiseProduct(change).sum();

@@ -61,6 +61,9 @@ class ExplicitSolver {
   /// Displacements and velocities that somebody else has worked out, of all columns, and their time: for what
   /// is then asked of the nodes.
   void set_motion(const NodalVectors& u, const NodalVectors& v, double time);
+  /// The material remembers what it does at rest where displacements are now: no rate, whatever it was
+  /// strained by before.
+  void settle();
 
   /// Accelerations for the current state under further nodal forces F [force], whole at the nodes that the
   /// part owns; advances nothing.  Call before

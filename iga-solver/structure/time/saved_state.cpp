@@ -134,12 +134,13 @@ std::vector<double> ExplicitSolver::save_work_done() const {
   halo_->sum(sums.data(), sums.size());
   std::vector<double> numbers{strain_start_.value_or(0.0), dissipated_start_};
   for (ExactSum& sum : sums) numbers.insert(numbers.end(), sum.words().begin(), sum.words().end());
+  numbers.push_back(dissipated_energy());
   return numbers;
 }
 
 void ExplicitSolver::load_work_done(const std::vector<double>& numbers) {
-  constexpr std::size_t kNumbers = 2 + kForceKinds * ExactSum::kWords;
-  if (numbers.size() != kNumbers)
+  constexpr std::size_t kNumbers = 3 + kForceKinds * ExactSum::kWords;  // older states lack the last one
+  if (numbers.size() != kNumbers && numbers.size() != kNumbers - 1)
     throw std::invalid_argument(
         fmt::format("ExplicitSolver: work of {} numbers, expected {}", numbers.size(), kNumbers));
   const bool is_first_part = halo_->owned(u_.cols()) > 0 && node_ids_[0] == 0;
@@ -150,6 +151,8 @@ void ExplicitSolver::load_work_done(const std::vector<double>& numbers) {
   ledger_.set_sums(sums);
   strain_start_ = numbers[0];
   dissipated_start_ = numbers[1];
+  if (numbers.size() == kNumbers)  // a material that has not kept its memory goes on from the energy of then
+    dissipated_start_ += dissipated_energy() - numbers.back();
   budget_.reset();
 }
 
@@ -162,6 +165,13 @@ void ExplicitSolver::set_motion(const NodalVectors& u, const NodalVectors& v, do
   time_ = time;
   if (momenta_damped_) momenta_damped_->forget();
   budget_.reset();
+}
+
+void ExplicitSolver::settle() {
+  if (body_->memory().empty()) return;
+  NodalVectors f(3, u_.cols());
+  body_->evolve(u_, 0.0, f);
+  body_->commit();
 }
 
 }  // namespace structure

@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "../structure/material/standard_linear_solid.h"
 #include "io/model_file.h"
 
 namespace {
@@ -279,6 +281,17 @@ TEST(ModelFile, RefusesASurfaceWhereASolidIsNeeded) {
   EXPECT_THAT([&] { io::parse_model_file(text, "plane.yaml"); },
               testing::ThrowsMessage<geometry_io::InputError>(
                   testing::AllOf(HasSubstr("plane.yaml:"), HasSubstr("volume"))));
+}
+
+TEST(SavedState, OfALawWithoutMemoryIsRefusedByOneThatHasIts) {
+  ModelFile elastic = io::parse_model_file(kPlate, "plate.yaml"), other = elastic;
+  other.materials = {std::make_shared<test::StandardLinearSolid>(1e9, 0.3, 1000.0, 0.5, 1.0)};
+  const io::SavedState state = io::state_of(io::build_solver(elastic));
+  structure::ExplicitSolver solver = io::build_solver(other);
+  EXPECT_THAT([&] { io::start_from(state, solver); },
+              testing::ThrowsMessage<geometry_io::InputError>(testing::AllOf(
+                  HasSubstr("has a memory of 0 numbers, expected"),
+                  HasSubstr("of the law 'standard_linear_solid'; give the material of then"))));
 }
 
 TEST(ModelFile, NamesAFileThatCannotBeRead) {

@@ -24,7 +24,8 @@ loads: {{tractions: [{{face: xi+, value: [1e6, 0, 0]}}]}}
 output: {{file: out, fields: [displacement, stress]}}
 {more}
 """
-
+MOVING = MODEL.replace("file: out, fields: [displacement, stress]", "file: out, every: 1e-4")
+LONG, LONG_MOVING = (text.replace("[20, 2, 2]", "[40, 2, 2]") for text in (MODEL, MOVING))  # two boxes
 
 # two welded bars of different stiffness, one on the other, bent by a force along the edge of the upper one
 SANDWICH = """units: mm-t-s
@@ -79,15 +80,35 @@ class Analyses(unittest.TestCase):
 
     def test_a_motion_that_starts_from_it_stays_there(self):
         for kind in ("static, save: rest.h5", "relax, tolerance: 1e-9, save: rest.h5"):
-            with self.subTest(kind):
-                self.run_model(f"analysis: {{kind: {kind}}}", law="neo_hooke")
-                moving = MODEL.replace("file: out, fields: [displacement, stress]", "file: out, every: 1e-4")
-                self.run_model("state: rest.h5\ntime: {end: 2e-3}", law="neo_hooke", text=moving)
-                self.assertGreater(len(self.rows("time")), 15)
-                end = self.rows("probes/end")[:, 0]
-                self.assertGreater(end[0], 4.9e-4)
-                np.testing.assert_allclose(end, end[0], rtol=1e-6)
-                self.assertLess(self.rows("kinetic_energy").max(), 1e-10 * self.rows("strain_energy")[0])
+            for damping in ("", "damping: {stiffness: 1e-5}\n"):
+                with self.subTest(kind, damping=damping):
+                    self.run_model(f"{damping}analysis: {{kind: {kind}}}", law="neo_hooke")
+                    self.check_rest(damping)
+
+    def check_rest(self, damping: str) -> None:
+        """Of a motion that starts from rest.h5."""
+        self.run_model(f"{damping}state: rest.h5\ntime: {{end: 2e-3}}", law="neo_hooke", text=MOVING)
+        self.assertGreater(len(self.rows("time")), 15)
+        end, strain = self.rows("probes/end")[:, 0], self.rows("strain_energy")[0]
+        self.assertGreater(end[0], 4.9e-4)
+        np.testing.assert_allclose(end, end[0], rtol=1e-6)
+        self.assertLess(self.rows("kinetic_energy").max(), 1e-10 * strain)
+        self.assertLess(np.abs(self.rows("ledger/damped")).max(), 1e-10 * strain)
+
+    def test_viscosity_comes_and_goes_at_a_state(self):
+        """It begins with the strain at rest, on parts of the body, too; with other points, likewise."""
+        viscous, fewer = "damping: {stiffness: 1e-5}\n", "integration: {quadrature: reduced}\n"
+        for then, now in (("", viscous), (viscous, ""), (viscous, viscous + fewer)):
+            with self.subTest(then=then, now=now):
+                self.run_model(f"{then}analysis: {{kind: static, save: rest.h5}}", law="neo_hooke")
+                self.check_rest(now)
+        self.run_model("analysis: {kind: static, save: rest.h5}", text=LONG)
+        ends = []
+        for ranks in (1, 2):
+            self.run_model(f"{viscous}state: rest.h5\ntime: {{end: 2e-4}}", text=LONG_MOVING, ranks=ranks)
+            ends.append(self.rows("probes/end"))
+            self.assertLess(np.abs(self.rows("ledger/damped")).max(), 1e-10 * self.rows("strain_energy")[0])
+        np.testing.assert_array_equal(*ends)
 
     def test_relax_is_static(self):
         self.run_model("analysis: static", law="saint_venant_kirchhoff")

@@ -177,6 +177,15 @@ TEST(Memory, ContinuesFromASavedStateToTheLastBit) {
   }
 }
 
+TEST(Memory, OfABodyThatIsPutSomewhereIsThatAtOnce) {
+  NodalVectors u;
+  const std::unique_ptr<Solid> expected = stretched(0.01 * models::some_gradient(), u);
+  ExplicitSolver solver(viscoelastic(), {});
+  solver.set_motion(u, NodalVectors::Zero(3, u.cols()), 0.0);
+  solver.settle();
+  EXPECT_EQ(solver.body().memory(), expected->memory());
+}
+
 TEST(Memory, OfAnotherSizeIsRefused) {
   ExplicitSolver solver(viscoelastic(), {});
   std::vector<double> state = solver.save();

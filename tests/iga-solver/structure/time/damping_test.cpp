@@ -219,6 +219,34 @@ TEST(Spin, IsThatOfARigidBody) {
   EXPECT_LT((structure::spin(x, v, masses, structure::Halo()) - omega).norm(), 1e-12);
 }
 
+// A body that was put somewhere rests there, turned about or not, whatever its points remembered.
+TEST(Viscosity, FeelsNothingOfWhereTheBodyWasPut) {
+  const Eigen::Matrix3d half_a_turn = Eigen::AngleAxisd(EIGEN_PI, Vector3::UnitZ()).toRotationMatrix();
+  for (const Eigen::Matrix3d& turn : {Eigen::Matrix3d(Eigen::Matrix3d::Identity()), half_a_turn}) {
+    ExplicitSolver body(std::make_unique<structure::Solid>(models::block({2, 1, 1}, {4, 2, 2}, 2),
+                                                           viscous(models::large_strain_laws().front(), 0.1)),
+                        {});
+    const Eigen::Matrix3d F = turn * (Eigen::Matrix3d::Identity() + 0.1 * models::some_gradient());
+    const NodalVectors u = models::linear_field(F - Eigen::Matrix3d::Identity(), body.body().reference());
+    NodalVectors rest(u), f(u);
+    body.body().internal_force(u, rest);  // before points remember anything
+    for (const double before : {0.0, 0.5}) {
+      body.set_motion(before * u, NodalVectors::Zero(3, u.cols()), 0.0);
+      body.settle();
+    }
+    body.set_motion(u, NodalVectors::Zero(3, u.cols()), 0.0);
+    body.settle();
+    body.body().internal_force(u, f);
+    EXPECT_EQ(f, rest);
+    EXPECT_EQ(body.body().dissipated_sum().value(), 0.0);
+    body.set_time_step(1e-6);
+    const NodalVectors hold = f;
+    body.initialise_forces(hold);
+    for (int n = 0; n < 3; ++n) models::step(body, hold);
+    EXPECT_EQ(body.work().damped, 0.0);
+  }
+}
+
 TEST(Viscosity, GoesOnFromASavedStateToTheLastBit) {
   const auto make = [] {
     ExplicitSolver body(std::make_unique<structure::Solid>(models::block({2, 1, 1}, {4, 2, 2}, 2),
