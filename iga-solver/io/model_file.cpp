@@ -219,9 +219,9 @@ structure::ExplicitSolver build_solver(ModelFile& model, const Cut& cut) {
   solver.set_springs(springs_of(model.boundary, model.geometry, model.nodes, solver.node_ids()));
   solver.set_mass_damping(model.mass_damping);
   apply_loads(model.loads, model.geometry, model.nodes, solver);
+  if (model.state) start_from(*model.state, solver);
   if (model.initial_velocity) solver.set_velocities(velocities_of(*model.initial_velocity, solver));
   if (!model.named_supports().empty()) solver.keep_reactions();
-  if (model.state) start_from(*model.state, solver);
   model.drop_control_points();
   return solver;
 }

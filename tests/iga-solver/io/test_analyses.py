@@ -110,6 +110,18 @@ class Analyses(unittest.TestCase):
             self.assertLess(np.abs(self.rows("ledger/damped")).max(), 1e-10 * self.rows("strain_energy")[0])
         np.testing.assert_array_equal(*ends)
 
+    def test_initial_velocities_are_taken_with_the_displacements_of_a_state(self):
+        self.run_model("analysis: {kind: static, save: rest.h5}")
+        thrown = "initial: {velocity: [3, 0, 0]}\ntime: {end: 1e-5}\n"
+        seen = {}
+        for state in ("", "state: rest.h5\n"):
+            self.run_model(thrown + state, text=MOVING)
+            seen[state] = self.rows("kinetic_energy")[0], self.rows("probes/end")[0, 0]
+        (alone, _), (energy, end) = seen.values()
+        self.assertGreater(alone, 0.9 * 0.5 * RHO * 0.01 * LENGTH * 3**2)
+        self.assertEqual(energy, alone)
+        self.assertAlmostEqual(end / (STRESS / E * LENGTH), 1, delta=1e-6)
+
     def test_relax_is_static(self):
         self.run_model("analysis: static", law="saint_venant_kirchhoff")
         expected = self.rows("probes/end")[-1]
