@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "structure/time/stable_time_step.h"
+
 namespace coupling {
 
 namespace {
@@ -163,9 +165,9 @@ void IgaStructure::set_time_step(double dt) {
   const double stable = solver_.stable_time_step();
   if (dt > stable)
     throw std::invalid_argument(fmt::format(
-        "timestep {:.6g} is above the structure's stable step {:.6g}; use a timestep of at most {:.3g}, or "
+        "timestep {:.6g} is above the structure's stable step {}; use a timestep of at most {:.3g}, or "
         "'substeps auto'",
-        dt, stable, 0.9 * stable));
+        dt, structure::step_text(stable), 0.9 * stable));
   solver_.set_time_step(dt);
 }
 

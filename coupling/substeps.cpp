@@ -16,6 +16,7 @@ namespace coupling {
 namespace {
 
 using structure::damped_stable_step;
+using structure::step_text;
 using Fast = SubstepOptions::Fast;
 
 /// `auto` takes the stiffest contact to last 100 particle steps: Hertz' force is stiffest at the largest
@@ -101,7 +102,7 @@ void Substeps::take_steps(double dt) {
                step = particles_fast() ? count_ * dt : dt / count_;
   if (step > stable)
     throw std::invalid_argument(
-        fmt::format("{}: that is above its stable step {:.6g}{}", describe_step(), stable,
+        fmt::format("{}: that is above its stable step {}{}", describe_step(), step_text(stable),
                     !particles_fast() ? fmt::format("; use at least {:.0f}", std::ceil(dt / stable))
                     : dt > stable     ? "; use 'substeps structure auto'"
                                       : fmt::format("; use at most {:.0f}", std::floor(stable / dt))));
@@ -114,8 +115,8 @@ void Substeps::choose_again(const NodalForces& forces) {
   stable_ = solver_.stable_time_step_now();
   choose(dt_);
   take_steps(dt_);
-  change_ =
-      fmt::format("{}, since strain has brought its stable step down to {:.6g}", describe_step(), stable_);
+  change_ = fmt::format("{}, since strain has brought its stable step down to {}", describe_step(),
+                        step_text(stable_));
   if (particles_fast()) return;
   F_ = forces;
   set_impulse();
@@ -133,9 +134,9 @@ double Substeps::heaviest_ratio() const {
 int Substeps::particle_steps(double dt) const {
   if (dt > stable_)
     throw std::invalid_argument(
-        fmt::format("substeps particles auto: timestep {:.6g} is above the structure's stable step {:.6g}; "
+        fmt::format("substeps particles auto: timestep {:.6g} is above the structure's stable step {}; "
                     "use a timestep of at most {:.3g}, or 'substeps auto'",
-                    dt, stable_, 0.9 * stable_));
+                    dt, step_text(stable_), 0.9 * stable_));
   const double ratio = heaviest_ratio();
   if (ratio == 0.0) return 1;  // no particles yet: the next run knows more
   const int most = static_cast<int>(std::min<double>(stable_ / dt, kMostSubsteps));
@@ -148,8 +149,8 @@ int Substeps::structure_steps(double dt) const {
   if (!(steps <= kMostSubsteps))
     throw std::invalid_argument(fmt::format(
         "substeps auto: timestep {:.6g} needs {:.6g} steps of the structure, whose stable step is "
-        "{:.6g}, expected at most {}",
-        dt, steps, stable_, kMostSubsteps));
+        "{}, expected at most {}",
+        dt, steps, step_text(stable_), kMostSubsteps));
   return static_cast<int>(steps);
 }
 

@@ -21,6 +21,7 @@ namespace app {
 namespace {
 
 using structure::ExplicitSolver;
+using structure::step_text;
 using Moment = io::SavedState::Moment;
 
 constexpr double kDefaultStepFactor = 0.9;  // of the stable step
@@ -166,7 +167,7 @@ double longest_step(const SolveOptions& options, const io::ModelFile& model, dou
   const std::optional<double> wanted = wanted_step(options, model);
   if (wanted && *wanted > stable)
     throw std::runtime_error(
-        fmt::format("time step {:.6g} is above the stable step {:.6g}", *wanted, stable));
+        fmt::format("time step {:.6g} is above the stable step {}", *wanted, step_text(stable)));
   if (!wanted && std::isinf(stable))
     throw std::runtime_error("every node is fixed, expected at least one free");
   return wanted.value_or(kDefaultStepFactor * stable);
@@ -196,10 +197,10 @@ double find_stable_step(const io::ModelFile& model, const ExplicitSolver& solver
   const double stable = with_name(model, [&] { return solver.stable_time_step(); });
   const double viscosity = structure::viscosity(*model.materials.front());
   if (talk != Talk::errors_only)
-    print_on_first("  stable step  {:.6g}{}\n", stable,
+    print_on_first("  stable step  {}{}\n", step_text(stable),
                    viscosity == 0.0 ? ""
-                                    : fmt::format(", damped; {:.6g} without",
-                                                  structure::undamped_step(stable, viscosity)));
+                                    : fmt::format(", damped; {} without",
+                                                  step_text(structure::undamped_step(stable, viscosity))));
   return stable;
 }
 

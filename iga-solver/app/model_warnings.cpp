@@ -8,6 +8,7 @@
 #include "io/inner_faces.h"
 #include "loose_patches.h"
 #include "model_report.h"
+#include "structure/material/viscous.h"
 
 namespace app {
 
@@ -94,8 +95,12 @@ void warn_of_unused(const io::ModelFile& model, Warnings& warnings) {
   if (!model.analysis) return;
   const char* const why = "an 'analysis' has no motion in time";
   unused(model.time.has_value() && !(is_of(model, kRelax) && model.time->step), "time", why);
-  unused(model.initial_velocity && !is_of(model, kRelax), "initial", why);
+  unused(model.initial_velocity.has_value(), "initial", why);
   unused(model.mass_damping > 0.0 && !is_of(model, kRelax), "damping.mass", why);
+  unused(structure::viscosity(*model.materials.front()) > 0.0 && !is_of(model, kRelax), "damping.stiffness",
+         why);
+  unused(model.integration.mass == structure::TimeMass::corrected && !is_of(model, kRelax),
+         "integration.mass", why);
   unused(is_of(model, kStatic) && model.state, "state", "'static' starts from the undeformed body");
   unused(is_of(model, kModes) && is_loaded(model.loads), "loads",
          "modes are about the undeformed body, or about 'state'");

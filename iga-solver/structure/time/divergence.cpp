@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "structure/time/stable_time_step.h"
+
 namespace structure {
 
 namespace {
@@ -88,7 +90,8 @@ std::string likely_cause(const LastStep& step) {
     return at_worst(step, worst, "the contact force is not finite");
   const double dt = step.time_step;
   const std::optional<double>& stable = step.stable_time_step;
-  const std::string known = stable ? fmt::format(" (the stable step was {:.6g} at the start)", *stable) : "";
+  const std::string known =
+      stable ? fmt::format(" (the stable step was {} at the start)", step_text(*stable)) : "";
   if (stable && dt > *stable) return fmt::format("the time step {:.6g} is too long{}", dt, known);
   const std::string folded = folded_element(step);
   if (!folded.empty())

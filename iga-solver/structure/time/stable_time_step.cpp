@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "structure/time/lanczos.h"
 
@@ -184,5 +185,12 @@ double damped_stable_step(double stable, double lead) {
 }
 
 double undamped_step(double dt, double lead) { return lead == 0.0 ? dt : std::sqrt(dt * (dt + 2.0 * lead)); }
+
+std::string step_text(double stable) {
+  std::string text = fmt::format("{:.6g}", stable);
+  if (!std::isfinite(stable) || std::stod(text) <= stable) return text;
+  const double last_digit = std::pow(10.0, std::floor(std::log10(stable)) - 5.0);
+  return fmt::format("{:.6g}", stable - last_digit);
+}
 
 }  // namespace structure

@@ -3,6 +3,8 @@
 // of M^-1 K (Hughes, The Finite Element Method, 2000, section 9.1).
 #pragma once
 
+#include <string>
+
 #include "structure/body.h"
 #include "structure/conditions/springs.h"
 #include "structure/conditions/supports.h"
@@ -29,5 +31,8 @@ double stable_time_step(const Body& body, const MassOperator& mass, const Suppor
 double damped_stable_step(double stable, double lead);
 /// The step [time] that asks as much of the body without damping as dt with it: dt is stable while this is.
 double undamped_step(double dt, double lead);
+
+/// For messages: six digits, rounded down, so that the step that is told is stable, too.
+std::string step_text(double stable);
 
 }  // namespace structure

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include "structure/time/stable_time_step.h"
+
 namespace structure {
 
 namespace {
@@ -129,9 +131,9 @@ std::string describe_too_strained(const Body& body, const Halo& halo, const Stre
                            text(body.reference().col(edge->node)));
       });
   return fmt::format(
-      "at time {:.6g} the solid is strained so much that its stable step, {:.6g} at the start, is {:.6g} and "
+      "at time {:.6g} the solid is strained so much that its stable step, {} at the start, is {} and "
       "below the time step {:.6g}{}; use a time step with room for that, or smaller loads",
-      step.time, step.stable_at_start, step.stable_now, step.time_step, where);
+      step.time, step_text(step.stable_at_start), step_text(step.stable_now), step.time_step, where);
 }
 
 }  // namespace structure

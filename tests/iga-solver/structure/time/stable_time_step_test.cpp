@@ -366,6 +366,19 @@ double spectral_radius(double omega, double lead, double dt) {
       .maxCoeff();
 }
 
+// Whoever gives back what was told gets no error.
+TEST(StableTimeStep, IsToldRoundedDown) {
+  EXPECT_EQ(structure::step_text(1.234567891), "1.23456");
+  EXPECT_EQ(structure::step_text(0.99999999), "0.999999");
+  EXPECT_EQ(structure::step_text(2.5e-7), "2.5e-07");
+  EXPECT_EQ(structure::step_text(std::numeric_limits<double>::infinity()), "inf");
+  for (double stable = 1e-9; stable < 1e9; stable *= 1.0123456789) {
+    const double told = std::stod(structure::step_text(stable));
+    EXPECT_LE(told, stable);
+    EXPECT_GT(told, (1.0 - 1.1e-5) * stable);
+  }
+}
+
 TEST(StableTimeStep, OfADampedBodyEndsWhereItsAmplificationMatrixDoes) {
   for (const double omega : {0.5, 3.0})
     for (const double ratio : {0.0, 0.001, 0.02, 0.3, 2.0}) {
