@@ -168,8 +168,11 @@ void ExplicitSolver::press_on_supports(const NodalVectors& impulses, double dura
 double ExplicitSolver::power_of_carried(Eigen::Index first, Eigen::Index count) const {
   const std::vector<Eigen::Index>& fixed = supports_.fixed_dofs();
   double power = 0.0;
-  for (std::size_t i = 0; i < carried_.size(); ++i)
-    if (fixed[i] >= 3 * first && fixed[i] < 3 * (first + count)) power += carried_[i] * v_.data()[fixed[i]];
+  if (carried_.empty()) return power;
+  const auto end = fixed.end();
+  for (auto dof = std::lower_bound(fixed.begin(), end, 3 * first); dof != end && *dof < 3 * (first + count);
+       ++dof)
+    power += carried_[dof - fixed.begin()] * v_.data()[*dof];
   return power;
 }
 
