@@ -32,7 +32,8 @@ void advance(ApproachBlock& b, double passed) {
     b.memory[2][k] = x > 0.0 ? ended : w;
     b.memory[ApproachBlock::kTaken][k] = x > 0.0 ? b.memory[ApproachBlock::kTaken][k] : b.credit[k];
     b.memory[ApproachBlock::kForce][k] *= x > 0.0;
-    b.memory[ApproachBlock::kOverlap][k] *= x > 0.0;
+    const double overlap_before = was_over ? least_since : 0.0;
+    b.memory[ApproachBlock::kOverlap][k] = x > 0.0 ? b.memory[ApproachBlock::kOverlap][k] : overlap_before;
     b.rate[k] = rate;
   }
   for (int k = 0; k < kAll; ++k) b.quarter[k] = __builtin_sqrt(__builtin_sqrt(most(b.x[k], 0.0)));

@@ -281,23 +281,24 @@ TEST(DampedApproach, AVibratingBodyLosesEnergyAtAnyFrequency) {
     }
 }
 
-// A body that goes away faster than anybody can know, and comes back, gets no energy that it has not given.
+// A body that goes away faster than anybody can know, and comes back, gets no energy that it has not given,
+// but for the half kicks that are under way when it goes.
 TEST(DampedApproach, GivesNoMoreThanItHasTaken) {
   std::mt19937 engine(8);
   std::uniform_real_distribution<double> in(0.0, 1.0);
   for (int trial = 0; trial < 40; ++trial) {
-    DampedContact contact(0.2 + 0.7 * in(engine), 0.3 * in(engine), 0.02, 0.0);
-    const double ball = 0.5 * in(engine), frequency = std::exp(1.0 + 4.0 * in(engine)),
-                 size = 0.3 * in(engine);
-    double taken = 0.0, before = 0.0, F_before = 0.0, most = 0.0;
+    const double e = 0.2 + 0.7 * in(engine), give = 0.3 * in(engine), ball = 0.5 * in(engine);
+    const double frequency = std::exp(1.0 + 4.0 * in(engine)), size = 0.3 * in(engine);
+    DampedContact contact(e, give, 0.02, 0.0);
+    double taken = 0.0, before = 0.0, F_before = 0.0, under_way = 0.0;
     for (int k = 1; k < 20000; ++k) {
       const double phase = frequency * k * kFineStep, wave = size * std::sin(phase),
                    overlap = 0.2 * std::sin(0.5 * ball * k * kFineStep) - wave;
       const double F = contact.step(overlap, ball, (overlap - before) / kFineStep - ball, kFineStep);
       taken += 0.5 * (F_before + F) * (overlap - before);
+      if (F == 0.0) under_way += 0.5 * std::abs(F_before * (overlap - before));
       before = overlap, F_before = F;
-      most = std::max(most, taken);
-      ASSERT_GE(taken, -0.02 * most) << trial << ' ' << k;
+      ASSERT_GE(taken, -1.001 * under_way) << trial << ' ' << k;
     }
   }
 }
