@@ -7,7 +7,8 @@ namespace contact {
 namespace approach {
 namespace {
 
-constexpr int kAll = ApproachBlock::kCapacity;
+using B = ApproachBlock;
+constexpr int kAll = B::kCapacity;
 constexpr double kOver = -1.0;  // x of a contact that is over; w is the least overlap since
 
 [[gnu::always_inline]] inline double least(double a, double b) { return b < a ? b : a; }
@@ -18,7 +19,7 @@ constexpr double kOver = -1.0;  // x of a contact that is over; w is the least o
 void advance(ApproachBlock& b, double passed) {
   for (int k = 0; k < kAll; ++k) {
     const double overlap = b.overlap[k], of_surface = b.of_surface[k];
-    const double kept = b.memory[0][k], u = b.memory[1][k], least_since = b.memory[2][k];
+    const double kept = b.memory[B::kX][k], u = b.memory[B::kU][k], least_since = b.memory[B::kW][k];
     const bool was_over = kept < 0.0;
     const double over = overlap > least_since ? 0.0 : kept, x = was_over ? over : kept;
     const double held = was_over ? overlap : least_since, w = x == 0.0 ? 0.0 : held;
@@ -27,13 +28,13 @@ void advance(ApproachBlock& b, double passed) {
     const double rate = b.of_particle[k] + speed, moved = x + passed * rate;
     const double on = moved > 0.0 ? moved : kOver, begun = most(overlap, 0.0), off = x == 0.0 ? begun : x;
     const double now = x > 0.0 ? on : off, ended = now < 0.0 ? overlap : w;
-    b.memory[0][k] = b.x[k] = now;
-    b.memory[1][k] = speed;
-    b.memory[2][k] = x > 0.0 ? ended : w;
-    b.memory[ApproachBlock::kTaken][k] = x > 0.0 ? b.memory[ApproachBlock::kTaken][k] : b.credit[k];
-    b.memory[ApproachBlock::kForce][k] *= x > 0.0;
+    b.memory[B::kX][k] = b.x[k] = now;
+    b.memory[B::kU][k] = speed;
+    b.memory[B::kW][k] = x > 0.0 ? ended : w;
+    b.memory[B::kTaken][k] = x > 0.0 ? b.memory[B::kTaken][k] : b.credit[k];
+    b.memory[B::kForce][k] *= x > 0.0;
     const double overlap_before = was_over ? least_since : 0.0;
-    b.memory[ApproachBlock::kOverlap][k] = x > 0.0 ? b.memory[ApproachBlock::kOverlap][k] : overlap_before;
+    b.memory[B::kOverlap][k] = x > 0.0 ? b.memory[B::kOverlap][k] : overlap_before;
     b.rate[k] = rate;
   }
   for (int k = 0; k < kAll; ++k) b.quarter[k] = __builtin_sqrt(__builtin_sqrt(most(b.x[k], 0.0)));
@@ -140,8 +141,8 @@ void elastic(ApproachBlock& b, const ApproachStep& step) {
 // Between the roots, which have both signs or none, for what is left with no force at all.
 void keep_account(ApproachBlock& b) {
   constexpr double kSpare = 0.3;
-  double *const taken = b.memory[ApproachBlock::kTaken], *const before = b.memory[ApproachBlock::kForce],
-                *const overlap = b.memory[ApproachBlock::kOverlap];
+  double *const taken = b.memory[B::kTaken], *const before = b.memory[B::kForce],
+                *const overlap = b.memory[B::kOverlap];
   for (int k = 0; k < kAll; ++k) {
     const double half_way = 0.5 * (b.overlap[k] - overlap[k]), left = taken[k] + before[k] * half_way,
                  spare = kSpare * most(b.give[k], 0.0),
@@ -165,14 +166,14 @@ void damped(ApproachBlock& b, const ApproachStep& step) {
   keep_account(b);
   const double per_time = step.passed > 0.0 ? 1.0 / step.passed : 0.0;
   for (int k = 0; k < kAll; ++k) {
-    const double x = b.memory[0][k], root = b.quarter[k] * b.quarter[k], turn = b.turn[k];
+    const double x = b.memory[B::kX][k], root = b.quarter[k] * b.quarter[k], turn = b.turn[k];
     const double rate = (b.force[k] - b.K[k] * x * root) / b.dashpot[k], way = step.dt * __builtin_fabs(rate);
     b.tangent[k] = (1.5 * b.K[k] * __builtin_sqrt(most(x, way)) + b.damper[k]) / (1.0 - b.give_way[k]);
     b.x[k] = x, b.root[k] = root, b.rate[k] = rate;
     const double seen = b.overlap[k] + b.give[k] * b.force[k], e = x > 0.0 ? seen - x : 0.0;
-    b.memory[0][k] = x + 3.0 * turn * e;
-    b.memory[1][k] += 3.0 * turn * turn * e * per_time;
-    b.memory[2][k] += turn * turn * turn * e * (per_time * per_time);
+    b.memory[B::kX][k] = x + 3.0 * turn * e;
+    b.memory[B::kU][k] += 3.0 * turn * turn * e * per_time;
+    b.memory[B::kW][k] += turn * turn * turn * e * (per_time * per_time);
   }
 }
 

@@ -40,10 +40,9 @@ namespace contact {
 /// Contacts with a law after Hertz, number by number.
 struct ApproachBlock {
   static constexpr int kCapacity = 16;
-  /// Numbers that a damped contact keeps, all 0 in a new one: x, u, w; the energy that it has taken, its
-  /// force, its overlap.
-  static constexpr int kMemory = 6;
-  enum { kX, kU, kW, kTaken, kForce, kOverlap };
+  /// Numbers that a damped contact keeps, all 0 in a new one: x, w; the energy that it has taken, its force,
+  /// its overlap; u.
+  enum { kX, kW, kTaken, kForce, kOverlap, kU, kMemory };
   using Lanes = double[kCapacity];
 
   alignas(64) Lanes overlap = {};  // geometric [length]

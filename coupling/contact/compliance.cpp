@@ -49,15 +49,7 @@ double* shear_memory_of(const ParticleView& particles, const Contact& contact) {
 }
 
 /// u, as a vector in space, so that it does not depend on who looks, and how the normal turns.
-Eigen::Map<Vector3> body_speed(double* memory) {
-  return Eigen::Map<Vector3>(memory + ApproachBlock::kMemory - 1);
-}
-
-/// Whether the body is light, 0 or 1.
-double& lightness(double* memory) { return memory[ComplianceCorrection::kApproach - 1]; }
-
-/// Of the other numbers, where they are kept.
-int place_of(int m) { return m < ApproachBlock::kU ? m : m - 1; }
+Eigen::Map<Vector3> body_speed(double* memory) { return Eigen::Map<Vector3>(memory + ApproachBlock::kU); }
 
 /// A contact without damping keeps nothing: it is asked what it gives way now.
 void forget(const ParticleView& particles, const Contact& contact) {
@@ -146,20 +138,20 @@ void ComplianceCorrection::enter(const ParticleView& particles, const ContactMod
   block.delay[lane] = mesh_ ? mesh_->delay(contact.foot.patch, element) : 0.0;
   const bool is_new = !(memory[ApproachBlock::kX] > 0.0);
   block.credit[lane] = is_new ? credit(particles, model, contact, before) : 0.0;
-  before.is_light = is_new ? block.credit[lane] == 0.0 : lightness(memory) > 0.0;
-  for (int m = 0; m < ApproachBlock::kMemory; ++m)
-    block.memory[m][lane] = m == ApproachBlock::kU ? before.n.dot(body_speed(memory)) : memory[place_of(m)];
+  before.is_light = is_new ? block.credit[lane] == 0.0 : memory[kLight] > 0.0;
+  for (int m = 0; m < ApproachBlock::kU; ++m) block.memory[m][lane] = memory[m];
+  block.memory[ApproachBlock::kU][lane] = before.n.dot(body_speed(memory));
 }
 
 // The energy of the impact, from bodies that weigh a dozen times as much, none from those that weigh thrice
 // as much as the particle: where they are hit plates follow it.
 double ComplianceCorrection::credit(const ParticleView& particles, const ContactModel& model,
                                     const Contact& contact, const Before& before) const {
-  constexpr double kLight = 3.0, kHeavy = 13.0;
+  constexpr double kLightest = 3.0, kHeaviest = 13.0;
   if (!mesh_ || !particles.mass || !(before.approach > 0.0)) return 0.0;
   const double m = particles.mass[contact.particle], v = before.approach,
                ratio = mesh_->mass_near(contact, model.hertz_constant(contact.particle), m, v) / m;
-  return 0.5 * m * v * v * std::clamp((ratio - kLight) / (kHeavy - kLight), 0.0, 1.0);
+  return 0.5 * m * v * v * std::clamp((ratio - kLightest) / (kHeaviest - kLightest), 0.0, 1.0);
 }
 
 void ComplianceCorrection::see_overlap(const ParticleView& particles, const Time& now, Contact& contact,
@@ -169,9 +161,8 @@ void ComplianceCorrection::see_overlap(const ParticleView& particles, const Time
   if (&block == &damped_) {
     if (!now.is_setup) {
       double* const memory = memory_of(particles, contact);
-      for (int m = 0; m < ApproachBlock::kMemory; ++m)
-        if (m != ApproachBlock::kU) memory[place_of(m)] = block.memory[m][lane];
-      lightness(memory) = before.is_light ? 1.0 : 0.0;
+      for (int m = 0; m < ApproachBlock::kU; ++m) memory[m] = block.memory[m][lane];
+      memory[kLight] = before.is_light ? 1.0 : 0.0;
       body_speed(memory) =
           before.wall_velocity + (block.memory[ApproachBlock::kU][lane] - block.of_surface[lane]) * before.n;
     }

@@ -36,9 +36,8 @@ class ComplianceCorrection {
   ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall, const MeshEstimate* mesh);
 
   /// Numbers that a contact keeps behind those of the model, in each slot of the particles' memory: of its
-  /// approach with u as a vector, as the normal turns, behind the others, and whether the body is light; of
-  /// its spring along the surface.
-  static constexpr int kApproach = ApproachBlock::kMemory - 1 + 3 + 1;
+  /// approach, with u as a vector, and whether the body is light; of its spring along the surface.
+  static constexpr int kLight = ApproachBlock::kU + 3, kApproach = kLight + 1;
   static constexpr int kMemory = kApproach + ShearBlock::kMemory;
   struct Time {
     long step;

@@ -2,13 +2,14 @@
 #include "io/selection.h"
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <iterator>
 #include <numeric>
 #include <stdexcept>
 #include <utility>
+
+#include "geometry_io/wall_size.h"
 
 namespace io {
 
@@ -53,14 +54,6 @@ NodeSet points_of_patch(const Selection& selection, const nurbs::Volume& patch) 
   return all;
 }
 
-double size_of(const GeometryFile& geometry) {
-  Eigen::AlignedBox3d box;
-  for (const geometry_io::Shape& patch : geometry.patches)
-    for (const auto& point : std::get<nurbs::Volume>(patch).control_points.colwise())
-      box.extend(Vector3(point));
-  return box.sizes().norm();
-}
-
 /// Larger by the round-off of control points that are meant to stand on its borders.
 std::array<Vector3, 2> read_box(const YamlMap& map, const GeometryFile& geometry) {
   constexpr double kSame = 1e-9;  // of the body's size, as of welds
@@ -72,7 +65,7 @@ std::array<Vector3, 2> read_box(const YamlMap& map, const GeometryFile& geometry
     map.fail("box", fmt::format("box is from {} to {}, expected the lowest corner first",
                                 fmt::format("({}, {}, {})", low[0], low[1], low[2]),
                                 fmt::format("({}, {}, {})", high[0], high[1], high[2])));
-  const Vector3 margin = Vector3::Constant(kSame * size_of(geometry));
+  const Vector3 margin = Vector3::Constant(kSame * geometry_io::extents_of(geometry.patches, nullptr).norm());
   return {low - margin, high + margin};
 }
 

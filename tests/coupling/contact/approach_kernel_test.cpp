@@ -101,7 +101,7 @@ class DampedContact {
     block_.credit[kLane] = credit;
   }
   double step(double overlap, double of_particle, double of_surface, double dt) {
-    double memory[ApproachBlock::kMemory] = {number(0), number(1), number(2)};
+    double memory[ApproachBlock::kMemory] = {number(ApproachBlock::kX)};
     if (overlap <= -contact::ComplianceCorrection::held_gap(memory)) {
       for (int m = 0; m < ApproachBlock::kMemory; ++m) number(m) = 0.0;
       return 0.0;
@@ -111,7 +111,7 @@ class DampedContact {
     kApproachKernel.damped(block_, {0.99, dt, dt});
     return block_.x[kLane] > 0.0 ? block_.force[kLane] : 0.0;
   }
-  double x() { return number(0); }
+  double x() { return number(ApproachBlock::kX); }
 
  private:
   static constexpr int kLane = 3;
@@ -334,11 +334,11 @@ TEST(DampedApproach, ASetupMovesNothing) {
   ApproachBlock block;
   block.constant[0] = block.radius[0] = block.damping[0] = block.inertia[0] = 1.0;
   block.overlap[0] = 0.25, block.of_particle[0] = 1.0, block.of_surface[0] = 7.0;
-  block.memory[0][0] = 0.25, block.memory[1][0] = 0.125;
+  block.memory[ApproachBlock::kX][0] = 0.25, block.memory[ApproachBlock::kU][0] = 0.125;
   kApproachKernel.damped(block, {kLimit, 1e-3, 0.0});
   EXPECT_EQ(block.x[0], 0.25);
   EXPECT_NEAR(block.rate[0], 1.125, 1e-15);
-  EXPECT_EQ(block.memory[1][0], 0.125);
+  EXPECT_EQ(block.memory[ApproachBlock::kU][0], 0.125);
 }
 
 /// As contacts are, and as they end.
@@ -352,8 +352,8 @@ ApproachBlock random_block(std::mt19937& engine) {
     block.of_particle[k] = in(-1.0, 1.0), block.of_surface[k] = in(-1.0, 1.0);
     block.radius[k] = in(0.5, 2.0), block.constant[k] = in(0.5, 2.0), block.give[k] = in(-0.3, 0.3);
     block.damping[k] = in(0.1, 1.0), block.inertia[k] = in(0.5, 2.0), block.delay[k] = in(0.0, 0.1);
-    block.memory[0][k] = in(-0.3, 1.0), block.memory[1][k] = in(-1.0, 1.0),
-    block.memory[2][k] = in(-1.0, 1.0);
+    for (auto& number : block.memory) number[k] = in(-1.0, 1.0);
+    block.memory[ApproachBlock::kX][k] = in(-0.3, 1.0), block.credit[k] = in(0.0, 0.1);
   }
   return block;
 }
