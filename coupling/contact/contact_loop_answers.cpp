@@ -185,7 +185,8 @@ void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& s
   const double of_particle = particles.mass ? 1.0 / particles.mass[i] : 0.0;
   expect_long(particles, step, contact, stiffness * of_particle, n.dot(v));
   const double law = contact.correction ? 0.0 : hertz_damping,
-               of_both = law * std::pow(contact.effective_radius * std::max(contact.overlap, 0.0), 0.25);
+               of_both =
+                   law * std::sqrt(std::sqrt(contact.effective_radius * std::max(contact.overlap, 0.0)));
   const ContactSprings springs = {std::max(stiffness, 0.0), by.dashpot, by.shear_tangent,
                                   by.shear_dashpot,         of_both,    of_particle};
   const auto is_stable = [&](ContactSprings::Frequency frequency, double of_body) {

@@ -156,10 +156,7 @@ void ExplicitSolver::add_motion(const NodalVectors& displacements, const NodalVe
 // That is inertia of the accelerations that impulses cause, less what acts on the support itself.
 void ExplicitSolver::press_on_supports(const NodalVectors& impulses, double duration) {
   if (!keeps_reactions_ && supports_.motions().empty()) return;
-  if (!mass_->is_diagonal()) {
-    NodalVectors gain(3, impulses.cols());
-    mass_->apply_inverse_mass(impulses, gain);
-  }
+  if (!mass_->is_diagonal()) mass_->apply_inverse_mass(impulses, gain_);
   carried_.clear();
   for (const Eigen::Index dof : supports_.fixed_dofs())
     carried_.push_back((mass_->inertia_of_support(dof, 0.0) - impulses.data()[dof]) / duration);

@@ -255,6 +255,7 @@ class ExplicitSolver {
   bool keeps_reactions_ = false;
   std::vector<double> reactions_;       // of the supports' fixed dofs
   std::vector<double> carried_;         // beside them, of impulses
+  NodalVectors gain_;                   // of velocities by these, where the mass is not diagonal
   std::optional<double> strain_start_;  // strain energy when the ledger began
   double dissipated_start_ = 0.0;       // likewise
   double kinetic_start_ = 0.0;          // what the ledger's work goes on from
