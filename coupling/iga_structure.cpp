@@ -155,8 +155,36 @@ void IgaStructure::write_output(double time, double step, const std::function<vo
   if (state) fields_->write(solver_);
 }
 
+void IgaStructure::correct_contacts(std::unique_ptr<MeshCompliance> compliance) {
+  compliance_ = std::move(compliance);
+  if (!compliance_) return;
+  compliance_->set_places([this]() -> NodalVectors {
+    const std::vector<double> places = solver_.in_order(solver_.positions());
+    return Eigen::Map<const NodalVectors>(places.data(), 3, static_cast<Eigen::Index>(places.size() / 3));
+  });
+}
+
+std::vector<double> IgaStructure::save() const {
+  std::vector<double> state = solver_.save();
+  if (!compliance_) return state;
+  const std::vector<double> strained = compliance_->tables().save();
+  if (strained.empty()) return state;
+  state.insert(state.end(), strained.begin(), strained.end());
+  state.push_back(static_cast<double>(strained.size()));
+  return state;
+}
+
+std::size_t IgaStructure::state_size() const {
+  const std::size_t strained = compliance_ ? compliance_->tables().save().size() : 0;
+  return solver_.state_size() + (strained > 0 ? strained + 1 : 0);
+}
+
 void IgaStructure::load(const std::vector<double>& state) {
-  solver_.load(state);
+  auto end = state.end();
+  if (compliance_ && !solver_.can_load(state.size()) && !state.empty())
+    end -= 1 + static_cast<std::ptrdiff_t>(saved_size(state.back(), state.size() - 1));
+  solver_.load({state.begin(), end});
+  if (compliance_) compliance_->tables().load({end, end == state.end() ? end : state.end() - 1});
   if (history_) history_->resume();
   if (fields_) fields_->resume();
 }

@@ -29,7 +29,7 @@ class IgaStructure final : public StructureSolver {
   /// Supports whose reactions are asked for.
   void watch(std::vector<structure::NamedSupport> supports);
   /// From now on contacts are corrected by what its mesh gives way.
-  void correct_contacts(std::unique_ptr<MeshCompliance> compliance) { compliance_ = std::move(compliance); }
+  void correct_contacts(std::unique_ptr<MeshCompliance> compliance);
   /// From now on writes histories; before the first run.
   void write_history(parallel::SharedHistory history) { history_.emplace(std::move(history)); }
   /// The same for fields.
@@ -80,9 +80,11 @@ class IgaStructure final : public StructureSolver {
   std::vector<Probe> probes() const override;
   double truncation() const override { return solver_.truncation(solver_.strain_energy()); }
   std::vector<Reaction> reactions() const override;
-  std::vector<double> save() const override { return solver_.save(); }
+  /// The solver's; where local compliances follow strain and have done so theirs, and how many numbers these
+  /// are.
+  std::vector<double> save() const override;
   void load(const std::vector<double>& state) override;
-  std::size_t state_size() const override { return solver_.state_size(); }
+  std::size_t state_size() const override;
   Fingerprint fingerprint() const override;
 
  private:

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "nurbs/multi_patch.h"
 
@@ -27,6 +28,12 @@ class LocalCompliance {
   /// before this takes some time.  Throws std::invalid_argument, with the place, where it is not known.
   virtual void find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,
                     Value& value) = 0;
+
+  /// Whether that changes with the strain of the body.
+  virtual bool follows_strain() const { return false; }
+  /// Takes the body as it is strained now, but for elements that contacts are on, whose forces would jump:
+  /// `feet`, of all ranks.  Collective.
+  virtual void follow_strain(const std::vector<nurbs::SurfacePoint>& /*feet*/) {}
 };
 
 }  // namespace coupling

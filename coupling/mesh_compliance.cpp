@@ -44,4 +44,11 @@ void MeshCompliance::find(const nurbs::SurfacePoint& foot, const nurbs::Indices<
   });
 }
 
+void MeshCompliance::follow_strain(const std::vector<nurbs::SurfacePoint>& feet) {
+  std::vector<structure::SkinElement> touched;
+  for (const nurbs::SurfacePoint& foot : feet)
+    touched.push_back({foot.patch, spaces_[foot.patch].element_at(foot.xi)});
+  tables_.follow(places_(), touched);
+}
+
 }  // namespace coupling

@@ -117,10 +117,7 @@ void Substeps::choose_again(const NodalForces& forces) {
   take_steps(dt_);
   change_ = fmt::format("{}, since strain has brought its stable step down to {}", describe_step(),
                         step_text(stable_));
-  if (particles_fast()) return;
-  F_ = forces;
-  set_impulse();
-  solver_.change_forces(F_.values);
+  if (!particles_fast()) kick_from_now(forces);
 }
 
 // Of a particle's mass to that of a node of the surface: the heaviest and the lightest.
@@ -164,9 +161,8 @@ std::string Substeps::describe_step() const {
 
 void Substeps::initialise_forces(const NodalForces& forces) {
   if (!particles_fast()) {
-    F_ = forces;
-    set_impulse();
-    return body_->initialise_forces(F_);
+    body_->initialise_forces(forces);
+    return kick_from_now(forces);
   }
   body_->initialise_forces(no_forces_);
   take_contacts(forces);
@@ -186,6 +182,7 @@ void Substeps::begin_step() {
   solver_.follow_spin();
   body_->begin_step();
   for (int i = 1; i < count_; ++i) {
+    solver_.press_evenly(contacts_, no_forces_.values);
     body_->end_step(no_forces_);
     body_->begin_step();
   }
@@ -195,8 +192,8 @@ void Substeps::begin_step() {
 void Substeps::end_step(const NodalForces& forces) {
   is_within_step_ = false;
   if (!particles_fast()) {
-    F_ = forces;
-    set_impulse();
+    set_impulse(forces);
+    if (count_ > 1) solver_.press_evenly(contacts_, F_.values);
     body_->end_step(F_);
   } else {
     take_contacts(forces);
@@ -215,9 +212,18 @@ void Substeps::end_outer_step() {
   for (NodalVectors* sum : {&du_, &dv_, &J_}) sum->setZero();
 }
 
+// Between steps, the body's last forces were these as they are.
+void Substeps::kick_from_now(const NodalForces& forces) {
+  if (count_ == 1) return;
+  set_impulse(forces);
+  solver_.change_forces(F_.values);
+  solver_.press_evenly(contacts_, F_.values);
+}
+
 // From the forces of the step: two half kicks of dt/count, which are to be those of dt.
-void Substeps::set_impulse() {
-  F_.values *= count_;
+void Substeps::set_impulse(const NodalForces& forces) {
+  contacts_ = forces.values;
+  F_.values = count_ * forces.values;
   if (spreads_) spread_.apply(F_.values, dt_ / count_, count_);
 }
 

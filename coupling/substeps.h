@@ -93,7 +93,8 @@ class Substeps final : public StructureSolver {
   int structure_steps(double dt) const;
   double heaviest_ratio() const;
   bool needs_spread(double dt);
-  void set_impulse();
+  void set_impulse(const NodalForces& forces);
+  void kick_from_now(const NodalForces& forces);
   void take_contacts(const NodalForces& forces);
   void kick_by_contact();
   void drift_by_contact();
@@ -113,6 +114,7 @@ class Substeps final : public StructureSolver {
   SpreadImpulse spread_;
   NodalForces F_, no_forces_;
   bool is_within_step_ = false;  // of particles, which begins and ends
+  NodalVectors contacts_;        // structure fast: their forces, which F_ has as kicks
   // Particles fast: the surface now, and what contacts have added since the outer step began.  Structure
   // fast: where the step began, and how fast it is on the mean.
   NodalVectors x_, v_, du_, dv_;

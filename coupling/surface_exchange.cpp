@@ -145,6 +145,19 @@ bool SurfaceExchange::any(bool here) const {
   return owners_ ? owners_->largest(here ? 1.0 : 0.0) > 0.0 : here;
 }
 
+std::vector<double> SurfaceExchange::all(const std::vector<double>& here) const {
+  if (!owners_) return here;
+  int ranks;
+  MPI_Comm_size(comm_, &ranks);
+  std::vector<int> counts(ranks), begin(ranks);
+  const int count = static_cast<int>(here.size());
+  MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, comm_);
+  std::exclusive_scan(counts.begin(), counts.end(), begin.begin(), 0);
+  std::vector<double> all(begin.back() + counts.back());
+  MPI_Allgatherv(here.data(), count, MPI_DOUBLE, all.data(), counts.data(), begin.data(), MPI_DOUBLE, comm_);
+  return all;
+}
+
 template <class Basis>
 void SurfaceExchange::touch(const Basis& foot) {
   foot.for_each_control_point([&](int c) {

@@ -42,6 +42,8 @@ class SurfaceExchange {
 
   /// Whether it is so on any rank, as far as they must agree.
   bool any(bool here) const;
+  /// What all ranks have, one after the other, as far as they must agree.
+  std::vector<double> all(const std::vector<double>& here) const;
 
   /// Returns the forces on the nodes that this rank owns, zero for others: each contact is spread to its
   /// control points (eq. 34) in the order of (tag, branch), so the sums do not depend on how many ranks there

@@ -16,17 +16,27 @@ static_assert(ShearBlock::kCapacity >= ApproachBlock::kCapacity, "each contact m
 
 namespace {
 
+// Where a particle stands deep in the wall it is that which is wrong, whatever the elements are.
 [[noreturn]] void fail_as_too_fine(const ParticleView& particles, long step, const Contact& contact,
                                    double s) {
-  constexpr double kSafe = 0.8;
-  const int i = contact.particle;
+  constexpr double kSafe = 0.8, kDeep = 0.05;
+  const int i = contact.particle, tag = particles.tag[i];
+  const double radius = particles.radius[i], depth = contact.overlap / radius;
   const Vector3 foot = particles.centre(i) - contact.delta;
+  const std::string at = fmt::format("({:.6g}, {:.6g}, {:.6g})", foot[0], foot[1], foot[2]);
+  const std::string what =
+      depth > kDeep
+          ? fmt::format("particle {} (radius {:.4g}) stands {:.2g} of its radius deep in the wall at {}", tag,
+                        radius, depth, at)
+          : fmt::format(
+                "elements at {} are too small for the contact of particle {} (radius {:.4g}, overlap "
+                "{:.4g})",
+                at, tag, radius, contact.overlap);
   throw std::runtime_error(fmt::format(
-      "elements at ({:.6g}, {:.6g}, {:.6g}) are too small for the contact of particle {} (radius {:.4g}, "
-      "overlap {:.4g}) at step {}: what they give way is {:.2g} of what its law does, expected at most "
-      "{:.2g}; use elements at least {:.2g} times as large there, or 'compliance none'",
-      foot[0], foot[1], foot[2], particles.tag[i], particles.radius[i], contact.overlap, step, s,
-      ComplianceCorrection::kLargest, s / kSafe));
+      "{} at step {}: what elements give way is {:.2g} of what its law does, expected at most {:.2g}; {}use "
+      "elements at least {:.2g} times as large there, or 'compliance none'",
+      what, step, s, ComplianceCorrection::kLargest,
+      depth > kDeep ? "begin with particles outside of the wall, or " : "", s / kSafe));
 }
 
 double mass_of(const ParticleView& particles, int i) {
@@ -84,6 +94,17 @@ double ComplianceCorrection::held_gap(const ParticleSlots& slots, int history_co
     if (ContactSlot slot = slots.slot(s); !slot.empty())
       gap = std::max(gap, held_gap(slot.history() + history_count - kMemory));
   return gap;
+}
+
+void ComplianceCorrection::follow_strain(const std::vector<nurbs::SurfacePoint>& feet) {
+  std::vector<double> numbers;
+  for (const nurbs::SurfacePoint& foot : feet)
+    numbers.insert(numbers.end(), {double(foot.patch), foot.xi[0], foot.xi[1]});
+  numbers = wall_.all(numbers);
+  std::vector<nurbs::SurfacePoint> all;
+  for (std::size_t k = 0; k < numbers.size(); k += 3)
+    all.push_back({static_cast<int>(numbers[k]), {numbers[k + 1], numbers[k + 2]}});
+  compliance_.follow_strain(all);
 }
 
 void ComplianceCorrection::before(const ParticleView& particles, const Time& now, const ContactModel& model,

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "coupling/contact/approach_kernel.h"
 #include "coupling/contact/contact_model.h"
@@ -53,6 +54,10 @@ class ComplianceCorrection {
   /// surface, and Contact::tangent and Contact::dashpot are known.
   void after(const ParticleView& particles, const Time& now, const ContactModel& model, Contact* contacts,
              int count);
+  /// Feet of contacts on this rank: what the mesh gives way elsewhere is that of the body as it is strained
+  /// now.  Collective.
+  bool follows_strain() const { return compliance_.follows_strain(); }
+  void follow_strain(const std::vector<nurbs::SurfacePoint>& feet);
   /// How far the surfaces may be apart while a damped contact that keeps this goes on [length].
   static double held_gap(const double* memory) {
     constexpr double kDent = 10.0;

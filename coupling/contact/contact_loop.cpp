@@ -62,6 +62,7 @@ void ContactLoop::build_list(const ParticleView& particles, const ListReach& rea
   surface_motion_ = 0.0;
   list_is_new_ = true;
   forget_lost_contacts(particles);
+  if (correction_ && correction_->follows_strain()) correction_->follow_strain(feet_in_memory(particles));
 }
 
 // Feet keep their image while the wall turns.
@@ -83,6 +84,16 @@ void ContactLoop::forget_lost_contacts(const ParticleView& particles) {
     slots.count_used();
     if (!is_candidate_[i]) slots.clear();
   }
+}
+
+std::vector<nurbs::SurfacePoint> ContactLoop::feet_in_memory(const ParticleView& particles) {
+  std::vector<nurbs::SurfacePoint> feet;
+  for (int i = 0; i < particles.count; ++i) {
+    const ParticleSlots slots = slots_of(particles, i);
+    for (int s = 0; s < slots.used(); ++s)
+      if (const ContactSlot slot = slots.slot(s); !slot.empty()) feet.push_back(slot.foot());
+  }
+  return feet;
 }
 
 // A point of the surface is a convex combination of control points.

@@ -115,6 +115,7 @@ class ContactLoop {
  private:
   void expect_images_to_stay(const std::vector<Vector3>& images) const;
   void forget_lost_contacts(const ParticleView& particles);
+  std::vector<nurbs::SurfacePoint> feet_in_memory(const ParticleView& particles);
   int take_steady(const ParticleView& particles, const StepInfo& step, int begin, int end,
                   FeetTracker::Query* queries);
   SteadyFeet* find_steady(const ParticleView& particles, const StepInfo& step, int begin, int end,

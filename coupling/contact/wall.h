@@ -36,6 +36,7 @@ class Wall {
   double motion_of_shape() const { return exchange_.largest_motion(); }
   /// Whether it is so on any rank, as far as they must agree.
   bool any(bool here) const { return exchange_.any(here); }
+  std::vector<double> all(const std::vector<double>& here) const { return exchange_.all(here); }
   /// A list of candidates is to be built of all of it, as it now is.
   void begin_list();
   /// The box of all elements then, in the wall's frame.

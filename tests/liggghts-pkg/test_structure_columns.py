@@ -91,6 +91,17 @@ class Supports(unittest.TestCase):
         self.assertGreater(abs(columns[26][:, 2]).max(), 0.1 * abs(columns[1]).max(), "and held")
         np.testing.assert_array_equal(columns[26][:, :2], 0)
 
+    def test_contacts_on_fixed_nodes(self):
+        """A block that is held by its top carries there what a ball presses, whatever steps it takes; nothing moves."""
+        held = "boundary: [{name: above, fix: [x, y, z], faces: [zeta+]}]\n"
+        for words in ("", " substeps structure 3", " substeps structure 2"):
+            deck = bob.prelude(velocity=(0.5, 0, -1), timestep=STEP, friction=0.3) + bob.wall(rest="structure block.yaml surface top" + words)
+            table = decks.good(deck + bob.output(range(1, 29)) + "run 300\n", files={"block.yaml": bob.block(SIZE, fixed=()) + held}).table
+            contacts, reactions = (vector(table, *(f"plate{first + k}" for k in range(3))) for first in (1, 26))
+            with self.subTest(words):
+                self.assertGreater(abs(contacts[-1]).max(), 0)
+                np.testing.assert_allclose(reactions, -contacts, rtol=0, atol=1e-12 * abs(contacts).max())
+
     def test_a_support_that_moves(self):
         """The last column is its work: what the solid has and gives to the ball."""
         moved = "boundary: [{name: ram, move: {z: 4e-5, x: 1e-6}, faces: [zeta-], time: {ramp: [1e-6, 9e-6]}}]\n"

@@ -5,44 +5,15 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <utility>
-
-#include "structure/compliance/alike_elements.h"
-#include "structure/material/isotropic_elastic.h"
 
 namespace structure {
 
 namespace {
-
-constexpr int kLowestDegree = 2, kHighestDegree = 3;
-
-void expect_law(const Material& law) {
-  if (dynamic_cast<const IsotropicElastic*>(&law) == nullptr || law.state_size() > 0)
-    throw std::invalid_argument(fmt::format(
-        "local compliances are known of isotropic elastic materials without memory, given '{}'", law.law()));
-}
-
-void expect_degrees(const nurbs::Space<3>& space) {
-  for (int d = 0; d < 3; ++d)
-    if (const int p = space.degree(d); p < kLowestDegree || p > kHighestDegree)
-      throw std::invalid_argument(
-          fmt::format("local compliances are known for degrees {} and {}, given {}, {}, {}", kLowestDegree,
-                      kHighestDegree, space.degree(0), space.degree(1), space.degree(2)));
-}
-
-// Under so few points the mesh's answer is not local: on cubes it still changes by 1 % from 5 to 6 layers.
-void expect_quadrature(Quadrature quadrature) {
-  if (quadrature == Quadrature::zou)
-    throw std::invalid_argument(
-        "local compliances are known for quadratures 'full' and 'reduced', given 'zou'");
-}
-
-/// p + 1 layers of elements around the one that is hit.
-LocalExtent extent_for(const nurbs::Space<3>& space) {
-  return {std::max({space.degree(0), space.degree(1), space.degree(2)}) + 1};
-}
 
 /// Changes the values inside as smoothly as `change` asks for on the sides: bilinear between them (Coons,
 /// 1967).
@@ -69,100 +40,98 @@ Matrix3 turned(const Matrix3& tensor, const Vector3& from, const Vector3& to) {
   return turn * tensor * turn.transpose();
 }
 
+constexpr int kMostFunctions = 4 * 4 * 4;  // of degree 3
+
+/// How long an element is along each of its directions, by its control points [length].
+Vector3 lengths(const nurbs::Volume& patch, int element) {
+  const nurbs::Space<3>& space = patch.space;
+  std::array<int, kMostFunctions> points;
+  space.element_control_points(element, points.data());
+  Vector3 sums = Vector3::Zero();
+  int stride = 1;
+  for (int d = 0; d < 3; ++d) {
+    const int count = space.degree(d) + 1;
+    for (int a = 0; a < space.functions_per_element(); ++a)
+      if (a / stride % count == 0)
+        sums[d] +=
+            (patch.control_points.col(points[a + (count - 1) * stride]) - patch.control_points.col(points[a]))
+                .norm();
+    stride *= count;
+  }
+  return sums;
+}
+
+/// So much that c may have changed by kChange of itself: it is as one over the size of elements along the
+/// surface, and less than that across.
+bool differ(const nurbs::Volume& a, const nurbs::Volume& b, int element) {
+  constexpr double kChange = 0.05;
+  const Vector3 ratio = lengths(a, element).cwiseQuotient(lengths(b, element));
+  return !((ratio.array() < 1.0 + kChange).all() && (ratio.array() > 1.0 / (1.0 + kChange)).all());
+}
+
+ReferenceBody at_places(const ReferenceBody& body, const NodalVectors& places) {
+  ReferenceBody moved = body;
+  for (std::size_t p = 0; p < moved.patches.size(); ++p)
+    for (Eigen::Index a = 0; a < moved.patches[p].control_points.cols(); ++a)
+      moved.patches[p].control_points.col(a) =
+          places.col(body.nodes.node(static_cast<int>(p), static_cast<int>(a)));
+  return moved;
+}
+
+NodalVectors places_of(const ReferenceBody& body) {
+  NodalVectors places(3, body.nodes.node_count());
+  for (Id node = 0; node < body.nodes.node_count(); ++node) {
+    const auto [patch, control_point] = body.nodes.place(node);
+    places.col(node) = body.patches[patch].control_points.col(control_point);
+  }
+  return places;
+}
+
 }  // namespace
 
 ComplianceTables::ComplianceTables(ReferenceBody body, std::vector<SkinPiece> skin)
-    : body_(std::move(body)),
-      near_(body_),
-      gradients_(body_),
-      skin_(std::move(skin)),
-      shared_(body_, near_, skin_, surfaces_) {
-  expect_quadrature(body_.quadrature);
-  for (const SkinPiece& piece : skin_) {
-    const nurbs::Volume& patch = body_.patches[piece.patch];
-    expect_law(*body_.materials[piece.patch]);
-    expect_degrees(patch.space);
-    surfaces_.emplace_back(body_, piece);
-    solved_of_.emplace_back(surfaces_.back().space().element_count());
-    known_.emplace_back(solved_of_.back().size(), nullptr);
-    const int d = static_cast<int>(piece.face) / 2;
-    const LocalExtent extent = extent_for(patch.space);
-    alike_.push_back(
-        {alike_elements(patch, d == 0 ? 1 : 0, extent), alike_elements(patch, d == 2 ? 1 : 2, extent)});
+    : skin_(std::move(skin)), undeformed_(std::make_shared<ElementCompliances>(std::move(body), skin_)) {
+  for (std::size_t piece = 0; piece < skin_.size(); ++piece) {
+    const int count = undeformed_->surface(static_cast<int>(piece)).space().element_count();
+    state_of_.emplace_back(count, undeformed_);
+    known_.emplace_back(count, nullptr);
   }
 }
 
-LocalPatch ComplianceTables::patch_of(const HitElement& hit) const {
-  return {body_, near_, hit.volume(), extent_for(body_.patches[hit.volume().patch].space)};
-}
-
-ComplianceTables::Tensors ComplianceTables::solve(int piece, int element) const {
-  const HitElement hit(body_, near_, skin_[piece], surfaces_[piece], element);
-  std::vector<SkinPoint> feet;
-  for (const nurbs::Parameter<2>& xi : table_points(surfaces_[piece].space(), element))
-    feet.push_back(hit.foot(xi));
-  const LocalPatch patch = patch_of(hit);
-  return LocalProblem(patch, gradients_).compliances(feet);
-}
-
-int ComplianceTables::first_alike(int piece, int element) const {
-  const nurbs::Space<2>& space = surfaces_[piece].space();
-  nurbs::Indices<2> span = space.element_indices(element);
-  for (int d = 0; d < 2; ++d) span[d] = alike_[piece][d][span[d]];
-  return space.element_index(span);
-}
-
-const ComplianceTables::Solved& ComplianceTables::solved(int piece, int element) {
-  const int first = first_alike(piece, element);
-  Solved& solved = solved_of_[piece][first];
-  if (!solved.tensors.empty() || !solved.problem.empty()) return solved;
-  try {
-    solved.tensors = solve(piece, first);
-    ++solved_;
-  } catch (const std::invalid_argument& problem) {
-    solved.problem = problem.what();
-  }
-  return solved;
-}
-
-std::unique_ptr<ComplianceTable> ComplianceTables::table(int piece, int element,
-                                                         const Tensors& tensors) const {
-  const HitElement hit(body_, near_, skin_[piece], surfaces_[piece], element);
-  const nurbs::Space<2>& space = surfaces_[piece].space();
-  const std::vector<nurbs::Parameter<2>> points = table_points(space, element);
-  std::vector<std::vector<double>> values(ComplianceTable::kComponents);
-  for (std::size_t point = 0; point < points.size(); ++point) {
-    const Matrix3 frame = hit.frame(points[point]), c = frame.transpose() * tensors[point] * frame;
-    const double components[] = {c(2, 2),
-                                 c(0, 0),
-                                 c(1, 1),
-                                 0.5 * (c(0, 1) + c(1, 0)),
-                                 0.5 * (c(0, 2) + c(2, 0)),
-                                 0.5 * (c(1, 2) + c(2, 1))};
-    for (int k = 0; k < ComplianceTable::kComponents; ++k) values[k].push_back(components[k]);
-  }
-  return std::make_unique<ComplianceTable>(table_counts(space), values);
+/// Of one that shares a point with an element, in the directions of that one's state of the body.
+Matrix3 ComplianceTables::tensor(const TablePoint& point, const ElementCompliances& state) const {
+  ElementCompliances& own = *state_of_[point.piece][point.element];
+  const Matrix3& tensor = own.solved(point.piece, point.element).tensors[point.index];
+  if (&own == &state) return tensor;
+  const nurbs::Parameter<2> xi = table_points(own.surface(point.piece).space(), point.element)[point.index];
+  const auto frame_in = [&](const ElementCompliances& some) {
+    return some.hit(point.piece, point.element).frame(xi);
+  };
+  const Matrix3 turn = frame_in(state) * frame_in(own).transpose();
+  return turn * tensor * turn.transpose();
 }
 
 const ComplianceTable& ComplianceTables::find(int piece, int element) {
-  const Solved& own = solved(piece, element);
+  ElementCompliances& state = *state_of_[piece][element];
+  const ElementCompliances::Solved& own = state.solved(piece, element);
   if (!own.problem.empty()) {
-    const Vector3 X = surfaces_[piece].at_centre(element);
+    const Vector3 X = state.surface(piece).at_centre(element);
     throw std::invalid_argument(
         fmt::format("no local compliance of the element about ({:.6g}, {:.6g}, {:.6g}): {}", X[0], X[1], X[2],
                     own.problem));
   }
   Tensors means;
   Origin origin;
-  for (const std::vector<TablePoint>& points : shared_.of(piece, element)) {
+  for (const std::vector<TablePoint>& points : state.shared().of(piece, element)) {
     const TablePoint here{piece, element, static_cast<int>(means.size()), {}};
     const Vector3& normal = std::lower_bound(points.begin(), points.end(), here)->normal;
     Matrix3 sum = Matrix3::Zero();
     int count = 0;
     for (const TablePoint& point : points) {
-      const Tensors& tensors = solved(point.piece, point.element).tensors;
+      const Tensors& tensors =
+          state_of_[point.piece][point.element]->solved(point.piece, point.element).tensors;
       if (tensors.empty()) continue;
-      sum += turned(tensors[point.index], point.normal, normal);
+      sum += turned(tensor(point, state), point.normal, normal);
       ++count;
       origin.emplace_back(&tensors, point.index);
     }
@@ -173,16 +142,111 @@ const ComplianceTable& ComplianceTables::find(int piece, int element) {
   if (!made) {
     Tensors change = means;
     for (std::size_t k = 0; k < change.size(); ++k) change[k] -= own.tensors[k];
-    blend(table_counts(surfaces_[piece].space()), change, means);
-    made = table(piece, first_alike(piece, element), means);  // to the last bit, whoever asks first
+    blend(table_counts(state.surface(piece).space()), change, means);
+    made = state.table(piece, element, means);
   }
   return *(known_[piece][element] = made.get());
 }
 
-Matrix3 ComplianceTables::direct(int piece, int element, const nurbs::Parameter<2>& xi) const {
-  const HitElement hit(body_, near_, skin_[piece], surfaces_[piece], element);
-  const LocalPatch patch = patch_of(hit);
-  return LocalProblem(patch, gradients_).compliances({hit.foot(xi)}).front();
+bool ComplianceTables::follows_strain() const {
+  const ReferenceBody& body = undeformed_->body();
+  return std::any_of(skin_.begin(), skin_.end(),
+                     [&](const SkinPiece& piece) { return !body.materials[piece.patch]->is_small_strain(); });
+}
+
+/// Those of the skin that have a corner of this one.
+template <class Function>
+void ComplianceTables::for_each_neighbour(const SkinElement& of, Function f) const {
+  const ReferenceBody& body = undeformed_->body();
+  const BodyElement behind = element_behind(body, skin_[of.piece], of.element);
+  for (const BodyElement& neighbour : undeformed_->near().neighbours(behind))
+    for (std::size_t piece = 0; piece < skin_.size(); ++piece) {
+      if (skin_[piece].patch != neighbour.patch) continue;
+      const int element = element_on(body, skin_[piece], neighbour.element);
+      if (element >= 0) f(static_cast<int>(piece), element);
+    }
+}
+
+// Tables have points in common, so one that changes is new to its neighbours.
+bool ComplianceTables::follow(const NodalVectors& places, const std::vector<SkinElement>& touched) {
+  const ReferenceBody& undeformed = undeformed_->body();
+  std::vector<std::vector<bool>> stays;
+  for (const auto& elements : known_) stays.emplace_back(elements.size(), false);
+  for (const SkinElement& one : touched)
+    for_each_neighbour(one, [&](int piece, int element) { stays[piece][element] = true; });
+  ReferenceBody now = at_places(undeformed, places);
+  std::vector<SkinElement> changed;
+  for (std::size_t piece = 0; piece < skin_.size(); ++piece)
+    for (std::size_t element = 0; element < stays[piece].size(); ++element) {
+      const int patch = skin_[piece].patch, e = static_cast<int>(element);
+      const int volume = element_behind(undeformed, skin_[piece], e).element;
+      if (!stays[piece][element] &&
+          differ(now.patches[patch], state_of_[piece][element]->body().patches[patch], volume))
+        changed.push_back({static_cast<int>(piece), e});
+    }
+  if (changed.empty()) return false;
+  const auto state = std::make_shared<ElementCompliances>(std::move(now), skin_);
+  for (const SkinElement& one : changed) {
+    const int patch = skin_[one.piece].patch,
+              volume = element_behind(undeformed, skin_[one.piece], one.element).element;
+    const bool is_back = !differ(state->body().patches[patch], undeformed.patches[patch], volume);
+    state_of_[one.piece][one.element] = is_back ? undeformed_ : state;
+    for_each_neighbour(one, [&](int piece, int element) { known_[piece][element] = nullptr; });
+  }
+  forget_unused();
+  return true;
+}
+
+void ComplianceTables::forget_unused() {
+  std::set<const ComplianceTable*> used;
+  for (const auto& elements : known_) used.insert(elements.begin(), elements.end());
+  for (auto table = tables_.begin(); table != tables_.end();)
+    table = used.count(table->second.get()) > 0 ? std::next(table) : tables_.erase(table);
+}
+
+std::vector<double> ComplianceTables::save() const {
+  std::vector<const ElementCompliances*> states{undeformed_.get()};
+  std::vector<double> indices, numbers;
+  for (const auto& elements : state_of_)
+    for (const auto& state : elements) {
+      const auto known = std::find(states.begin(), states.end(), state.get());
+      indices.push_back(static_cast<double>(known - states.begin()));
+      if (known == states.end()) states.push_back(state.get());
+    }
+  if (states.size() == 1) return {};
+  numbers.push_back(static_cast<double>(states.size() - 1));
+  for (std::size_t k = 1; k < states.size(); ++k) {
+    const NodalVectors places = places_of(states[k]->body());
+    numbers.insert(numbers.end(), places.data(), places.data() + places.size());
+  }
+  numbers.insert(numbers.end(), indices.begin(), indices.end());
+  return numbers;
+}
+
+void ComplianceTables::load(const std::vector<double>& numbers) {
+  const ReferenceBody& undeformed = undeformed_->body();
+  const std::size_t size = 3 * static_cast<std::size_t>(undeformed.nodes.node_count());
+  std::size_t elements = 0;
+  for (const auto& of_piece : known_) elements += of_piece.size();
+  const double count = numbers.empty() ? 0.0 : numbers[0];
+  const auto expected = [&] {
+    return 1.0 + count * static_cast<double>(size) + static_cast<double>(elements);
+  };
+  if (!numbers.empty() && static_cast<double>(numbers.size()) != expected())
+    throw std::invalid_argument(
+        fmt::format("states of strain in {} numbers, expected {}", numbers.size(), expected()));
+  std::vector<std::shared_ptr<ElementCompliances>> states{undeformed_};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k)
+    states.push_back(std::make_shared<ElementCompliances>(
+        at_places(undeformed, Eigen::Map<const NodalVectors>(numbers.data() + 1 + k * size, 3,
+                                                             static_cast<Eigen::Index>(size / 3))),
+        skin_));
+  const double* index = numbers.data() + numbers.size() - elements;
+  for (auto& of_piece : state_of_)
+    for (auto& state : of_piece)
+      state = numbers.empty() ? undeformed_ : states.at(static_cast<std::size_t>(*index++));
+  for (auto& of_piece : known_) std::fill(of_piece.begin(), of_piece.end(), nullptr);
+  forget_unused();
 }
 
 }  // namespace structure

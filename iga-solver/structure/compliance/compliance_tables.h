@@ -1,28 +1,27 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Local compliances of a body's skin: one table per element, made when it is first asked for.  The elements
 // that take part are others on the two sides of a border; there tables have the mean, so that a foot that
-// crosses it changes no force.
+// crosses it changes no force.  Where strain has changed the elements themselves, tables are made anew while
+// nobody touches them: a few states of the body are known at a time, and each element belongs to one.
 #pragma once
 
-#include <array>
 #include <map>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
-#include "structure/compliance/compliance_table.h"
-#include "structure/compliance/hit_element.h"
-#include "structure/compliance/local_problem.h"
-#include "structure/compliance/shared_points.h"
+#include "structure/compliance/element_compliances.h"
 
 namespace structure {
 
+/// Of a piece of the surface that is touched, counted as nurbs::Space does.
+struct SkinElement {
+  int piece, element;
+};
+
 class ComplianceTables {
  public:
-  /// `skin`: pieces of the surface that is touched.  Throws std::invalid_argument, naming what is not for it
-  /// and what is, unless the laws of their patches are isotropic, elastic and without memory, and their
-  /// degrees 2 or 3.
+  /// As the body is undeformed; throws as ElementCompliances does.
   ComplianceTables(ReferenceBody body, std::vector<SkinPiece> skin);
   ComplianceTables(const ComplianceTables&) = delete;
   ComplianceTables& operator=(const ComplianceTables&) = delete;
@@ -33,36 +32,41 @@ class ComplianceTables {
     const ComplianceTable* const known = known_[piece][element];
     return known ? *known : find(piece, element);
   }
-  /// What the elements about one have at any point of it, without a table or a mean: the tensor in space.
-  Matrix3 direct(int piece, int element, const nurbs::Parameter<2>& xi) const;
+  /// What the elements about one have at any point of it, without a table or a mean: the tensor in space, of
+  /// its state.
+  Matrix3 direct(int piece, int element, const nurbs::Parameter<2>& xi) const {
+    return state_of_[piece][element]->direct(piece, element, xi);
+  }
+  /// For how many elements of the undeformed body; those that see the same share one.
+  int solved() const { return undeformed_->solved_count(); }
 
-  int solved() const { return solved_; }  ///< for how many elements; those that see the same share one
+  /// Whether strain changes anything: not under laws of small strain.
+  bool follows_strain() const;
+  /// Elements that are 5 % longer or shorter in one of their directions than in the state that they belong to
+  /// now belong to this one, or to the undeformed body if they are back, but for those that are `touched` and
+  /// their neighbours.  `places`: of all nodes, 3 x node count [length].  Whether any does.
+  bool follow(const NodalVectors& places, const std::vector<SkinElement>& touched);
+
+  /// States and which elements belong to them as numbers; none if that is the undeformed body for all.
+  std::vector<double> save() const;
+  /// Throws std::invalid_argument if the size does not fit.
+  void load(const std::vector<double>& numbers);
 
  private:
-  using Tensors = std::vector<Matrix3>;  // in space, at table_points()
-  struct Solved {
-    Tensors tensors;
-    std::string problem;  // why there are none
-  };
+  using Tensors = ElementCompliances::Tensors;
+  using State = std::shared_ptr<ElementCompliances>;
   /// What a table is made of: tensors and which of them, point by point.
   using Origin = std::vector<std::pair<const Tensors*, int>>;
 
   const ComplianceTable& find(int piece, int element);
-  int first_alike(int piece, int element) const;
-  const Solved& solved(int piece, int element);
-  Tensors solve(int piece, int element) const;
-  LocalPatch patch_of(const HitElement& hit) const;
-  std::unique_ptr<ComplianceTable> table(int piece, int element, const Tensors& values) const;
+  Matrix3 tensor(const TablePoint& point, const ElementCompliances& state) const;
+  template <class Function>
+  void for_each_neighbour(const SkinElement& of, Function f) const;
+  void forget_unused();
 
-  ReferenceBody body_;
-  NearElements near_;
-  mutable GradientProducts gradients_;
   std::vector<SkinPiece> skin_;
-  std::vector<FaceSurface> surfaces_;
-  SharedPoints shared_;
-  std::vector<std::array<std::vector<int>, 2>> alike_;  // per piece and direction (alike_elements.h)
-  std::vector<std::vector<Solved>> solved_of_;          // [piece][first of the elements that are alike]
-  int solved_ = 0;
+  State undeformed_;
+  std::vector<std::vector<State>> state_of_;  // [piece][element]
   std::map<Origin, std::unique_ptr<ComplianceTable>> tables_;
   std::vector<std::vector<const ComplianceTable*>> known_;  // [piece][element]; null: not asked for before
 };

@@ -162,6 +162,13 @@ void ExplicitSolver::press_on_supports(const NodalVectors& impulses, double dura
     carried_.push_back((mass_->inertia_of_support(dof, 0.0) - impulses.data()[dof]) / duration);
 }
 
+void ExplicitSolver::press_evenly(const NodalVectors& forces, const NodalVectors& kicks) {
+  if (!keeps_reactions_) return;
+  carried_.clear();
+  for (const Eigen::Index dof : supports_.fixed_dofs())
+    carried_.push_back(kicks.data()[dof] - forces.data()[dof]);
+}
+
 double ExplicitSolver::power_of_carried(Eigen::Index first, Eigen::Index count) const {
   const std::vector<Eigen::Index>& fixed = supports_.fixed_dofs();
   double power = 0.0;

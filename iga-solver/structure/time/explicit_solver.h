@@ -88,6 +88,10 @@ class ExplicitSolver {
   /// Until the next step or other forces, reactions have the mean of what supports carry of such impulses in
   /// `duration` [time].  Collective.
   void press_on_supports(const NodalVectors& impulses, double duration);
+  /// Between begin_step and end_step, or after change_forces: what end_step is given are `kicks` of `forces`
+  /// that act all the time; of those on fixed dofs reactions have the latter, until the next step or other
+  /// forces.
+  void press_evenly(const NodalVectors& forces, const NodalVectors& kicks);
   /// Internal forces are those of the displacements u + lead v from now on: a mode of frequency omega is
   /// damped by the ratio omega lead/2.  Collective.
   void set_lead(double lead);

@@ -6,10 +6,18 @@
 
 namespace structure {
 
+namespace {
+
+bool are_masses(const Eigen::VectorXd& m) {
+  return m.allFinite() && (m.array() > 0.0).all() && m.cwiseInverse().allFinite();
+}
+
+}  // namespace
+
 LumpedMass::LumpedMass(Eigen::VectorXd nodal_mass, const Supports& supports)
     : mass_(std::move(nodal_mass)), inverse_(Vector3::Ones() * mass_.cwiseInverse().transpose()) {
-  if (!(mass_.array() > 0.0).all() || !mass_.allFinite())
-    throw std::invalid_argument("LumpedMass: every nodal mass must be > 0 and finite");
+  if (!are_masses(mass_))
+    throw std::invalid_argument("LumpedMass: every nodal mass must be > 0 and finite, and one over it");
   supports.apply(inverse_);
 }
 
@@ -68,6 +76,10 @@ void CorrectedMass::apply_mass(const NodalVectors& v, NodalVectors& p) const {
 
 std::unique_ptr<MassOperator> mass_of(const Body& body, const Supports& supports, const Halo& halo) {
   Eigen::VectorXd row_sums = whole(halo, body.row_sum_mass());
+  if (halo.any(!are_masses(row_sums)))
+    throw std::invalid_argument(
+        "a control node's mass, density times volume, is not a number that can be divided by; expected "
+        "above 0 and finite: check the density and the units of lengths");
   if (body.corrects_mass()) return std::make_unique<CorrectedMass>(body, std::move(row_sums), supports, halo);
   return std::make_unique<LumpedMass>(std::move(row_sums), supports);
 }

@@ -95,7 +95,8 @@ class CorrectedMass final : public MassOperator {
   mutable NodalVectors predicted_, product_;  // z and M z
 };
 
-/// The one that the body asks for.
+/// The one that the body asks for.  Throws std::invalid_argument on all parts if on one a node's mass is not
+/// above 0 and finite; collective.
 std::unique_ptr<MassOperator> mass_of(const Body& body, const Supports& supports, const Halo& halo);
 
 }  // namespace structure

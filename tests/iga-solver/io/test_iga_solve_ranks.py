@@ -84,6 +84,22 @@ class Ranks(unittest.TestCase):
         self.assertRegex(told[0], "blown up at time .* at control node [0-9]+, undeformed at .*element [0-9]+ .*is folded")
         self.assertEqual(told[1:], 2 * told[:1])
 
+    def test_masses_too_small_for_a_number_on_one_rank(self):
+        knots = [0, 0, 0, 0.5, 1, 1, 1]
+        places = [0, 0.25, 0.75, 1]
+
+        def patch(x: int) -> str:
+            points = [[1e-80 * a for a in (x + k, j, i)] for i in places for j in places for k in places]
+            return f"  - {{degrees: [2, 2, 2], knots: {3 * [knots]}, control_points: {points}}}\n"
+
+        law = "law: linear_elastic, youngs_modulus: 1, poissons_ratio: 0"
+        model = f"units: si\ngeometry:\n  patches:\n{patch(0)}{patch(1)}time: {{end: 1}}\nmaterial:\n"
+        model += f"  - {{patches: [0], {law}, density: 1e-90}}\n  - {{patches: [1], {law}, density: 1e90}}\n"
+        done, _ = solve(model, 2)
+        self.assertNotEqual(done.returncode, 0)
+        self.assertEqual(done.stderr.count("ERROR"), 1, done.stderr)
+        self.assertIn("check the density and the units of lengths", done.stderr)
+
     def test_memory_that_ends_on_one_rank(self):
         """Its part does not fit, or memory ends while it is built: the others do not wait for it."""
         big = plate(elements="[64, 120, 9]", method="elements", end=1e-9)  # tables of 640 MB for each of two ranks
