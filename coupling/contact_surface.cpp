@@ -27,6 +27,15 @@ SurfaceMap SurfaceMap::identity(NodeId nodes) {
   return selection(node, nodes);
 }
 
+bool SurfaceMap::is_selection() const {
+  for (NodeId row = 0; row < S_.rows(); ++row) {
+    int entries = 0;
+    for (Matrix::InnerIterator entry(S_, row); entry; ++entry)
+      if (++entries > 1 || entry.value() != 1.0) return false;
+  }
+  return true;
+}
+
 SurfaceMap SurfaceMap::on(const std::vector<NodeId>& nodes, Eigen::Index owned) const {
   std::vector<Eigen::Triplet<double, NodeId>> entries;
   entries.reserve(S_.nonZeros());

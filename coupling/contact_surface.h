@@ -43,6 +43,9 @@ class SurfaceMap {
     return S_.outerIndexPtr()[control_point + 1] > S_.outerIndexPtr()[control_point];
   }
 
+  /// Whether each control point is one node.
+  bool is_selection() const;
+
   /// visit(node, share) for each node that a control point hangs on.
   template <class Visit>
   void for_each_share(int control_point, Visit visit) const {

@@ -64,7 +64,6 @@ class IgaStructure final : public StructureSolver {
 
   bool moves() const override { return true; }
   NodalVectors inverse_node_mass() const override { return solver_.mass().inverse_mass(); }
-  Eigen::VectorXd control_node_mass() const override { return solver_.mass().nodal_mass(); }
   double kinetic_energy() const override { return solver_.kinetic_energy(); }
   double strain_energy() const override { return solver_.strain_energy(); }
   Work work() const override;

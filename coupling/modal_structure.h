@@ -54,7 +54,6 @@ class ModalStructure final : public StructureSolver {
   bool moves() const override { return true; }
   /// Of each node alone.
   NodalVectors inverse_node_mass() const override { return rows_.squares(motion_.mode_count()); }
-  Eigen::VectorXd control_node_mass() const override { return body_->control_node_mass(); }
   double kinetic_energy() const override { return motion_.kinetic_energy(); }
   double strain_energy() const override { return motion_.strain_energy(); }
   Work work() const override;

@@ -132,8 +132,6 @@ class StructureSolver {
   /// that are control points of the surface.  Where the mass is no diagonal matrix, what 1 / mass never
   /// exceeds.  Empty if nothing is known, or nothing is integrated.
   virtual NodalVectors inverse_node_mass() const { return {}; }
-  virtual Eigen::VectorXd control_node_mass()
-      const = 0;                              ///< [mass], one per node held; empty for a rigid surface
   virtual double kinetic_energy() const = 0;  ///< p . v / 2 of momenta p = M v [energy]
   virtual double strain_energy() const = 0;   ///< [energy]; may cost as much as a step
   virtual Work work() const { return {}; }    ///< zero for a body that is not integrated

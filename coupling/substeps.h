@@ -62,7 +62,6 @@ class Substeps final : public StructureSolver {
   bool moves() const override { return true; }
   NodalVectors inverse_node_mass() const override { return body_->inverse_node_mass(); }
   std::optional<MeshedSolid> solid_below(int patch) const override { return body_->solid_below(patch); }
-  Eigen::VectorXd control_node_mass() const override { return body_->control_node_mass(); }
   double kinetic_energy() const override { return body_->kinetic_energy(); }
   double strain_energy() const override { return body_->strain_energy(); }
   Work work() const override { return body_->work(); }

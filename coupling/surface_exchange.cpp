@@ -93,7 +93,8 @@ SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver)
 
 void SurfaceExchange::import_masses() {
   const NodalVectors of_nodes = solver_.inverse_node_mass();
-  const bool known = of_nodes.cols() == map_.node_count() && of_nodes.cols() > 0;
+  const bool known =
+      of_nodes.cols() == map_.node_count() && of_nodes.cols() > 0 && solver_.surface().map.is_selection();
   if (owners_ ? owners_->largest(known ? 1.0 : 0.0) == 0.0 : !known) return;
   inverse_masses_.setZero(3, positions_.cols());
   map_.to_surface(own_, of_nodes, inverse_masses_);
@@ -136,7 +137,9 @@ double SurfaceExchange::largest_motion() const {
   double largest = 0.0;
   for (std::size_t k = 0; k < own_.size(); ++k) {
     const double motion = (map_.at(own_[k], positions) - own_places_.col(k)).squaredNorm();
-    if (!(motion <= largest)) largest = motion;  // which it stays if it is not a number
+    if (motion <= largest) continue;
+    largest = motion;
+    if (std::isnan(motion)) break;
   }
   return std::sqrt(owners_ ? owners_->largest(largest) : largest);
 }

@@ -266,9 +266,10 @@ void FixWallNurbs::post_force(int vflag) {
 }
 
 void FixWallNurbs::post_force_primitive(int) {
-  const contact::ParticleView view = particles();
+  contact::ParticleView view = particles();
   // Other fixes may change radii as late as in pre_force.
   if (loop_.has_outgrown_list(view)) build_list();
+  view.mass = masses();
   try {
     const bool setup = update->setupflag != 0;
     model_.begin_step();
@@ -287,6 +288,15 @@ contact::ParticleView FixWallNurbs::particles() {
   const auto rows = [this](double** array) { return atom->nlocal > 0 ? array[0] : nullptr; };
   return {atom->nlocal,       atom->tag,  atom->radius, rows(atom->x),  rows(atom->v), rows(atom->f),
           rows(atom->torque), atom->mask, groupbit,     memory_.rows(), atom->rmass};
+}
+
+// Of a sphere in a rigid body that body's, as contact models have it; LIGGGHTS has told by now which that is.
+const double* FixWallNurbs::masses() {
+  if (!fix_rigid()) return atom->rmass;
+  masses_.assign(atom->rmass, atom->rmass + atom->nlocal);
+  for (int i = 0; i < atom->nlocal; ++i)
+    if (body(i) >= 0) masses_[i] = masstotal(body(i));
+  return masses_.data();
 }
 
 void FixWallNurbs::final_integrate() {

@@ -73,6 +73,7 @@ class FixWallNurbs : public WallNurbsSetup, public FixWallGran {
   void in_step(Action action) const;  // likewise, with the step
   void build_list();
   contact::ParticleView particles();
+  const double* masses();
   bool may_pose_as_mesh() const;
   bool may_be_read_locally() const;
   void show_local_rows();
@@ -90,6 +91,7 @@ class FixWallNurbs : public WallNurbsSetup, public FixWallGran {
   contact::ContactLoop loop_;
   liggghts_pkg::LiggghtsContactModel model_;
   liggghts_pkg::ParticleMemory memory_;
+  std::vector<double> masses_;  // of particles, if some are in rigid bodies
   liggghts_pkg::WallColumns columns_;
   liggghts_pkg::WallRestart restart_;
   std::unique_ptr<liggghts_pkg::WallOutput> output_;        // null: none asked for

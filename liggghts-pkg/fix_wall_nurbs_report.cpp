@@ -64,7 +64,8 @@ void FixWallNurbs::report(liggghts_pkg::ContactReport& rows, int number, Compute
   const liggghts_pkg::Setting<bool> no_heat(heattransfer_flag_, false), no_storage(store_force_, false);
   const liggghts_pkg::Setting<FixPropertyAtom*> no_sums(fix_sum_normal_force_, nullptr);
   const contact::ContactMemory memory = memory_.rows();
-  const contact::ParticleView view = particles();
+  contact::ParticleView view = particles();
+  if (!loop_.contacts().empty()) view.mass = masses();
   for (contact::Contact contact : loop_.contacts()) {
     const int i = contact.particle;
     contact.history = memory.slot(i, contact.slot).history();

@@ -78,7 +78,7 @@ double LiggghtsContactModel::hertz_damping(int particle) const {
 // As LIGGGHTS' surface models have it.
 Vector3 LiggghtsContactModel::slip(const Contact& contact) const {
   const int i = contact.particle;
-  const Vector3 n = contact.delta / contact.distance, omega = Vector3::Map(atom_.omega[i]);
+  const Vector3 n = contact.normal(), omega = Vector3::Map(atom_.omega[i]);
   const double arm = atom_.radius[i] - 0.5 * contact.overlap;
   return Vector3::Map(atom_.v[i]) - contact.wall_velocity + arm * n.cross(omega);
 }

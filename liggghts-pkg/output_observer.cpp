@@ -31,7 +31,7 @@ void OutputObserver::begin_run(const char* style) {
 }
 
 void OutputObserver::see(const Contact& contact) {
-  const Vector3 normal = contact.delta.normalized();
+  const Vector3 normal = contact.normal();
   const double worn = output_.tracks_wear() ? worn_volume(contact, normal) : 0.0;
   const Eigen::Matrix3d to_body = frame_.rotation.transpose();
   output_.add({contact.foot, -(to_body * contact.force), to_body * normal, worn});

@@ -17,7 +17,10 @@ StlOutput::StlOutput(MPI_Comm comm, StlOptions options, const WallTriangles& tri
   if (options_.chord) triangles_.keep_within(*options_.chord);
   constexpr double kBytesPerTriangle = 100.0;
   const double count = triangles_.count();
-  nurbs::expect_memory(kBytesPerTriangle * count, fmt::format("stl of {:.3g} triangles", count));
+  parallel::on_every_rank(comm, options_.file, [&] {
+    nurbs::expect_memory(kBytesPerTriangle * count, fmt::format("stl of {:.3g} triangles", count));
+    return true;
+  });
 }
 
 void StlOutput::write(long step) {

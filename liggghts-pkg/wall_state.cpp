@@ -21,15 +21,20 @@ class PartReader {
   PartReader(const char* bytes, std::size_t numbers) : next_(bytes), left_(numbers) {}
 
   double peek() const {
+    if (left_ == 0) coupling::fail_as_damaged();
     double number;
     std::memcpy(&number, next_, sizeof number);
     return number;
   }
-  void skip_number() { next_ += sizeof(double); }
+  void skip_number() {
+    next_ += sizeof(double);
+    --left_;
+  }
   std::vector<double> part() {
-    std::vector<double> numbers(coupling::saved_size(peek(), left_));
-    left_ -= numbers.size();
+    const double size = peek();
     skip_number();
+    std::vector<double> numbers(coupling::saved_size(size, left_));
+    left_ -= numbers.size();
     if (!numbers.empty()) std::memcpy(numbers.data(), next_, numbers.size() * sizeof(double));
     next_ += numbers.size() * sizeof(double);
     return numbers;

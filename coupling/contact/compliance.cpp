@@ -141,7 +141,7 @@ void ComplianceCorrection::enter(const ParticleView& particles, const ContactMod
   before.directions.find(wall_, contact.foot, contact.delta);
   const nurbs::Indices<2>& element = before.directions.element;
   compliance_.find(contact.foot, element, before.has_shear, before.give);
-  before.n = contact.delta / contact.distance;
+  before.n = contact.normal();
   const double of_surface = before.n.dot(contact.wall_velocity);
   const double of_particle = -before.n.dot(particles.velocity(i));
   before.approach = of_particle + of_surface;
@@ -218,7 +218,7 @@ void ComplianceCorrection::enter_shear(const ParticleView& particles, const Cont
   const double of_disc = block.root[before.lane] * std::sqrt(contact.effective_radius);
   shear_.stiffness[lane] = model.shear_constant(i) * of_disc;
   put(model.slip(contact), shear_.slip, lane);
-  put(contact.wall_velocity, shear_.wall, lane);
+  put(before.wall_velocity, shear_.wall, lane);
   put(model.shear_stretch(contact), shear_.stretch, lane);
   shear_.normal_stiffness[lane] = block.stiffness[before.lane];
   shear_.normal_dashpot[lane] = block.dashpot[before.lane];

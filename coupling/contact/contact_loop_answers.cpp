@@ -95,7 +95,7 @@ inline void ContactLoop::look_at_mesh(const ParticleView& particles, const StepI
   }
   constexpr double kFirst = 1.01;  // of the way of a step
   const int i = contact.particle;
-  const double approach = contact.delta.dot(contact.wall_velocity - particles.velocity(i)) / contact.distance;
+  const double approach = contact.normal().dot(contact.wall_velocity - particles.velocity(i));
   if (!particles.mass || !(kFirst * approach * step.dt > contact.overlap) || !(contact.overlap > 0.0)) return;
   const double waves = mesh_->waves(contact, hertz_constant, particles.mass[i], approach);
   if (waves > 1.0) raise(not_static_, waves);
@@ -177,7 +177,7 @@ void ContactLoop::expect_stable(const ParticleView& particles, const StepInfo& s
   const nurbs::NodalVectors& inverse_masses = wall_.inverse_masses();
   if (inverse_masses.cols() == 0) return;
   const int i = contact.particle;
-  const Vector3 n = contact.delta / contact.distance, v = particles.velocity(i) - contact.wall_velocity;
+  const Vector3 n = contact.normal(), v = particles.velocity(i) - contact.wall_velocity;
   const double depth = std::max(contact.overlap, step.dt * std::abs(n.dot(v)));
   static const ContactCorrection none;
   const ContactCorrection& by = contact.correction ? *contact.correction : none;

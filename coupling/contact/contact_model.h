@@ -44,6 +44,10 @@ struct Contact {
   double missing;            ///< share of the force, as MeshEstimate has it; 0 where there is none [-]
   ContactCorrection* correction;  ///< null: none; gone with the step
 
+  Vector3 normal() const {
+    return delta / distance;
+  }  ///< out of the wall: a centre behind it is to come back
+
   // The model's answer:
   Vector3 force;   ///< on the particle [force]
   Vector3 torque;  ///< likewise, about its centre [force length]

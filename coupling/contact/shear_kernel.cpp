@@ -96,9 +96,11 @@ void end(ShearBlock& b) {
     const bool slip = x * x + y * y < (1.0 - 2.0 * kSame) * stuck;
     const double dent[2] = {b.give[0][k] * F + b.give[2][k] * G, b.give[2][k] * F + b.give[1][k] * G};
     const double body[2] = {slip ? slips[0] : sticks[0], slip ? slips[1] : sticks[1]};
+    const double of_foot[2] = {dot(b.t[0], b.wall, k), dot(b.t[1], b.wall, k)};
     for (int d = 0; d < 3; ++d) {
       b.memory[d][k] = dent[0] * b.t[0][d][k] + dent[1] * b.t[1][d][k];
-      b.memory[3 + d][k] = body[0] * b.t[0][d][k] + body[1] * b.t[1][d][k];
+      b.memory[3 + d][k] =
+          b.wall[d][k] + (body[0] - of_foot[0]) * b.t[0][d][k] + (body[1] - of_foot[1]) * b.t[1][d][k];
     }
     for (int j = 0; j < 2; ++j)
       b.along[j][k] = -0.5 * (b.gradient[0][j][k] * (F * F) + b.gradient[1][j][k] * (G * G) +

@@ -26,7 +26,9 @@ namespace contact {
 /// the surface: t_1 along its first direction, t_2 = n x t_1.
 struct ShearBlock {
   static constexpr int kCapacity = 16;
-  static constexpr int kMemory = 6;  ///< numbers that a contact keeps: w and the body's speed, in space
+  /// Numbers that a contact keeps: w, and the body's velocity in space, all of it: so it does not depend on
+  /// who looks, and how the normal turns.
+  static constexpr int kMemory = 6;
   using Lanes = double[kCapacity];
 
   alignas(64) Lanes normal[3] = {};  // unit vector, out of the surface
@@ -35,7 +37,7 @@ struct ShearBlock {
   Lanes gradient[3][2] = {};         // of each, with the centre's place along S_j [1/force]
   Lanes stiffness = {};              // k [force/length]
   Lanes slip[3] = {};     // rate of slip over the foot; what is along n does not count [length/time]
-  Lanes wall[3] = {};     // velocity of the foot, likewise: own speed is both
+  Lanes wall[3] = {};     // velocity of the foot: along the surface own speed is both
   Lanes stretch[3] = {};  // xi [length]
   Lanes normal_stiffness = {}, normal_dashpot = {};  // [force/length], [force time/length]
   Lanes inertia = {};                                // of the particle along the surface [mass]

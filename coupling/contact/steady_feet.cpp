@@ -121,7 +121,7 @@ void SteadyFeet::keep(int candidate, const Room& room, const std::vector<brep::F
   NURBS_ASSERT(0 < touching && touching <= count && count <= kMostFeet, touching, count);
   Page& page = page_of(candidate);
   const auto marks = [&](const brep::Foot& foot) {
-    return Marks{kNone, static_cast<std::int8_t>(touching), static_cast<std::int8_t>(count),
+    return Marks{kNone, static_cast<std::uint8_t>(touching & 15), static_cast<std::uint8_t>(count & 15),
                  foot.status == search::FootStatus::edge ? On::edge : On::plane};
   };
   set(page, k, room, pieces[0], feet[0].patch, feet[0].side, marks(feet[0]));

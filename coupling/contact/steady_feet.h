@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "brep/foot_search.h"
@@ -70,11 +71,12 @@ class SteadyFeet {
 
   enum class On : std::int8_t { plane, curved, edge };  ///< what the foot is on
   struct alignas(4) Marks {                             // copied as one number
-    std::int8_t slot;  ///< of the particle's memory; -1: settle() was not told yet
-    std::int8_t feet;  ///< of the candidate
-    std::int8_t kept;  ///< these, and those that do not touch
+    std::int16_t slot;      ///< of the particle's memory; -1: settle() was not told yet
+    std::uint8_t feet : 4;  ///< of the candidate
+    std::uint8_t kept : 4;  ///< these, and those that do not touch
     On on;
   };
+  static_assert(sizeof(Marks) == 4 && kMostFeet < 16, "feet and kept have four bits each");
   /// One of them, in space; for as long as its block lasts.
   class Foot {
    public:
@@ -107,7 +109,8 @@ class SteadyFeet {
   /// Whoever fills or clears that slot otherwise asks for feet anew.
   void settle(int k, int n, int slot) {
     Marks& marks = n == 0 ? page_->marks[k] : further_[page_->further[k] + n - 1].marks;
-    marks.slot = static_cast<std::int8_t>(slot);
+    NURBS_ASSERT(0 <= slot && slot <= std::numeric_limits<std::int16_t>::max(), slot);
+    marks.slot = static_cast<std::int16_t>(slot);
   }
   /// Whether a slot has been on the foot's face, on a side that is known.
   bool has_been_on_face(const ContactSlot& slot, const Foot& foot) const {

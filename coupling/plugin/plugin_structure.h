@@ -43,7 +43,6 @@ class PluginStructure final : public StructureSolver {
 
   bool moves() const override { return true; }
   NodalVectors inverse_node_mass() const override { return skin_.inverse_mass; }
-  Eigen::VectorXd control_node_mass() const override { return {}; }
   double kinetic_energy() const override { return totals().kinetic_energy; }
   double strain_energy() const override { return totals().strain_energy; }
   /// That of contacts is worked out here, that of internal forces is what the balance leaves.

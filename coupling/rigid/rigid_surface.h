@@ -52,7 +52,6 @@ class RigidSurface final : public StructureSolver {
   bool moves() const override;
   bool deforms() const override { return false; }
   bool needs_forces() const override { return servo_.has_value(); }
-  Eigen::VectorXd control_node_mass() const override { return {}; }
   double kinetic_energy() const override { return 0.0; }
   double strain_energy() const override { return 0.0; }
   Vector3 linear_momentum() const override { return Vector3::Zero(); }

@@ -34,12 +34,15 @@ void Servo::advance(MovingFrame& body, double dt) {
 // The particles push back, so the wall feels -target when it has reached its aim, and it moves against the
 // error.
 void Servo::control(const Vector3& force, const Vector3& torque, double dt) {
-  if (!settings_.integrate) return;
+  const bool turns = settings_.controls == ServoSettings::Controls::torque;
+  const double value = (turns ? torque : force).dot(settings_.axis);
+  if (!settings_.integrate) {
+    last_value_ = value;  // the speed stays for when it goes on, as LIGGGHTS has it
+    return;
+  }
   const double target = -settings_.target();
   if (target == 0.0 || !std::isfinite(target))
     throw std::invalid_argument("the servo's target_val has become 0 or infinite, expected another number");
-  const bool turns = settings_.controls == ServoSettings::Controls::torque;
-  const double value = (turns ? torque : force).dot(settings_.axis);
   const double error = target - value;
   speed_ = settings_.automatic ? automatic_speed(error / std::abs(target))
                                : pid_speed(error, value, std::abs(target), dt);

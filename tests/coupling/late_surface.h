@@ -46,7 +46,6 @@ class LateSurface final : public coupling::StructureSolver {
   void set_time_step(double dt) override { solver_->set_time_step(dt); }
   double stable_time_step() const override { return solver_->stable_time_step(); }
   bool moves() const override { return solver_->moves(); }
-  Eigen::VectorXd control_node_mass() const override { return solver_->control_node_mass(); }
   double kinetic_energy() const override { return solver_->kinetic_energy(); }
   double strain_energy() const override { return solver_->strain_energy(); }
   coupling::Work work() const override { return solver_->work(); }

@@ -141,6 +141,17 @@ class SparseNodes final : public coupling::StructureSolver {
   }
   const coupling::ContactSurface& surface() const override { return surface_; }
   const std::vector<NodeId>& nodes() const override { return nodes_; }
+  /// From now on the first control point is the mean of two nodes.
+  void interpolate() {
+    coupling::SurfaceMap::Matrix S(positions_.cols() - 3, NodeId(1) << 40);
+    for (int i = 0; i < S.rows(); ++i) S.insert(i, 1000 + 3 * i) = i == 0 ? 0.5 : 1.0;
+    S.insert(0, 1003) = 0.5;
+    S.makeCompressed();
+    surface_.map = coupling::SurfaceMap(S);
+  }
+  NodalVectors inverse_node_mass() const override {
+    return NodalVectors::Constant(3, positions_.cols(), 4.0);
+  }
   const NodalVectors& positions() const override { return positions_; }
   const NodalVectors& velocities() const override { return positions_; }
   void initialise_forces(const coupling::NodalForces&) override {}
@@ -149,7 +160,6 @@ class SparseNodes final : public coupling::StructureSolver {
   void set_time_step(double) override {}
   double stable_time_step() const override { return 1.0; }
   bool moves() const override { return true; }
-  Eigen::VectorXd control_node_mass() const override { return {}; }
   double kinetic_energy() const override { return 0.0; }
   double strain_energy() const override { return 0.0; }
   Vector3 linear_momentum() const override { return Vector3::Zero(); }
@@ -209,6 +219,30 @@ TEST(SurfaceExchange, BringsWhatIsFollowedAndMeasuresAll) {
           << i << " " << j;
     }
   EXPECT_EQ(exchange.followed().size(), static_cast<std::size_t>(brought));
+}
+
+// Whoever is nowhere is no nearer than the others, whichever control point it is.
+TEST(SurfaceExchange, MotionThatIsNoNumberStaysOne) {
+  const nurbs::Surface plane = nurbs::plane(
+      {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {nurbs::KnotVector::uniform(2, 2), nurbs::KnotVector::uniform(2, 2)});
+  for (const int lost : {0, 5, 15}) {
+    test::RisingSheet sheet(plane, 0.5);
+    sheet.set_time_step(0.1);
+    coupling::SurfaceExchange exchange(MPI_COMM_WORLD, sheet);
+    exchange.follow({0});
+    sheet.lose(lost);
+    sheet.begin_step();
+    EXPECT_TRUE(std::isnan(exchange.largest_motion())) << lost;
+  }
+}
+
+// A force on a control point moves it by the sum of factor^2 / mass, and others that hang on the same nodes.
+TEST(SurfaceExchange, MassesAreThoseOfNodesThatAreControlPoints) {
+  SparseNodes sparse(test::wavy_surface());
+  const coupling::SurfaceExchange selected(MPI_COMM_WORLD, sparse);
+  EXPECT_EQ(selected.inverse_masses(), NodalVectors::Constant(3, selected.positions().cols(), 4.0));
+  sparse.interpolate();
+  EXPECT_EQ(coupling::SurfaceExchange(MPI_COMM_WORLD, sparse).inverse_masses().size(), 0);
 }
 
 TEST(LateSurface, IsSeenAsItWasTwoStepsAgo) {

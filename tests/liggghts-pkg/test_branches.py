@@ -8,9 +8,21 @@ import unittest
 import decks
 import numpy as np
 from branch_decks import (
-    FLOOR, FOLDED, FOLDED_ALONG_ETA, L, OUTPUT, R, SIDE, difference, model_file, nurbs, patch, planes, prelude, quad, run, table,
+    FLOOR, FOLDED, FOLDED_ALONG_ETA, L, MODELS, OUTPUT, R, SIDE, difference, model_file, nurbs, patch, planes, prelude, quad, run, table,
 )  # fmt: skip
 from scipy.optimize import minimize
+
+
+def facet(distance: float, normal, size: float) -> str:
+    """Of an STL file: its middle at this distance from the origin along the normal."""
+    n = np.array(normal, dtype=float)
+    u = np.cross(n, (0, 0, 1) if abs(n[2]) < 0.8 else (0, 1, 0))
+    u /= np.linalg.norm(u)
+    v = np.cross(n, u)
+    turns = 2 * np.pi * np.arange(3) / 3
+    corners = [distance * n + size * (np.cos(t) * u + np.sin(t) * v) for t in turns]
+    lines = "".join("vertex {:.9g} {:.9g} {:.9g}\n".format(*corner) for corner in corners)
+    return f"facet normal 0 0 0\nouter loop\n{lines}endloop\nendfacet\n"
 
 
 class Corner(unittest.TestCase):
@@ -94,6 +106,21 @@ class Corner(unittest.TestCase):
             result = decks.run(deck, files=model_file(FLOOR, SIDE), ranks=ranks)
             self.assertNotEqual(result.code, 0)
             self.assertRegex(result.text, r"Fix wall/nurbs \(id wall\): particle 1 touches the wall in more than 1 places")
+
+    def test_many_contacts_at_once(self):
+        """A ball begins in 150 small triangles and a large one, and leaves all but that, whose slot is far behind."""
+        count, golden = 150, np.pi * (3 - np.sqrt(5))
+        x = -0.3 - 0.69 * (np.arange(count) + 0.5) / count
+        angles = golden * np.arange(count)
+        normals = [(c, np.sqrt(1 - c * c) * np.cos(a), np.sqrt(1 - c * c) * np.sin(a)) for c, a in zip(x, angles)]
+        stl = "".join(facet(0.98 * R, n, 0.02 * R) for n in normals) + facet(0.995 * R, (1, 0, 0), 0.1 * R)
+        start = prelude((0, 0, 0), (0.5, 0, 0), gravity=False, box="-0.03 0.03 -0.03 0.03 -0.03 0.03")
+        wall = f"fix wall all wall/nurbs {MODELS} type 2 geometry net.stl surface net contacts 200\n"
+        more = "set group all density 4e10\nvariable n equal f_wall[7]\n"  # it flies on all the same
+        done = run(start, wall + more, {"net.stl": f"solid net\n{stl}endsolid net\n"}, steps=600, every=5, more=" v_n")
+        self.assertEqual(done.code, 0, done.text[-1500:])
+        self.assertEqual(done.table["n"][0], count + 1)
+        self.assertTrue(np.any(done.table["n"] == 1))
 
 
 class Welds(unittest.TestCase):

@@ -276,17 +276,28 @@ class HeavyBalls(unittest.TestCase):
 class Moving(unittest.TestCase):
     """What flies along with ball and body sees the same, although the normal turns."""
 
-    def speed(self, along):
-        block = glass((4e-3, 4e-3, 0.5e-3), (8, 8, 1), ()).replace("linear_elastic", "neo_hooke").replace(f"{GLASS[0]}", "1e7")
-        settings = SETTINGS | dict(wall=(1e7, GLASS[1]), ball=(1e7, 0.3), restitution=0.3, friction=0.0, timestep=2e-7)
-        deck = bob.prelude(**settings | dict(balls=((1e-3, 0.2e-3, 1e-3),), velocity=(along, 0, -0.5))) + bob.wall(MODELS, CORRECTED)
-        files = {"block.yaml": block + f"initial: {{velocity: [{along}, 0, 0]}}\n"}
-        return decks.good(deck + bob.output((3,), every=100) + "run 3000\n", files=files).table["vz"][-1]
+    def velocity(self, frame, size=(4e-3, 4e-3, 0.5e-3), elements=(8, 8, 1), spin=0.0, friction=0.0, ball=(0.0, 0.0, -0.5)):
+        """Of the ball that comes with the velocity `ball`, the block turning about y, in a frame of this velocity."""
+        block = glass(size, elements, ()).replace("linear_elastic", "neo_hooke").replace(f"{GLASS[0]}", "1e7")
+        settings = SETTINGS | dict(wall=(1e7, GLASS[1]), ball=(1e7, 0.3), restitution=0.3, friction=friction, timestep=2e-7)
+        settings |= dict(balls=((1e-3, 0.2e-3, 1e-3),), velocity=np.add(frame, ball))
+        deck = bob.prelude(**settings) + bob.wall(MODELS, CORRECTED)
+        u, v, w = frame
+        velocity = f'["{u} + {spin} * z", "{v}", "{w} - {spin} * x"]'
+        files = {"block.yaml": block + f"initial: {{velocity: {velocity}}}\n"}
+        table = decks.good(deck + bob.output((3,), every=100) + "run 3000\n", files=files).table
+        return np.array([table[axis][-1] for axis in ("vx", "vy", "vz")]) - frame
 
     def test_a_damped_contact_is_the_same(self):
-        still = self.speed(0.0)
-        self.assertGreater(still, -0.4)
-        self.assertAlmostEqual(self.speed(3.0), still, delta=1e-9)
+        still = self.velocity((0.0, 0.0, 0.0))
+        self.assertGreater(still[2], -0.4)
+        np.testing.assert_allclose(self.velocity((3.0, 0.0, 0.0)), still, rtol=0, atol=1e-9)
+
+    def test_a_damped_spring_along_the_surface_is_the_same(self):
+        settings = dict(size=(4e-3, 4e-3, 3e-3), elements=(6, 6, 4), spin=100.0, friction=0.9, ball=(0.2, 0.1, -0.5))
+        still = self.velocity((0.0, 0.0, 0.0), **settings)
+        self.assertGreater(abs(still[0] - 0.2), 0.01, "it is felt")
+        np.testing.assert_allclose(self.velocity((0.0, 0.0, 3.0), **settings), still, rtol=0, atol=1e-9)
 
 
 def missing(overlap, size):

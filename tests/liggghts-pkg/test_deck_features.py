@@ -10,6 +10,7 @@ import decks
 from branch_decks import (
     GRAVITY, MODELS, OUTPUT, R, difference, model_file, nurbs, planes, prelude, quad, run, settings, table,
 )  # fmt: skip
+from prelude import Prelude, create
 
 SAME = 1e-10
 PATCH = "fix {id} all wall/nurbs " + MODELS + " type 2 geometry {file}.yaml surface wall {more}\n"
@@ -76,6 +77,21 @@ run 1
         self.assertGreater(np.ptp(stock["other"] - stock["z"]), 1e-4, "it tumbles")
         self.same(ours, stock)
         self.assertLessEqual(decks.largest_difference(ours["other"], stock["other"]), SAME)
+
+    def test_rigid_body_on_a_solid(self):
+        """fix rigid: 145 spheres as one body touch a plate with one of them, whose damping is that of all the mass: no timestep is refused."""
+        places = [(2 * R * (i - 2.5), 2 * R * (j - 2.5), 6 * R + 2 * R * k) for i in range(6) for j in range(6) for k in range(4)]
+        deck = Prelude("-0.06 0.06 -0.06 0.06 -0.02 0.05", E=(5e6,), nu=(0.3,), e=0.3, timestep=2e-5).text()
+        deck += create((0, 0, 1.2 * R), *places) + f"set group all diameter {2 * R} density 2500\nvelocity all set 0 0 -0.5\n"
+        deck += "neigh_modify exclude group all all\nfix body all rigid single\n"
+        plate = "units: si\ngeometry:\n  box: {origin: [-0.05, -0.05, -0.01], size: [0.1, 0.1, 0.01], elements: [4, 4, 1], degree: 2}\n"
+        plate += "material: {law: linear_elastic, youngs_modulus: 5e6, poissons_ratio: 0.3, density: 2500}\n"
+        plate += "boundary: [{fix: [x, y, z], faces: [xi-, xi+]}]\nsurfaces: {top: zeta+}\n"
+        deck += "fix wall all wall/nurbs model hertz tangential history type 1 structure plate.yaml surface top\n"
+        deck += "variable push equal f_wall[3]\nthermo_style custom step v_push\nthermo 10\nrun 200\n"
+        done = decks.run(deck, files={"plate.yaml": plate})
+        self.assertEqual(done.code, 0, done.text[-1500:])
+        self.assertLess(done.table["push"].min(), 0.0, "it touches")
 
     def test_several_walls_of_all_kinds_together(self):
         """Two NURBS walls, a plane and a mesh of LIGGGHTS: a ball meets all four; beside planes and the same mesh."""

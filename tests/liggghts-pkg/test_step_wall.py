@@ -196,6 +196,26 @@ class Contacts(unittest.TestCase):
         np.testing.assert_allclose(-force[touches > 0], hertz(2e-3 + RADIUS - z[touches > 0]), rtol=1e-9)
         self.assertIn("got inside the solid", run.text)
 
+    def test_fields_of_a_centre_that_is_behind(self):
+        """Where a fast ball's centre is below the sheet, too, it presses, and wears as it goes in, not as it comes back."""
+        deck = prelude(mu=0.0, e=1.0, timestep=1e-5, further={"k_finnie": 1e-9}).text() + "variable z equal z[1]\n"
+        deck += balls([(0.1, 0.05, 2e-3 + 1.02 * RADIUS)], (3, 0, -21))
+        deck += wall("thin_sheet.step surface all", further="output out every 1 fields pressure wear average no")
+        with TemporaryDirectory() as folder:
+            for name, part in parts().items():
+                (Path(folder) / name).write_bytes(part)
+            run = decks.run_in(Path(folder), deck + output(["v_z", "f_wall[3]"], 1) + "run 100\n")
+            self.assertEqual(run.code, 0, run.text[-1500:])
+            states = [vtu.read(Path(folder) / f"out_{int(step)}.vtu").elements for step in run.table["Step"]]
+        z, pushed = run.table["v_z"] if "v_z" in run.table else run.table["z"], run.table["wall[3]"] < 0.0
+        self.assertTrue(np.any(z < 2e-3), "its centre is below the sheet")
+        for state, is_pushed in zip(states, pushed):
+            self.assertEqual(state["pressure"].max() > 0.0, is_pushed)
+            self.assertGreaterEqual(state["pressure"].min(), 0.0)
+        worn = np.array([state["wear"].sum() for state in states])
+        deepest = np.argmin(z)
+        self.assertGreater(worn[deepest], 0.9 * worn[-1])
+
     def test_what_is_selected(self):
         """A ball on top of the plate of an assembly, tilted by 5 degrees."""
         tilt, overlap = np.radians(5.0), 2e-5

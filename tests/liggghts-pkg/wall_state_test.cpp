@@ -62,12 +62,14 @@ TEST(WallState, ThatIsDamagedIsRefused) {
            {-2.0, huge},
            {-2.0, -1.0},
            {-2.0, 0.5, 0.0, 0.0, 0.0},
+           {-2.0, 3.0, 1.0, 2.0},  // which ends too early
+           {-2.0, 0.0},
            {-2.0, 0.0, nan},
            {-2.0, 0.0, 0.0, 1.0, nan},  // of a name in the fingerprint
            {-2.0, 0.0, 0.0, 0.0, 0.0},  // counts of contact memory that are not there
            {-2.0, 0.0, 0.0, 0.0, 2.0, 4.0, nan}}) {
     SCOPED_TRACE(testing::PrintToString(numbers));
-    EXPECT_THAT([&] { liggghts_pkg::unpack_wall_state(bytes(numbers)); }, refused);
+    EXPECT_THAT([&] { liggghts_pkg::unpack_wall_state(bytes(numbers), numbers.size()); }, refused);
   }
 }
 

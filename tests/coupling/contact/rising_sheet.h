@@ -32,6 +32,8 @@ class RisingSheet final : public coupling::StructureSolver {
   void begin_step() override { positions_ += dt_ * velocities_; }
   void set_time_step(double dt) override { dt_ = dt; }
   bool moves() const override { return true; }
+  /// A control point is nowhere from now on.
+  void lose(int control_point) { positions_(1, control_point) = std::numeric_limits<double>::quiet_NaN(); }
   // What contact does not ask for:
   void initialise_forces(const coupling::NodalForces&) override {}
   void end_step(const coupling::NodalForces&) override {}
@@ -39,7 +41,6 @@ class RisingSheet final : public coupling::StructureSolver {
   coupling::NodalVectors inverse_node_mass() const override { return inverse_mass; }
   double stable_time_step_with_contacts() const override { return stable_step; }
   coupling::LocalCompliance* local_compliance() const override { return compliance; }
-  Eigen::VectorXd control_node_mass() const override { return {}; }
   double kinetic_energy() const override { return 0.0; }
   double strain_energy() const override { return 0.0; }
   Vector3 linear_momentum() const override { return Vector3::Zero(); }

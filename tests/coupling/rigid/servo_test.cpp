@@ -163,6 +163,24 @@ TEST(Servo, TheDerivativeIsThatOfTheForce) {
   EXPECT_EQ(velocity_after(4.0), 0.0) << "a jump of the target alone moves nothing";
 }
 
+// A servo that stands knows the force all the same, so that it does not see a jump when it goes on.
+TEST(Servo, GoesOnWithoutAJump) {
+  ServoSettings settings = press();
+  settings.kp = 0.0;
+  settings.kd = 2e-5;
+  RigidSurface surface = surface_with(settings);
+  const auto step = [&surface](double force) {
+    surface.begin_step();
+    surface.end_step(force_at(surface, 3, {0, 0, force}));
+    return surface.frame().velocity.z();
+  };
+  for (int n = 0; n < 3; ++n) step(4.0);
+  surface.servo()->settings().integrate = false;
+  for (const double force : {5.0, 9.0, 20.0}) EXPECT_EQ(step(force), 0.0);
+  surface.servo()->settings().integrate = true;
+  for (int n = 0; n < 3; ++n) EXPECT_EQ(step(20.0), 0.0) << n;
+}
+
 TEST(Servo, TorqueIsThatAboutTheCom) {
   ServoSettings settings = press();
   settings.controls = ServoSettings::Controls::torque;
