@@ -42,6 +42,8 @@ void Wall::weld_across(const std::vector<Vector3>& periods) {
   if (surface.faces || surface.faced) return;  // their tracker sees seams itself
   std::vector<Vector3> in_frame;
   for (const Vector3& period : periods) in_frame.push_back(structure_.frame().direction_to_body(period));
+  if (in_frame == welded_across_) return;
+  welded_across_ = in_frame;
   constexpr double kTolerance = 1e-9;
   surface_.set_borders(nurbs::find_borders(nurbs::split(surface_, control_points()), kTolerance, in_frame));
   shape_->begin_list(true);  // it depends on the borders

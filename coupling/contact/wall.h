@@ -4,6 +4,8 @@
 // and all velocities are in space.
 #pragma once
 
+#include <vector>
+
 #include "coupling/contact/wall_shape.h"
 #include "coupling/surface_exchange.h"
 #include "nurbs/assert.h"
@@ -115,8 +117,9 @@ class Wall {
 
   const coupling::StructureSolver& structure_;
   coupling::SurfaceExchange& exchange_;
-  bool has_inside_;            // where no particle may be; a rigid wall may be a container
-  nurbs::MultiPatch surface_;  // of the structure; welded across periodic faces, too
+  bool has_inside_;                     // where no particle may be; a rigid wall may be a container
+  nurbs::MultiPatch surface_;           // of the structure; welded across periodic faces, too
+  std::vector<Vector3> welded_across_;  // these periods, in its frame
   std::unique_ptr<WallShape> shape_;
   const PatchShape* patches_;  // the same; null: of faces, which do not deform
   search::Box bounds_;

@@ -144,7 +144,8 @@ class SparseNodes final : public coupling::StructureSolver {
   /// From now on the first control point is the mean of two nodes.
   void interpolate() {
     coupling::SurfaceMap::Matrix S(positions_.cols() - 3, NodeId(1) << 40);
-    for (int i = 0; i < S.rows(); ++i) S.insert(i, 1000 + 3 * i) = i == 0 ? 0.5 : 1.0;
+    S.reserve(Eigen::Matrix<NodeId, Eigen::Dynamic, 1>::Constant(S.rows(), 2));
+    for (NodeId i = 0; i < S.rows(); ++i) S.insert(i, 1000 + 3 * i) = i == 0 ? 0.5 : 1.0;
     S.insert(0, 1003) = 0.5;
     S.makeCompressed();
     surface_.map = coupling::SurfaceMap(S);
