@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -128,8 +129,9 @@ const ComplianceTable& ComplianceTables::find(int piece, int element) {
     Matrix3 sum = Matrix3::Zero();
     int count = 0;
     for (const TablePoint& point : points) {
-      const Tensors& tensors =
-          state_of_[point.piece][point.element]->solved(point.piece, point.element).tensors;
+      ElementCompliances& theirs = *state_of_[point.piece][point.element];
+      const Tensors& tensors = theirs.solved(point.piece, point.element).tensors;
+      if (&theirs != &state) theirs.rest();
       if (tensors.empty()) continue;
       sum += turned(tensor(point, state), point.normal, normal);
       ++count;
@@ -145,6 +147,8 @@ const ComplianceTable& ComplianceTables::find(int piece, int element) {
     blend(table_counts(state.surface(piece).space()), change, means);
     made = state.table(piece, element, means);
   }
+  if (asked_ && asked_.get() != &state) asked_->rest();
+  asked_ = state_of_[piece][element];
   return *(known_[piece][element] = made.get());
 }
 
@@ -243,8 +247,13 @@ void ComplianceTables::load(const std::vector<double>& numbers) {
         skin_));
   const double* index = numbers.data() + numbers.size() - elements;
   for (auto& of_piece : state_of_)
-    for (auto& state : of_piece)
-      state = numbers.empty() ? undeformed_ : states.at(static_cast<std::size_t>(*index++));
+    for (auto& state : of_piece) {
+      const double k = numbers.empty() ? 0.0 : *index++;
+      if (!(k >= 0.0 && k < static_cast<double>(states.size())))
+        throw std::invalid_argument(
+            fmt::format("a state of strain with the number {}, expected 0 to {}", k, states.size() - 1));
+      state = states[static_cast<std::size_t>(k)];
+    }
   for (auto& of_piece : known_) std::fill(of_piece.begin(), of_piece.end(), nullptr);
   forget_unused();
 }

@@ -65,7 +65,7 @@ class ComplianceTables {
   void forget_unused();
 
   std::vector<SkinPiece> skin_;
-  State undeformed_;
+  State undeformed_, asked_;                  // asked_: last, for a table
   std::vector<std::vector<State>> state_of_;  // [piece][element]
   std::map<Origin, std::unique_ptr<ComplianceTable>> tables_;
   std::vector<std::vector<const ComplianceTable*>> known_;  // [piece][element]; null: not asked for before

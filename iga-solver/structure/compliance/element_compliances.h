@@ -41,6 +41,8 @@ class ElementCompliances {
   /// Of an element of a piece's surface; those that see the same share one.
   const Solved& solved(int piece, int element);
   int solved_count() const { return solved_; }
+  /// Others are asked from here on: keeps what it has solved, and nothing that would help to solve more.
+  void rest() { gradients_.forget(); }
   /// At any point of it.
   Matrix3 direct(int piece, int element, const nurbs::Parameter<2>& xi) const;
   /// Of tensors at its points, as the first of the elements that are alike: to the last bit, whoever asks.

@@ -24,6 +24,10 @@ class GradientProducts {
   /// Integrals over an element of dR_A/dX_i dR_B/dX_j of its n functions [length]: row i n + A, column j n +
   /// B. Until the next call.
   const Eigen::MatrixXd& of(const BodyElement& element);
+  void forget() {
+    remembered_.clear();
+    bytes_ = 0;
+  }
   int integrated() const { return integrated_; }  ///< how many elements, those anew that were forgotten
 
  private:

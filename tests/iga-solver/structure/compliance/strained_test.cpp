@@ -195,9 +195,11 @@ TEST(StrainedCompliance, IsSavedWithItsStates) {
   other.load({});
   ComplianceTables anew(soft_block(), point_force::kTop);
   expect_near(told(other, element(3, 3)), told(anew, element(3, 3)), 0.0);
-  std::vector<double> cut = tables.save();
+  std::vector<double> cut = tables.save(), beyond = cut;
   cut.pop_back();
   EXPECT_THROW(other.load(cut), std::invalid_argument);
+  beyond.back() = 3.0;
+  EXPECT_THROW(other.load(beyond), std::invalid_argument);
 }
 
 TEST(StrainedCompliance, IsForLawsOfLargeStrain) {
