@@ -90,11 +90,16 @@ std::vector<std::string> names_of(const std::vector<ModelWord>& models) {
   return words;
 }
 
+bool is_known(const ModelKeyword& keyword, const std::string& given) {
+  const std::vector<ModelWord>& known = known_models(keyword.kind);
+  return std::any_of(known.begin(), known.end(), [&](const ModelWord& model) { return model.word == given; });
+}
+
 void check_known(const ModelKeyword& keyword, const std::string& given) {
-  const std::vector<std::string> known = names_of(known_models(keyword.kind));
-  if (std::find(known.begin(), known.end(), given) != known.end()) return;
-  throw std::invalid_argument(unknown_word(
-      fmt::format("{} model", keyword.kind == ModelKind::normal ? "contact" : keyword.word), given, known));
+  if (is_known(keyword, given)) return;
+  throw std::invalid_argument(
+      unknown_word(fmt::format("{} model", keyword.kind == ModelKind::normal ? "contact" : keyword.word),
+                   given, names_of(known_models(keyword.kind))));
 }
 
 bool is_contact_law(const std::string& word) {
@@ -192,6 +197,8 @@ std::size_t check_contact_models(const std::vector<std::string>& words) {
       throw std::invalid_argument(fmt::format("'{}' is the last word, expected one of {} after it",
                                               keyword.word,
                                               fmt::join(names_of(known_models(keyword.kind)), ", ")));
+    if (keyword.kind == ModelKind::surface && !is_known(keyword, words[next + 1]))
+      break;  // `surface NAME` of the wall
     check_known(keyword, words[next + 1]);
     models.*keyword.choice = words[next + 1];
     next += 2;

@@ -93,6 +93,14 @@ run 1
         self.assertEqual(done.code, 0, done.text[-1500:])
         self.assertLess(done.table["push"].min(), 0.0, "it touches")
 
+    def test_surface_right_behind_the_models(self):
+        """There stands LIGGGHTS' `surface default`, too; a name is the wall's."""
+        start, wall = prelude((0.0, 0.0, 0.99 * R), (0.1, 0.0, -0.1)), model_file(floor())
+        usual = f"fix wall all wall/nurbs {MODELS} type 2 geometry wall.yaml surface wall\n"
+        for words in ("surface wall type 2 geometry wall.yaml", "surface default surface wall type 2 geometry wall.yaml"):
+            other = f"fix wall all wall/nurbs {MODELS} {words}\n"
+            self.assertEqual(difference(run(start, other, wall, steps=100).table, run(start, usual, wall, steps=100).table), 0.0)
+
     def test_several_walls_of_all_kinds_together(self):
         """Two NURBS walls, a plane and a mesh of LIGGGHTS: a ball meets all four; beside planes and the same mesh."""
         start = prelude((3e-3, 2.2e-3, 1.5 * R), (-1.5, -1.0, -0.4), e=0.9)
