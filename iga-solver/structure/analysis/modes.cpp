@@ -83,7 +83,8 @@ class OrthonormalShapes {
   std::vector<NodalVectors> shapes_, M_shapes_;
 };
 
-/// y = (K + s M)^-1 x, likewise, without what is along shapes that are known.
+/// y = c (K + s M)^-1 x, likewise, without what is along shapes that are known.  Spectra takes for zero what
+/// is small beside 1, so c is chosen such that the largest eigenvalues are of that size.
 class InverseProduct {
  public:
   using Scalar = double;
@@ -99,8 +100,23 @@ class InverseProduct {
   Eigen::Index rows() const { return free_.count(); }
   int node_count() const { return tangent_.body().node_count(); }
   void set_shift(double /*sigma*/) {}  // the tangent has it
-  /// Of this many, at least, from now on.
-  void expect(int products) { expected_ = solved_ + products; }
+  /// Of this many, at least, from now on, whose first chooses c.
+  void begin(int products) {
+    expected_ = solved_ + products;
+    scale_ = 0.0;
+  }
+  /// omega^2 of what Spectra found, and q of its numbers.
+  Mode mode(double eigenvalue, const double* values, double shift) const {
+    Mode mode{scale_ * eigenvalue - shift, NodalVectors(3, node_count())};
+    free_.spread(values, mode.shape);
+    return mode;
+  }
+  /// Rayleigh's quotient less omega^2, relative: the square of what a shape has of other modes.
+  double error(const Mode& mode, double shift) const {
+    tangent_.multiply(mode.shape, b_);
+    const double quotient = b_.cwiseProduct(mode.shape).sum() / known_.product(mode.shape, mode.shape);
+    return std::abs(quotient / (mode.eigenvalue + shift) - 1.0);
+  }
   void perform_op(const double* x, double* y) const {
     free_.spread(x, b_);
     known_.remove_from_forces(b_);
@@ -113,6 +129,8 @@ class InverseProduct {
           fmt::format("modes: conjugate gradients are at {:.2e} after {} products, expected {:.1e}",
                       result.residual, result.products, limits_.tolerance));
     known_.remove_from(x_);
+    if (scale_ == 0.0) scale_ = x_.cwiseProduct(b_).sum() / known_.product(x_, x_);
+    x_ *= scale_;
     free_.gather(x_, y);
     if (on_solve_) on_solve_(++solved_, expected_);
   }
@@ -125,6 +143,7 @@ class InverseProduct {
   CgLimits limits_;
   std::function<void(int, int)> on_solve_;
   mutable NodalVectors b_, x_;
+  mutable double scale_ = 0.0;
   mutable int solved_ = 0;
   int expected_ = 0;
 };
@@ -165,24 +184,33 @@ double shift_of_free_body(const Tangent& tangent, const OrthonormalShapes& rigid
   return least;
 }
 
-/// The lowest `count` that are not among the known.
-std::vector<Mode> further_modes(InverseProduct& inverse, MassProduct& mass, const FreeDofs& free, int count,
-                                double shift, double tolerance) {
-  const Eigen::Index basis = std::min<Eigen::Index>(free.count(), 2 * count + 10);
+/// Of the lowest `count` that are not among the known those that round-off lets be found.
+std::vector<Mode> further_modes(InverseProduct& inverse, MassProduct& mass, int count, double shift,
+                                double tolerance) {
+  const Eigen::Index basis = std::min<Eigen::Index>(inverse.rows(), 2 * count + 10);
+  inverse.begin(static_cast<int>(basis));
   Spectra::SymGEigsShiftSolver<InverseProduct, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(
-      inverse, mass, count, basis, -shift);
-  inverse.expect(static_cast<int>(basis));
+      inverse, mass, count, basis, 0.0);
   solver.init();
   solver.compute(Spectra::SortRule::LargestMagn, 1000, tolerance, Spectra::SortRule::SmallestAlge);
   if (solver.info() != Spectra::CompInfo::Successful)
     throw std::runtime_error(fmt::format("modes: {} of {} modes found", solver.eigenvalues().size(), count));
+  constexpr double kLargestError = 1e-6;  // above the round-off of slender bodies
+  double least = std::numeric_limits<double>::infinity();
   std::vector<Mode> modes;
   const Eigen::MatrixXd shapes = solver.eigenvectors();
   for (Eigen::Index k = 0; k < shapes.cols(); ++k) {
-    Mode mode{solver.eigenvalues()[k], NodalVectors(3, inverse.node_count())};
-    free.spread(shapes.col(k).data(), mode.shape);
-    modes.push_back(std::move(mode));
+    Mode mode = inverse.mode(solver.eigenvalues()[k], shapes.col(k).data(), shift);
+    const double error = inverse.error(mode, shift);
+    least = std::min(least, error);
+    if (error <= kLargestError) modes.push_back(std::move(mode));
   }
+  if (modes.empty())
+    throw std::runtime_error(fmt::format(
+        "modes: omega^2 of {} modes differs from their stiffness over mass by {:.1e} of it or more, "
+        "expected {:.0e}: stiffnesses may lie too far apart for double precision, as those of very "
+        "weak springs and of the body; make them less different",
+        count, least, kLargestError));
   return modes;
 }
 
@@ -213,8 +241,7 @@ std::vector<Mode> lowest_modes(const Body& body, const Supports& supports, const
   MassProduct mass_product(mass, free, body.node_count());
   const auto is_lower = [](const Mode& a, const Mode& b) { return a.eigenvalue < b.eigenvalue; };
   for (int wanted = options.count - static_cast<int>(modes.size()); wanted > 0; wanted = 1) {
-    const std::vector<Mode> found =
-        further_modes(inverse, mass_product, free, wanted, shift, options.tolerance);
+    const std::vector<Mode> found = further_modes(inverse, mass_product, wanted, shift, options.tolerance);
     const bool is_all =
         static_cast<int>(modes.size()) >= options.count && !is_lower(found.front(), modes[options.count - 1]);
     if (is_all) break;

@@ -39,6 +39,40 @@ TEST(Modes, AreTheEigenvaluesOfTheDenseMatrix) {
   }
 }
 
+// A body of other units has the same modes: omega^2 ~ E / (rho L^2), of values that are far from 1, too.
+TEST(Modes, ScaleWithTheModulusAndWithLengths) {
+  const auto eigenvalues = [](double E, double length, bool is_held) {
+    const Solid solid(models::block({2 * length, 1.7 * length, 0.3 * length}, {4, 3, 2}, 2),
+                      models::elastic(E, 0.3));
+    Supports supports;
+    if (is_held) supports.fix(structure::nodes_on(solid.space(), {Face::xi_minus}), {true, true, true});
+    std::vector<double> values;
+    for (const Mode& mode : structure::lowest_modes(solid, supports, undeformed(solid), {20}))
+      values.push_back(mode.eigenvalue * length * length / E);
+    return values;
+  };
+  for (const bool is_held : {true, false}) {
+    const std::vector<double> expected = eigenvalues(1.0, 1.0, is_held);
+    for (const double E : {1e-12, 1.0, 1e12})
+      for (const double length : {1e-3, 1.0}) {
+        const std::vector<double> values = eigenvalues(E, length, is_held);
+        for (int k = is_held ? 0 : 6; k < 20; ++k)
+          EXPECT_NEAR(values[k], expected[k], 1e-8 * expected[k]) << k << ", E " << E << ", L " << length;
+      }
+  }
+}
+
+// Beside omega^2 of springs that are so weak, 1/omega^2 of elastic modes is round-off.
+TEST(Modes, OfABodyOnVeryWeakSpringsAreThoseOfAFreeOne) {
+  const Solid solid(models::block({3, 2, 1}, {3, 2, 1}, 2), models::elastic());
+  structure::Springs springs;
+  springs.add({{0, 1e-15 * Eigen::Matrix3d::Identity()}});
+  const std::vector<Mode> free = structure::lowest_modes(solid, {}, undeformed(solid), {12}),
+                          sprung = structure::lowest_modes(solid, {}, undeformed(solid), {12}, springs);
+  for (int k = 6; k < 12; ++k)
+    EXPECT_NEAR(sprung[k].eigenvalue, free[k].eigenvalue, 1e-7 * free[k].eigenvalue) << k;
+}
+
 // One after the other, of which there are never fewer than was said.
 TEST(Modes, TellHowManySystemsAreSolved) {
   const Solid solid(models::block({3, 2, 1}, {2, 2, 1}, 2), models::elastic());
