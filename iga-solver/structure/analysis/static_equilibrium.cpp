@@ -55,6 +55,15 @@ bool StaticEquilibrium::is_balanced() const {
   return size <= std::max(options_.tolerance * reference_, kRoundOff * stiffness_ * u_.norm());
 }
 
+/// Where a part moves freely it goes so far that round-off balances any load; supports may take it far, too.
+bool StaticEquilibrium::is_adrift() const {
+  constexpr double kSmall = 1e-3, kFollows = 10.0;
+  double led = 0.0;
+  for (const Eigen::Index dof : supports_.fixed_dofs()) led = std::max(led, std::abs(u_.data()[dof]));
+  return relative_residual() > std::max(kSmall, options_.tolerance) &&
+         u_.lpNorm<Eigen::Infinity>() > kFollows * led;
+}
+
 // A full step, or half of it where a law does not know what it is asked for.  A search shortens it until
 // du . residual is small enough, too: by the secant through the last two.
 double StaticEquilibrium::step_along(const NodalVectors& du, double load_factor, bool searches) {
@@ -112,11 +121,20 @@ std::optional<StaticEquilibrium::Failure> StaticEquilibrium::newton(double load_
     const CgResult cg =
         conjugate_gradients(tangent_.product(), *preconditioner_, residual_, du, {std::min(tolerance, 0.5)});
     if (cg.is_positive && !cg.converged)
-      return Failure{now, fmt::format("conjugate gradients do not end in {} products", cg.products)};
+      return Failure{
+          now,
+          fmt::format("conjugate gradients do not end in {} products: can a part of the body move freely?",
+                      cg.products)};
     before = now;
     const double step = step_along(du, load_factor, searches);
     if (on_iteration) on_iteration({load_factor, i, relative_residual(), cg.products, step});
   }
+  if (is_adrift())
+    return Failure{
+        relative_residual(),
+        fmt::format("displacements of {:.3g} are round-off: can a part of the body move freely, as "
+                    "about an edge that alone holds it?",
+                    u_.lpNorm<Eigen::Infinity>())};
   return {};
 }
 

@@ -72,6 +72,7 @@ class StaticEquilibrium {
   void find_residual(double load_factor);
   double relative_residual() const { return residual_.norm() / reference_; }
   bool is_balanced() const;
+  bool is_adrift() const;  // balanced by round-off alone, of displacements without bound
   bool is_folded() const;  // an equilibrium that is none: some volume is 0 or less
   double step_along(const NodalVectors& du, double load_factor, bool searches);
   double mean_stiffness() const;

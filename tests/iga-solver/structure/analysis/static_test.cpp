@@ -10,6 +10,7 @@
 #include "structure/analysis/static_equilibrium.h"
 #include "structure/conditions/loads.h"
 #include "structure/conditions/probe.h"
+#include "structure/weld.h"
 
 namespace {
 
@@ -228,6 +229,50 @@ TEST(Static, RefusesABodyThatCanMove) {
   } catch (const structure::NoEquilibrium& error) {
     EXPECT_NE(std::string(error.what()).find("free in 1 of its 6 rigid motions"), std::string::npos);
   }
+}
+
+/// Two unit blocks of an element each, of which the second stands at the first one's edge x = y = 1.
+Solid two_at_an_edge(int degree) {
+  const nurbs::Volume first = models::block({1, 1, 1}, {1, 1, 1}, degree);
+  nurbs::Volume second = first;
+  second.control_points.colwise() += Vector3(1, 1, 0);
+  const structure::NodeNumbering nodes = structure::weld({first, second});
+  std::vector<structure::PatchBoxes> boxes;
+  for (int p = 0; p < 2; ++p) boxes.emplace_back(first.space, structure::box_cuts(first.space));
+  return {{{first, models::elastic(2e7)}, {second, models::elastic(2e7)}},
+          nodes,
+          {},
+          structure::Partition(boxes, nodes, 1).part(0)};
+}
+
+// Round-off decides whether conjugate gradients end, and how far the second block is then.
+TEST(Static, RefusesAMechanism) {
+  for (const int degree : {1, 2})
+    for (const double traction : {1.0, 1000.0})
+      for (const PreconditionerKind kind : {PreconditionerKind::sparse, PreconditionerKind::nodes}) {
+        const Solid solid = two_at_an_edge(degree);
+        const Supports supports = clamped(solid, {Face::xi_minus});
+        const NodalVectors load = structure::traction_load(solid, {1, Face::xi_plus}, {0, traction, 0});
+        try {
+          StaticEquilibrium statics(solid, supports, load, {1, 1e-8, 25, kind});
+          statics.solve();
+          FAIL() << "found an equilibrium at displacements of " << statics.displacements().norm();
+        } catch (const std::runtime_error& error) {
+          EXPECT_NE(std::string(error.what()).find("move freely"), std::string::npos) << error.what();
+        }
+      }
+}
+
+// Balanced but for round-off, which is all that a body is strained by which supports take along as it is.
+TEST(Static, FollowsSupportsWithoutAStrain) {
+  const Solid solid(models::block({1, 1, 1}, {2, 2, 2}, 2), models::elastic(2e7));
+  Supports supports;
+  supports.move(structure::nodes_on(solid.space(), {Face::xi_minus}), {true, true, true}, {0.3, 0.2, 0.1},
+                structure::ramp(0.0, 1.0));
+  const NodalVectors no_load = NodalVectors::Zero(3, solid.node_count());
+  StaticEquilibrium statics(solid, supports, no_load);
+  statics.solve();
+  EXPECT_LT((statics.displacements().colwise() - Vector3(0.3, 0.2, 0.1)).norm(), 1e-9);
 }
 
 // St. Venant's bar has no equilibrium under a pressure beyond its limit: P = E (s^3 - s) / 2 is least at s^2
