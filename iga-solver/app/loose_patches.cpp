@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <deque>
 #include <map>
@@ -22,6 +23,7 @@ namespace app {
 namespace {
 
 constexpr double kNear = 0.05;  // of an element's width: less is a gap by mistake
+constexpr double kTouching = 1e-9;
 
 /// A face that is not welded to another one.
 struct OpenFace {
@@ -36,6 +38,9 @@ struct OpenFace {
   std::string name() const {
     return fmt::format("'{} {}'", skin.piece.patch, nurbs::face_name(skin.piece.face));
   }
+  nurbs::Vector3 outward(const search::SurfaceProjector::Tangents& at) const {
+    return skin.face.outward_sign * at.along[0].cross(at.along[1]).normalized();
+  }
 };
 
 /// From a face to another one, at a point of it.
@@ -44,7 +49,6 @@ struct Gap {
   double distance, width;  ///< of the element there
   double share() const { return distance / width; }
   std::string in_words() const {
-    constexpr double kTouching = 1e-9;
     return share() < kTouching ? fmt::format("touches face {}", from->name())
                                : fmt::format("is {:.3g} from face {}, {:.2g} of an element's width", distance,
                                              from->name(), share());
@@ -60,35 +64,52 @@ std::deque<OpenFace> open_faces(const io::ModelFile& model) {
   return faces;
 }
 
-/// A point of an element, and how wide the element is.
+/// An element's middle and, `inset` of the way from there to its corners, four points more; and how wide it
+/// is.
 template <class Visit>
-void for_each_sample(const OpenFace& face, Visit visit) {
+void for_each_sample(const OpenFace& face, double inset, Visit visit) {
   const nurbs::Space<2>& space = face.skin.face.space;
   for (int e = 0; e < space.element_count(); ++e) {
     const nurbs::Indices<2> at = space.element_indices(e);
-    const auto middle = face.projector.tangents(space.element_centre(e));  // per half an element
+    const nurbs::Parameter<2> centre = space.element_centre(e);
+    const auto middle = face.projector.tangents(centre);  // per half an element
     const double width = 2.0 * std::min(middle.along[0].norm(), middle.along[1].norm());
-    visit(middle.point, width);
-    for (int corner = 0; corner < 4; ++corner)
-      visit(face.projector
-                .tangents({space.knots(0).breaks()[at[0] + corner % 2],
-                           space.knots(1).breaks()[at[1] + corner / 2]})
-                .point,
-            width);
+    visit(middle, width);
+    for (int corner = 0; corner < 4; ++corner) {
+      nurbs::Parameter<2> xi{space.knots(0).breaks()[at[0] + corner % 2],
+                             space.knots(1).breaks()[at[1] + corner / 2]};
+      for (int d = 0; d < 2; ++d) xi[d] = inset * xi[d] + (1.0 - inset) * centre[d];
+      visit(face.projector.tangents(xi), width);
+    }
   }
 }
 
-/// The narrowest gap, if there is one.
-std::optional<Gap> gap_between(const OpenFace& from, const OpenFace& to) {
+/// Whether there is no material between a point of a face and its foot on another one.
+bool are_face_to_face(const OpenFace& from, const search::SurfaceProjector::Tangents& at, const OpenFace& to,
+                      const search::Foot& foot, double width) {
+  constexpr double kOpposite = -0.5;
+  const auto there = to.projector.tangents(foot.xi);
+  const nurbs::Vector3 normal = from.outward(at);
+  return normal.dot(to.outward(there)) < kOpposite &&
+         (foot.distance < kTouching * width || normal.dot(there.point - at.point) > 0.0);
+}
+
+/// The narrowest gap, if there is one.  Faces of one piece may meet at their borders, and are that near to
+/// each other on both sides of a thin plate.
+std::optional<Gap> gap_between(const OpenFace& from, const OpenFace& to, bool are_one_piece) {
   search::Box near = from.box;
   near.inflate(kNear * (from.box.high - from.box.low).norm());
   if (!near.overlaps(to.box)) return {};
   std::optional<Gap> narrowest;
-  for_each_sample(from, [&](const nurbs::Vector3& point, double width) {
+  std::vector<search::Foot> feet;
+  for_each_sample(from, are_one_piece ? 0.5 : 1.0, [&](const auto& at, double width) {
     const double reach = (narrowest ? narrowest->share() : kNear) * width;
-    if (!(to.box.squared_distance(point) < reach * reach)) return;
-    const double distance = to.projector.cold(point).distance;
-    if (distance < reach) narrowest = Gap{&from, &to, distance, width};
+    if (!(to.box.squared_distance(at.point) < reach * reach)) return;
+    to.projector.all_minima(at.point, reach, feet);
+    if (feet.empty()) return;
+    const search::Foot& foot = feet.front();
+    if (!are_one_piece || are_face_to_face(from, at, to, foot, width))
+      narrowest = Gap{&from, &to, foot.distance, width};
   });
   return narrowest;
 }
@@ -144,28 +165,59 @@ void expect_held_pieces(const io::ModelFile& model) {
 }
 
 std::string almost_welded(const io::ModelFile& model) {
+  if (!model.welds) return "";
   const Pieces pieces = pieces_of(model.nodes);
-  if (!model.welds || pieces.count == 1) return "";
+  const auto piece = [&](const OpenFace& face) { return pieces.of_patch[face.skin.piece.patch]; };
   const std::deque<OpenFace> faces = open_faces(model);
-  std::map<std::pair<int, int>, Gap> gaps;  // the narrowest between two pieces
+  std::map<std::pair<int, int>, Gap> gaps;  // the narrowest between two patches
   for (const OpenFace& from : faces)
     for (const OpenFace& to : faces) {
-      const int a = pieces.of_patch[from.skin.piece.patch], b = pieces.of_patch[to.skin.piece.patch];
-      if (a == b) continue;
-      const std::optional<Gap> gap = gap_between(from, to);
+      if (&from == &to) continue;
+      const std::optional<Gap> gap = gap_between(from, to, piece(from) == piece(to));
       if (!gap) continue;
-      Gap& least = gaps.emplace(std::minmax(a, b), *gap).first->second;
+      Gap& least = gaps.emplace(std::minmax(from.skin.piece.patch, to.skin.piece.patch), *gap).first->second;
       if (gap->share() < least.share()) least = *gap;
     }
   if (gaps.empty()) return "";
   const Gap& gap = std::min_element(gaps.begin(), gaps.end(), [](const auto& a, const auto& b) {
                      return a.second.share() < b.second.share();
                    })->second;
+  const bool is_crack = piece(*gap.from) == piece(*gap.to);
   return fmt::format(
-      "the body falls into {} pieces: face {} {}, and is not welded to it{}; welds are where control points "
-      "stand within 1e-9 of the body's size: let whole faces of one mesh meet, or 'weld: no' if it is meant",
-      pieces.count, gap.to->name(), gap.in_words(),
-      gaps.size() == 1 ? "" : fmt::format(" ({} such places in all)", gaps.size()));
+      "the body {}: face {} {}, and is not welded to it{}; welds are where control points "
+      "stand within 1e-9 of the body's size: let whole faces of one mesh meet, or {} if it is meant",
+      is_crack ? "has a crack" : fmt::format("falls into {} pieces", pieces.count), gap.to->name(),
+      gap.in_words(), gaps.size() == 1 ? "" : fmt::format(" ({} such places in all)", gaps.size()),
+      is_crack ? "leave it so" : "'weld: no'");
+}
+
+std::string hinges(const io::ModelFile& model) {
+  using PatchPair = std::pair<int, int>;
+  std::vector<nurbs::Space<3>> spaces;
+  for (int p = 0; p < model.patch_count(); ++p) spaces.push_back(model.volume(p).space);
+  std::map<structure::Id, std::vector<PatchPair>> across_faces;  // of nodes on welded faces
+  for (const auto& [a, b] : structure::welded_faces(spaces, model.nodes))
+    for (const int point : nurbs::boundary_surface(spaces[a.patch], a.face).volume_control_point)
+      across_faces[model.nodes.node(a.patch, point)].emplace_back(a.patch, b.patch);
+  std::map<PatchPair, int> shared;  // nodes, of patches that no faces around them join
+  for (std::size_t i = 0; i < model.nodes.welded().size(); ++i) {
+    brep::DisjointSets sets(model.patch_count());
+    for (const auto& [a, b] : across_faces[model.nodes.welded()[i]]) sets.join(a, b);
+    const auto places = model.nodes.places_of_welded(i);
+    for (const auto& place : places)
+      if (sets.find(place.patch) != sets.find(places.front().patch)) {
+        ++shared[{places.front().patch, place.patch}];
+        break;
+      }
+  }
+  if (shared.empty()) return "";
+  const auto& [patches, count] = *shared.begin();
+  return fmt::format(
+      "patches {} and {} share {}, but no face there{}: nothing keeps them from turning about it; let whole "
+      "faces "
+      "of one mesh meet",
+      patches.first, patches.second, count == 1 ? "a corner" : fmt::format("an edge ({} nodes)", count),
+      shared.size() == 1 ? "" : fmt::format(" ({} such pairs in all)", shared.size()));
 }
 
 }  // namespace app

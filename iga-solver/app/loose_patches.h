@@ -29,8 +29,13 @@ FreeMotions free_motions(const io::ModelFile& model);
 /// nothing holds it; a body in one piece is the analysis' own matter.
 void expect_held_pieces(const io::ModelFile& model);
 
-/// That faces of different pieces are nearer to each other than anybody means, the nearest ones by name;
-/// empty if none are, or welds are not wanted.
+/// That faces which are not welded are nearer to each other than anybody means, the nearest ones by name: of
+/// different pieces, or, where outward sides look at each other, of one.  Empty if none are, or welds are not
+/// wanted.
 std::string almost_welded(const io::ModelFile& model);
+
+/// That patches share nodes around which no chain of welded faces leads from one to the other; empty if none
+/// do.
+std::string hinges(const io::ModelFile& model);
 
 }  // namespace app

@@ -144,7 +144,8 @@ Warnings warnings_of_run(const io::ModelFile& model) {
   Warnings warnings;
   if (!model.modal_damping.empty())
     warnings.emplace_back("'damping.modal' is not used: it is of 'body modal N' in a deck");
-  if (std::string gap = almost_welded(model); !gap.empty()) warnings.push_back(std::move(gap));
+  for (std::string looseness : {almost_welded(model), hinges(model)})
+    if (!looseness.empty()) warnings.push_back(std::move(looseness));
   warn_of_inner_faces(model, warnings);
   return warnings;
 }

@@ -88,6 +88,35 @@ class Check(Sessions):
             self.assertEqual(told(gap, "--check"), (", 2 pieces that are not welded to each other", []))
         self.assertEqual(told(0.0, "--check", more="weld: no\n")[1], [])
 
+    def test_cracks_and_hinges(self):
+        def told(shapes: str, more: str = "") -> list:
+            text = re.sub("(?m)^    - box.*\n", "", TWO_BOXES).replace("shapes:\n", f"shapes: [{shapes}]\n")
+            (self.folder / "two.yaml").write_text(text + more)
+            done = subprocess.run([PROGRAM, "two.yaml", "--check"], cwd=self.folder, capture_output=True, text=True, timeout=60, check=True)
+            return re.findall("(?m)^WARNING: two.yaml: (?:the body|patches) (has a crack: .*|.* share .*)", done.stdout + done.stderr)
+
+        def box(x: float, y: float, width: float) -> str:
+            return f"{{box: {{origin: [{x}, {y}, 0], size: [1, {width}, 1], elements: [4, 4, 4], degree: 2}}}}"
+
+        def tube(begin: float, end: float) -> str:
+            return f"{{tube: {{origin: [0, 0, 0], axis: [0, 0, 1], inner_radius: 0.999, outer_radius: 1, length: 0.2, " \
+                   f"angle: [{begin}, {end}], elements: [8, 1, 2]}}}}"
+
+        def expect(shapes: str, *patterns: str) -> None:
+            warnings = told(shapes)
+            self.assertEqual(len(warnings), len(patterns), warnings)
+            for warning, pattern in zip(warnings, patterns):
+                self.assertRegex(warning, pattern)
+            self.assertEqual(told(shapes, "weld: no\n"), [])
+
+        hinge, crack = "0 and 1 share an edge [(]6 nodes[)], but no face there: nothing keeps", "has a crack: face '. xi.' {} face '. xi.'"
+        expect(f"{box(0, 0, 1)}, {box(1, 0, 0.5)}", crack.format("touches"), hinge)
+        expect(f"{box(0, 0, 1)}, {box(1, 1, 1)}", hinge)
+        expect(f"{box(0, 0, 1)}, {box(1, 0, 1)}, {box(0, 1, 1)}")  # 1 and 2 share an edge, and 0 is around it
+        expect(f"{tube(0, 180)}, {tube(180, 360)}")
+        for tubes in (tube(0, 359.999), f"{tube(0, 180)}, {tube(180, 359.999)}"):
+            expect(tubes, crack.format("is 1.74e-05 from"))
+
     def test_faces_inside_the_body(self):
         def told(text: str, *words: str) -> list:
             (self.folder / "two.yaml").write_text(text)
