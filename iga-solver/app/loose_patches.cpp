@@ -213,9 +213,8 @@ std::string hinges(const io::ModelFile& model) {
   if (shared.empty()) return "";
   const auto& [patches, count] = *shared.begin();
   return fmt::format(
-      "patches {} and {} share {}, but no face there{}: nothing keeps them from turning about it; let whole "
-      "faces "
-      "of one mesh meet",
+      "patches {} and {} share {}, but no face there{}: nothing keeps them from turning about it; let "
+      "whole faces of one mesh meet",
       patches.first, patches.second, count == 1 ? "a corner" : fmt::format("an edge ({} nodes)", count),
       shared.size() == 1 ? "" : fmt::format(" ({} such pairs in all)", shared.size()));
 }
