@@ -40,6 +40,8 @@ RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
   NodalVectors f = none;
   NodalVectors at_peak = none;  // displacements
   double kinetic = 0.0;
+  const double share = solver.time_step() / solver.stable_time_step();
+  solver.go_on_when_strained();
   solver.hold_conditions_at(options.conditions_time);
   solver.set_velocities(none);
   solver.initialise_forces(none);  // which puts supports where they are to be
@@ -52,6 +54,7 @@ RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
                       peak.residual, options.most_steps, options.tolerance));
     solver.begin_step();
     solver.end_step(none);
+    if (solver.is_too_strained()) solver.set_time_step(share * solver.stable_time_step_now());
     const double now = kinetic_energy(solver);
     if (now >= kinetic) {
       kinetic = now;

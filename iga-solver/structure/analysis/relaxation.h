@@ -28,7 +28,8 @@ struct RelaxPeak {
   double residual;  ///< forces out of balance, relative
 };
 
-/// From the solver's state to rest under its loads, with its time step, which is set.  Gives the last peak.
+/// From the solver's state to rest under its loads, with its time step, which is set; where strain brings the
+/// stable step below it, with the same share of that from then on.  Gives the last peak.
 /// Throws NoEquilibrium if the supports leave the body a rigid motion, std::runtime_error if it takes more
 /// steps, Diverged as the solver.
 RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
