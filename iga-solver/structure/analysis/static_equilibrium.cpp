@@ -52,7 +52,8 @@ void StaticEquilibrium::find_residual(double load_factor) {
 bool StaticEquilibrium::is_balanced() const {
   constexpr double kRoundOff = 4.0 * std::numeric_limits<double>::epsilon();
   const double size = residual_.norm();
-  return size <= std::max(options_.tolerance * reference_, kRoundOff * stiffness_ * u_.norm());
+  return std::isfinite(size) &&
+         size <= std::max(options_.tolerance * reference_, kRoundOff * stiffness_ * u_.norm());
 }
 
 /// Where a part moves freely it goes so far that round-off balances any load; supports may take it far, too.

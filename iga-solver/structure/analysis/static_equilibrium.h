@@ -37,9 +37,9 @@ class StaticEquilibrium {
  public:
   /// f_ext [force] at displacements u, both 3 x node_count.
   using Loads = std::function<void(const NodalVectors& u, NodalVectors& f)>;
-  /// What loads change with u is not in the tangent: Newton's method takes more iterations.  All but `loads`
-  /// must live on.  Throws NoEquilibrium if the supports leave
-  /// the body free to move as a whole, std::invalid_argument as make_preconditioner.
+  /// What loads change with u is not in the tangent: Newton's method takes more iterations, or does not end
+  /// where that is much.  All but `loads` must live on.  Throws NoEquilibrium if the supports leave the body
+  /// free to move as a whole, std::invalid_argument as make_preconditioner.
   StaticEquilibrium(const Body& body, const Supports& supports, Loads loads,
                     const StaticOptions& options = {}, const Springs& springs = Tangent::no_springs());
   /// Of dead loads.

@@ -93,14 +93,15 @@ std::string likely_cause(const LastStep& step) {
   const std::string known =
       stable ? fmt::format(" (the stable step was {} at the start)", step_text(*stable)) : "";
   if (stable && dt > *stable) return fmt::format("the time step {:.6g} is too long{}", dt, known);
+  const auto or_step = [&](const char* words) {  // of a solid that has taken one
+    return dt > 0.0 ? fmt::format(fmt::runtime(words), dt) + known : "";
+  };
   const std::string folded = folded_element(step);
   if (!folded.empty())
-    return fmt::format(
-        "{}: the loads, contact forces or initial velocities are too large for it, or the time step {:.6g} "
-        "is too long for what it is strained to{}",
-        folded, dt, known);
-  return fmt::format(
-      "too large loads, contact forces or initial velocities, or too long a time step, {:.6g}{}", dt, known);
+    return fmt::format("{}: the loads, contact forces or initial velocities are too large for it{}", folded,
+                       or_step(", or the time step {:.6g} is too long for what it is strained to"));
+  return fmt::format("too large loads, contact forces or initial velocities{}",
+                     or_step(", or too long a time step, {:.6g}"));
 }
 
 }  // namespace

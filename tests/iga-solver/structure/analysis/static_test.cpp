@@ -275,6 +275,18 @@ TEST(Static, FollowsSupportsWithoutAStrain) {
   EXPECT_LT((statics.displacements().colwise() - Vector3(0.3, 0.2, 0.1)).norm(), 1e-9);
 }
 
+// A load that grows with what it does, faster than any stiffness.
+TEST(Static, RefusesWhatGrowsBeyondNumbers) {
+  const Solid solid(models::block({1, 1, 1}, {1, 1, 1}, 2), models::elastic());
+  const Supports supports = clamped(solid, {Face::xi_minus});
+  const NodalVectors load = structure::traction_load(solid, {0, Face::xi_plus}, {1, 0, 0});
+  const auto growing = [&](const NodalVectors& u, NodalVectors& f) {
+    f = load * (1.0 + std::pow(u.lpNorm<Eigen::Infinity>(), 2));
+  };
+  StaticEquilibrium statics(solid, supports, growing);
+  EXPECT_THROW(statics.solve(), structure::NoEquilibrium) << statics.displacements().norm();
+}
+
 // St. Venant's bar has no equilibrium under a pressure beyond its limit: P = E (s^3 - s) / 2 is least at s^2
 // = 1/3.
 TEST(Static, SaysWhereThereIsNoEquilibrium) {

@@ -24,6 +24,7 @@ using structure::Solid;
 using structure::Supports;
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 ExplicitSolver cubes_of(int n, std::shared_ptr<const structure::Material> material = models::elastic(),
                         Supports supports = {}) {
@@ -111,6 +112,16 @@ TEST(Divergence, IsWhatCannotBeSquared) {
         [&] { solver.initialise_forces(models::no_forces(solver)); },
         testing::ThrowsMessage<Diverged>(AllOf(HasSubstr("displacement"), HasSubstr("control node 0"))));
   }
+}
+
+TEST(Divergence, IsNotForTheTimeStepOfASolidThatHasTakenNone) {
+  ExplicitSolver solver = cubes_of(1);
+  NodalVectors u = models::no_forces(solver);
+  u.row(2).setConstant(1e110);
+  models::set_displacements(solver, u);
+  EXPECT_THAT([&] { solver.initialise_forces(models::no_forces(solver)); },
+              testing::ThrowsMessage<Diverged>(
+                  AllOf(HasSubstr("displacement"), HasSubstr("loads"), Not(HasSubstr("time step")))));
 }
 
 // The energy that it was given is not finite either.
