@@ -26,7 +26,9 @@ structure::Directions read_directions(const YamlMap& map) {
   for (const std::string& word : map.some_words("fix", "x, y, z")) {
     if (word != "x" && word != "y" && word != "z")
       map.fail("fix", fmt::format("fix has '{}', expected a list of x, y, z", word));
-    directions[word[0] - 'x'] = true;
+    bool& fixed = directions[word[0] - 'x'];
+    if (fixed) map.fail("fix", fmt::format("fix has '{}' twice, expected once", word));
+    fixed = true;
   }
   return directions;
 }

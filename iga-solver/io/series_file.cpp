@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <filesystem>
 #include <stdexcept>
 #include <system_error>
 
@@ -47,6 +48,8 @@ hid_t create_file(const std::string& path) {
 
 hid_t open_file(const std::string& path) {
   const SilentErrors silent;
+  std::error_code unknown;
+  if (std::filesystem::file_size(path, unknown) == 0) return -1;  // HDF5 would begin a new one in it
   return H5Fopen(path.c_str(), H5F_ACC_RDWR, access_without_locks());
 }
 

@@ -303,6 +303,10 @@ TEST_F(HistoryFile, OfDamagedSizesIsRefused) {
   }
   H5Fclose(file);
   expect_refused("1099511627776 rows in 8192 bytes of the file");
+
+  fs::resize_file(path, 0);
+  expect_refused("cannot open this file to go on with it");
+  EXPECT_EQ(fs::file_size(path), 0U) << "HDF5 would begin a new one in it";
 }
 
 // The model reads a geometry file that its own output would replace: under the same name, another spelling, a

@@ -159,6 +159,7 @@ TEST(ModelFile, RefusesBadInputInOneLineThatNamesFileLineGivenAndExpected) {
        {"jelly", "linear_elastic", "saint_venant_kirchhoff", "neo_hooke", "orthotropic_elastic"}},
       {"units: si", "units: imperial", 1, {"imperial", "si", "cgs", "mm-g-ms", "mm-t-s"}},
       {"fix: [z]", "fix: [w]", 7, {"'w'", "x, y, z"}},
+      {"fix: [z]", "fix: [z, x, z]", 7, {"fix has 'z' twice", "expected once"}},
       {"fix: [z]", "fix: []", 7, {"fix is empty", "expected some of: x, y, z"}},
       {"{fix: [z],", "{move: {},", 7, {"move is empty", "expected some of x, y, z"}},
       {"faces: [zeta-]", "faces: []", 7, {"faces is empty", "expected some of: xi-, xi+"}},
