@@ -87,16 +87,43 @@ int FootSearch::without_patches(const Vector3& d, double reach, int* pieces, int
 
 // Where a patch is not curved much, feet do not begin inside of it; on either side, as d may pass through.
 bool FootSearch::has_no_foot_to_come(const int* elements, int count, const Vector3& d, double reach) const {
-  if (!is_well_inside_patch(elements, count, d, reach)) return false;
-  thread_local std::vector<int> of_patch;
+  if (!is_calm_patch(elements, count, d, reach)) return false;
   thread_local std::vector<search::Foot> found;
-  of_patch.clear();
-  for (int k = 0; k < count; ++k) of_patch.push_back(surface_.pieces[elements[k]].element());
   const int face = surface_.pieces[*elements].face, patch = surface_.faces[face].patch;
-  surface_.patches->minima_on(patch, of_patch, d, reach, found);
+  surface_.patches->minima_on(patch, elements_of_patch(elements, count), d, reach, found);
   return std::none_of(found.begin(), found.end(), [&](const search::Foot& foot) {
     return !surface_.patches->on_border(patch, foot.xi) && surface_.domains[face].inside(foot.xi);
   });
+}
+
+// Of a trimmed face edges and vertices would be among the pieces.  Where it is not curved much feet do not
+// begin, but it may be near twice: on both sides of d, as a channel or a scroll is.
+bool FootSearch::is_well_inside_patch(const int* pieces, int count, const Vector3& d, double reach) const {
+  if (!is_calm_patch(pieces, count, d, reach)) return false;
+  thread_local std::vector<search::Foot> found;
+  const int patch = surface_.faces[surface_.pieces[*pieces].face].patch;
+  const std::vector<int>& elements = elements_of_patch(pieces, count);
+  if (surface_.patches->share_one_foot(patch, elements)) return true;
+  surface_.patches->minima_on(patch, elements, d, reach, found);
+  return found.size() <= 1;
+}
+
+// Whether these are elements of one patch, each of which has one foot at most, however d moves within reach.
+bool FootSearch::is_calm_patch(const int* pieces, int count, const Vector3& d, double reach) const {
+  const Piece& first = surface_.pieces[*pieces];
+  const int patch = surface_.faces[first.face].patch;
+  return std::all_of(pieces, pieces + count, [&](int number) {
+    const Piece& piece = surface_.pieces[number];
+    return piece.kind == Piece::Kind::element && piece.face == first.face &&
+           surface_.patches->has_one_foot(patch, piece.element(), d, reach);
+  });
+}
+
+const std::vector<int>& FootSearch::elements_of_patch(const int* pieces, int count) const {
+  thread_local std::vector<int> elements;
+  elements.clear();
+  for (int k = 0; k < count; ++k) elements.push_back(surface_.pieces[pieces[k]].element());
+  return elements;
 }
 
 }  // namespace brep

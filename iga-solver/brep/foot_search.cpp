@@ -159,17 +159,6 @@ bool FootSearch::is_repeated(int piece, const Vector3& shift, const int* pieces,
          face.stays(shift, same_point_);
 }
 
-// Of a trimmed face edges and vertices would be among the pieces.
-bool FootSearch::is_well_inside_patch(const int* pieces, int count, const Vector3& d, double reach) const {
-  const Piece& first = surface_.pieces[*pieces];
-  const int patch = surface_.faces[first.face].patch;
-  return std::all_of(pieces, pieces + count, [&](int number) {
-    const Piece& piece = surface_.pieces[number];
-    return piece.kind == Piece::Kind::element && piece.face == first.face &&
-           surface_.patches->has_one_foot(patch, piece.element(), d, reach);
-  });
-}
-
 bool FootSearch::is_well_inside_curved(const Piece& piece, const Vector3& d, double reach,
                                        double margin) const {
   if (piece.kind == Piece::Kind::trimmed) return surface_.faces[piece.face].distance_of_focus(d) > margin;

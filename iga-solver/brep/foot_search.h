@@ -108,6 +108,8 @@ class FootSearch {
   int without_patches(const Vector3& d, double reach, int* pieces, int count,
                       const std::vector<Border>& borders) const;
   bool has_no_foot_to_come(const int* elements, int count, const Vector3& d, double reach) const;
+  bool is_calm_patch(const int* pieces, int count, const Vector3& d, double reach) const;
+  const std::vector<int>& elements_of_patch(const int* pieces, int count) const;
   bool may_last(const Foot& foot) const;
   double room_on_triangles(const Vector3& d, double reach, double room, const int* pieces, int count,
                            const std::vector<Foot>& feet, int* below) const;

@@ -26,6 +26,11 @@ nurbs::Surface in_small_elements(nurbs::Surface patch) {
   return patch;
 }
 
+// Whether elements share a side or a corner.
+bool touch(const nurbs::Indices<2>& a, const nurbs::Indices<2>& b) {
+  return std::abs(a[0] - b[0]) <= 1 && std::abs(a[1] - b[1]) <= 1;
+}
+
 // d S / d xi_i
 std::array<Vector3, 2> tangents_of(const nurbs::Surface& patch, const Parameter<2>& xi) {
   nurbs::RationalBasis<2> basis;
@@ -143,8 +148,8 @@ void PatchFaces::minima_on(int p, const std::vector<int>& elements, const Vector
 }
 
 // False if the distance may have several minima.  It has one at most where elements hang together and
-// curvatures are half of what would be too much, so that it is convex, up to twice the reach.  (Elements on
-// both sides of a seam do not hang together.)
+// curvatures are half of what would be too much, so that it is convex, up to twice the reach.  Not if going
+// downhill ends on a border, and goes on beyond: at a seam, where elements hang together the other way round.
 bool PatchFaces::follow_downhill(int p, const std::vector<int>& elements, const Vector3& d, double reach,
                                  std::vector<search::Foot>& feet) const {
   const auto is_calm = [&](int element) { return has_one_foot(p, element, d, reach); };
@@ -155,6 +160,7 @@ bool PatchFaces::follow_downhill(int p, const std::vector<int>& elements, const 
   const Parameter<2> start = below(p, nearest, d);
   if ((point(p, start) - d).squaredNorm() > 4.0 * reach * reach) return false;
   const search::Foot foot = projectors_[p]->warm(d, start);
+  if (on_border(p, foot.xi) && !is_lowest_of(p, elements, d, foot)) return false;
   if (foot.distance < reach) feet.push_back(foot);
   return true;
 }
@@ -172,14 +178,33 @@ Parameter<2> PatchFaces::below(int p, int element, const Vector3& d) const {
   return xi;
 }
 
+// Whether a point of the border is lower than all elements: those that are nearer are beside it, and no way
+// round leads back to d.
+bool PatchFaces::is_lowest_of(int p, const std::vector<int>& elements, const Vector3& d,
+                              const search::Foot& border) const {
+  const nurbs::Space<2>& space = patches_[p].space;
+  const nurbs::Indices<2> own = space.element_indices(space.element_at(border.xi));
+  return is_shallow(p, elements) && std::all_of(elements.begin(), elements.end(), [&](int e) {
+           return touch(own, space.element_indices(e)) || !may_have_foot(p, e, d, border.distance, 0);
+         });
+}
+
+// Whether elements that hang together turn by so little, all of them, that they are over a plane.
+bool PatchFaces::is_shallow(int p, const std::vector<int>& elements) const {
+  constexpr double kLittle = 0.5;  // cosine
+  const Vector3& up = cones_[p][elements.front()].normal.axis;
+  return std::all_of(elements.begin(), elements.end(), [&](int e) {
+    const Cones& cones = cones_[p][e];
+    return cones.normal.sine < 1.0 && cones.tangent[0].sine < 1.0 && cones.tangent[1].sine < 1.0 &&
+           cones.normal.axis.dot(up) > kLittle;
+  });
+}
+
 // By sides and corners, one after the other; elements are few.
 bool PatchFaces::hang_together(int p, const std::vector<int>& elements) const {
   thread_local std::vector<nurbs::Indices<2>> left;
   left.clear();
   for (const int element : elements) left.push_back(patches_[p].space.element_indices(element));
-  const auto touch = [](const nurbs::Indices<2>& a, const nurbs::Indices<2>& b) {
-    return std::abs(a[0] - b[0]) <= 1 && std::abs(a[1] - b[1]) <= 1;
-  };
   auto reached = left.begin() + 1;  // those before it hang together
   for (auto from = left.begin(); from != reached; ++from)
     reached = std::partition(reached, left.end(), [&](const auto& e) { return touch(*from, e); });

@@ -45,6 +45,10 @@ class PatchFaces {
   /// in place of those in `feet`.
   void minima_on(int p, const std::vector<int>& elements, const Vector3& d, double reach,
                  std::vector<search::Foot>& feet) const;
+  /// Whether elements, each of which has one foot at most, have one at most together: of any point near them.
+  bool share_one_foot(int p, const std::vector<int>& elements) const {
+    return elements.size() == 1 || (hang_together(p, elements) && is_shallow(p, elements));
+  }
   /// d S / d xi_i [length / parameter]
   Vector3 tangent(int p, const Parameter<2>& xi, int i) const;
   /// Whether xi is at an end of a range of the patch's parameters.
@@ -66,6 +70,9 @@ class PatchFaces {
   bool follow_downhill(int p, const std::vector<int>& elements, const Vector3& d, double reach,
                        std::vector<search::Foot>& feet) const;
   Parameter<2> below(int p, int element, const Vector3& d) const;
+  bool is_lowest_of(int p, const std::vector<int>& elements, const Vector3& d,
+                    const search::Foot& border) const;
+  bool is_shallow(int p, const std::vector<int>& elements) const;
   bool hang_together(int p, const std::vector<int>& elements) const;
 
   std::vector<nurbs::Surface> patches_;

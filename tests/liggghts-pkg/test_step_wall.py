@@ -25,7 +25,7 @@ WEIGHT = 4 / 3 * np.pi * RADIUS**3 * DENSITY * 9.81
 @cache
 def parts() -> dict[str, bytes]:
     maker = os.environ["MAKE_STEP_PARTS"]
-    names = [f"{n}.step" for n in ("box", "cylinder", "cylinder_2", "cylinder_4", "cylinder_8", "nested", "thin_sheet")]
+    names = [f"{n}.step" for n in ("box", "cylinder", "cylinder_2", "cylinder_4", "cylinder_8", "nested", "thin_sheet", "trumpet")]
     with TemporaryDirectory() as folder:
         subprocess.run([maker, folder, *names], check=True)
         return {name: (Path(folder) / name).read_bytes() for name in names}
@@ -215,6 +215,21 @@ class Contacts(unittest.TestCase):
         worn = np.array([state["wear"].sum() for state in states])
         deepest = np.argmin(z)
         self.assertGreater(worn[deepest], 0.9 * worn[-1])
+
+    def test_a_face_closed_in_a_circle(self):
+        """A ring of balls inside, as near a sheet of four elements as its curvature allows: each has one contact, at the seam, too."""
+        t, count, radius = 0.2, 180, 4e-3
+        r, z = 0.01 * (1 - t) ** 2 + 0.022 * t * (1 - t) + 0.045 * t**2, 0.078 * t * (1 - t) + 0.04 * t**2
+        slope = np.array([0.002 * (1 - t) + 0.068 * t, 0.078 * (1 - t) + 0.002 * t])
+        r, z = np.array([r, z]) + 0.996 * radius * np.array([-slope[1], slope[0]]) / np.linalg.norm(slope)
+        angles = 2 * np.pi * (np.arange(count) + 0.37) / count
+        deck = prelude(skin=2e-3, lists="delay 0 exclude type 1 1").text()
+        deck += "".join(create(*((r * np.cos(a), r * np.sin(a), z) for a in angles)))
+        deck += f"set group all diameter {2 * radius} density {DENSITY}\n" + INTEGRATION
+        turning = "surface all motion rotate origin 0 0 0 axis 0 0 1 period 0.1"
+        deck += wall("trumpet.step " + turning) + "fix still all setforce 0 0 0\n" + output(["f_wall[7]"], 50)
+        table = decks.good(deck + "run 1000\n", files=parts()).table
+        np.testing.assert_array_equal(table["wall[7]"], count)
 
     def test_what_is_selected(self):
         """A ball on top of the plate of an assembly, tilted by 5 degrees."""

@@ -10,6 +10,10 @@
 #include <random>
 #include <string>
 
+#include "brep/builder.h"
+#include "brep/faced_patches.h"
+#include "brep/foot_search.h"
+#include "nurbs/borders.h"
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
 
@@ -21,6 +25,12 @@ nurbs::Surface part_of_torus(double ring_angle, double tube_from, double tube_to
   return nurbs::torus(
       at, 3.0, 1.0, nurbs::arc(0.0, ring_angle),
       nurbs::refined(nurbs::arc(tube_from, tube_to), tube_to - tube_from > 90.0 ? 4 : 1, degree));
+}
+
+// Turned by so much in elements so large and bent that where it closes, or nearly does, all of them are near.
+nurbs::Surface trumpet(double angle) {
+  const nurbs::Frame at = nurbs::frame({0.3, -0.2, 0.1}, {0.2, 0.5, 1.0});
+  return nurbs::torus(at, 4.88, 3.88, nurbs::arc(0.0, angle), nurbs::arc(96.0, 182.0));
 }
 
 // A sheet of which one half lies over the other.
@@ -40,6 +50,20 @@ nurbs::Surface hairpin() {
     }
   return {nurbs::Space<2>({nurbs::KnotVector(kDegree, along), nurbs::KnotVector(kDegree, across)}, {}),
           points};
+}
+
+// Two windings, 0.8 apart.
+nurbs::Surface scroll() {
+  constexpr int kDegree = 2, kElements = 24, kCount = kElements + kDegree;
+  const nurbs::KnotVector along = nurbs::KnotVector::uniform(kDegree, kElements),
+                          across = nurbs::KnotVector::uniform(1, 1);
+  nurbs::NodalVectors points(3, 2 * kCount);
+  for (int k = 0; k < kCount; ++k) {
+    const double turn = 2.0 * k / (kCount - 1), r = 1.5 + 0.8 * turn, angle = nurbs::kTwoPi * turn;
+    for (int j = 0; j < 2; ++j)
+      points.col(k + kCount * j) = Vector3(r * std::cos(angle), r * std::sin(angle), 2.0 * j);
+  }
+  return {nurbs::Space<2>({along, across}, {}), points};
 }
 
 struct PatchCase {
@@ -109,6 +133,66 @@ TEST_P(MinimaOnPatch, AreThoseOfBranchAndBound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Patches, MinimaOnPatch, testing::Range(0, 4));
+
+class WhereAPatchCloses : public testing::TestWithParam<double> {};
+
+// A foot beyond the border at which going downhill ends.
+TEST_P(WhereAPatchCloses, NoFootIsLost) {
+  const PatchFaces faces({trumpet(GetParam())}, 0.02);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::vector<search::Foot> found;
+  int together = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const double from_border = 0.03 * (2.0 * uniform(random) - 1.0);
+    const Parameter<2> below{from_border < 0.0 ? 1.0 + from_border : from_border,
+                             0.7 + 0.2 * uniform(random)};
+    const double distance = 0.3 + 0.2 * uniform(random), reach = distance + 0.05;
+    const Vector3 d = faces.point(0, below) - distance * faces.normal(0, below);
+    std::vector<int> elements;
+    for (int e = 0; e < 4; ++e)
+      if (faces.may_have_foot(0, e, d, reach, 0)) elements.push_back(e);
+    together += static_cast<int>(elements.size() == 4);
+    faces.minima_on(0, elements, d, reach, found);
+    EXPECT_TRUE(std::any_of(
+        found.begin(), found.end(),
+        [&](const search::Foot& foot) { return (foot.point - faces.point(0, below)).norm() <= 1e-7; }))
+        << "missed the foot at " << below[0] << ", " << below[1];
+  }
+  EXPECT_GT(together, 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Angles, WhereAPatchCloses, testing::Values(360.0, 358.0));
+
+// Between two windings of a rolled sheet: what is said of a foot of one must hold while d comes to the other.
+TEST(PointsInAScroll, AreNotWellInsideIfTheyComeToASecondFoot) {
+  const std::vector<nurbs::Surface> patches{scroll()};
+  const Surface wall = from_cad(model_of(patches, nurbs::find_borders(patches)), {0}, 0.02);
+  const FootSearch search(wall);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  std::vector<int> near;
+  std::vector<Foot> feet;
+  int inside = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const Parameter<2> xi{uniform(random), uniform(random)};
+    const double touch = 0.2 + 0.5 * uniform(random), margin = 0.2 * touch;
+    const Vector3 d =
+        wall.patches->point(0, xi) + touch * (2.0 * uniform(random) - 1.0) * wall.patches->normal(0, xi);
+    near.clear();
+    search.near(d, touch + margin, near);
+    const int count = static_cast<int>(near.size());
+    if (!search.is_well_inside(near.data(), count, d, touch + margin, margin)) continue;
+    ++inside;
+    for (int way = 0; way < 10; ++way) {
+      const Vector3 off(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random) - 0.5);
+      feet.clear();
+      search.feet(d + 0.99 * margin * off.normalized(), touch, near.data(), count, feet);
+      EXPECT_LE(feet.size(), 1u) << k;
+    }
+  }
+  EXPECT_GT(inside, 500);
+}
 
 }  // namespace
 }  // namespace brep

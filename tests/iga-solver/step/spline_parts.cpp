@@ -13,10 +13,12 @@
 #include <GeomAPI_Interpolate.hxx>
 #include <Geom_BSplineCurve.hxx>
 #include <Geom_BSplineSurface.hxx>
+#include <Geom_BezierCurve.hxx>
 #include <Geom_BezierSurface.hxx>
 #include <Geom_OffsetSurface.hxx>
 #include <TColStd_Array1OfInteger.hxx>
 #include <TColStd_Array1OfReal.hxx>
+#include <TColgp_Array1OfPnt.hxx>
 #include <TColgp_Array2OfPnt.hxx>
 #include <TColgp_HArray1OfPnt.hxx>
 #include <TColgp_HArray1OfPnt2d.hxx>
@@ -191,6 +193,14 @@ TopoDS_Shape revolution() {
   return turned({{40, 0, 0}, {55, 0, 20}, {35, 0, 45}, {30, 0, 70}, {42, 0, 90}}, 2.0 * M_PI);
 }
 
+TopoDS_Shape trumpet() {
+  TColgp_Array1OfPnt poles(1, 3);
+  poles(1) = {10, 0, 0}, poles(2) = {11, 0, 39}, poles(3) = {45, 0, 40};
+  const Handle(Geom_BezierCurve) profile = new Geom_BezierCurve(poles);
+  return BRepPrimAPI_MakeRevol(BRepBuilderAPI_MakeEdge(profile).Edge(), gp_Ax1(gp::Origin(), gp::DZ()))
+      .Shape();
+}
+
 TopoDS_Shape revolution_pole() { return turned({{0, 0, 0}, {30, 0, 6}, {50, 0, 30}, {45, 0, 60}}, 4.0); }
 
 TopoDS_Shape extrusion() {
@@ -212,6 +222,7 @@ std::vector<Part> spline_parts() {
       {"bezier_2_14.step", "degree 14 by nature", bezier_2_14},
       {"offset.step", "an offset surface, which is to be refused", offset},
       {"revolution.step", "a surface of revolution of a spline, full circle", revolution},
+      {"trumpet.step", "a sheet closed in a circle, of four long elements", trumpet},
       {"revolution_pole.step", "a surface of revolution that reaches its axis", revolution_pole},
       {"extrusion.step", "an oblique extrusion of a closed spline", extrusion},
       {"closed_spline.igs", "the periodic spline as IGES", closed_spline}};
