@@ -130,9 +130,10 @@ class FromFaces {
         const Edge curve = curve_of(surface_, side);
         const int radius = radii.number({curve.R, 0.0, 0.0});
         if (!piece.triangle() && face.whole_turn(i % 2)) {
-          const Vector3 axis =
-              curve.axis.dot(Vector3(0.36, 0.48, 0.8)) < 0.0 ? Vector3(-curve.axis) : curve.axis;
-          found[{-1, axes.number(axis), middles.number(curve.origin), radius, 0}].push_back(side);
+          const Vector3 &a = curve.axis, next(a[1], a[2], a[0]);  // products, the same of a and -a
+          found[{-1, axes.number(a.cwiseProduct(a)), middles.number(curve.origin), radius,
+                 axes.number(a.cwiseProduct(next))}]
+              .push_back(side);
           continue;
         }
         const int* at = piece.triangle() ? piece.vertex : surface_.borders[piece.borders()].vertex;

@@ -218,5 +218,28 @@ TEST(Faces, AreRefusedWithTheirNumber) {
               testing::HasSubstr("more than a whole turn"));
 }
 
+// Whichever way their axes look, round-off in them included: a circle has two.
+TEST(CoaxialFaces, MeetInOneSmoothEdge) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  const Vector3 axes[] = {
+      {0.8, -0.6, 0.0}, {-4.0, 3.0, 0.0}, {0.0, 5.0, -3.0}, {-20.0, 0.0, 9.0}, {1.0, 1.0, 1.0}};
+  for (const Vector3& axis : axes)
+    for (int k = 0; k < 8; ++k) {
+      const Vector3 origin(uniform(random), uniform(random), uniform(random)), z = axis.normalized();
+      const Vector3 x = axis.unitOrthogonal();
+      const Frame below = frame_at(origin, z, x), above = frame_at(origin + 0.5 * z, z, x);
+      const Frame turned = frame_at(origin + 0.8 * z, -z, x);  // to meet the lower one from above
+      const double turn = 2.0 * nurbs::kPi;
+      const Face lower = face_of(Kind::cylinder, below, 0.2, 0.0, {0.0, 0.0}, {turn, 0.5});
+      for (const Face& upper : {face_of(Kind::cylinder, above, 0.2, 0.0, {0.0, 0.0}, {turn, 0.3}),
+                                face_of(Kind::cylinder, turned, 0.2, 0.0, {0.0, 0.0}, {turn, 0.3})}) {
+        const Surface surface = from_faces({lower, upper});
+        EXPECT_EQ(surface.edges.size(), 3u) << axis.transpose();
+        EXPECT_EQ(feet(surface, origin + 0.5 * z + 0.25 * x, 0.1).size(), 1u) << axis.transpose();
+      }
+    }
+}
+
 }  // namespace
 }  // namespace brep
