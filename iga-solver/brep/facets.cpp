@@ -46,21 +46,47 @@ class FaceFacets {
  private:
   Vector3 at(const Parameter<2>& xi) const { return point_on(surface_, face_, xi); }
 
-  // Its middle is within the chord of the line between its ends.
+  // Points of the line between two are within the chord: at uneven parts of its way, as a middle alone may be
+  // where a wave crosses or a helix comes round.
   bool is_straight(const Parameter<2>& a, const Parameter<2>& b) const {
-    const Parameter<2> middle{0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])};
-    return (at(middle) - 0.5 * (at(a) + at(b))).norm() <= chord_;
+    constexpr double kUneven = 0.37;
+    const Vector3 from = at(a), way = at(b) - from;
+    const int count = points_between(a, b);
+    for (int k = 0; k <= count; ++k) {
+      const double t = k == count ? 0.5 : (k + kUneven) / count;
+      const Parameter<2> between{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])};
+      if ((at(between) - from - t * way).norm() > chord_) return false;
+    }
+    return true;
+  }
+
+  // As many as a patch has of its degree in the elements between them, beside the middle.
+  int points_between(const Parameter<2>& a, const Parameter<2>& b) const {
+    int count = 4;
+    for (int i = 0; i < 2 && surface_.faces[face_].kind == Kind::nurbs; ++i) {
+      const std::vector<double>& breaks = knots(i).breaks();
+      const auto place = [&](double xi) { return std::upper_bound(breaks.begin(), breaks.end(), xi); };
+      if (a[i] != b[i])
+        count += knots(i).degree() * static_cast<int>(1 + std::abs(place(b[i]) - place(a[i])));
+    }
+    return count;
+  }
+
+  const nurbs::KnotVector& knots(int i) const {
+    return surface_.patches->patch(surface_.faces[face_].patch).space.knots(i);
   }
 
   // How many steps keep lines along xi_i within the chord: doubled until those do that are looked at.
   int steps_along(int i) const {
-    constexpr int kLines = 5;
+    const int other = 1 - i;
+    Parameter<2> a = low_, b = low_;
+    b[other] = high_[other];
+    const int lines = points_between(a, b);
     for (int steps = 1; steps < kMostSteps; steps *= 2) {
       bool fine = true;
       for (int k = 0; k < steps && fine; ++k)
-        for (int line = 0; line < kLines && fine; ++line) {
-          Parameter<2> a, b;
-          a[1 - i] = b[1 - i] = low_[1 - i] + line * (high_[1 - i] - low_[1 - i]) / (kLines - 1);
+        for (int line = 0; line <= lines && fine; ++line) {
+          a[other] = b[other] = low_[other] + line * (high_[other] - low_[other]) / lines;
           a[i] = low_[i] + k * (high_[i] - low_[i]) / steps;
           b[i] = low_[i] + (k + 1) * (high_[i] - low_[i]) / steps;
           fine = is_straight(a, b);
