@@ -86,7 +86,8 @@ struct ContactSurface {
   /// Per patch: +1 or -1 where the normal dS/dxi x dS/deta points out of or into the body; 0 for a two-sided
   /// surface.
   std::vector<int> outward_sign;
-  /// In place of patches, of which there are none then: faces, edges and vertices, two-sided.
+  /// In place of patches, of which there are none then: faces, edges and vertices; which side is outside
+  /// of a body, brep::Face::outward says.
   std::shared_ptr<const brep::Surface> faces = nullptr;
   /// The patches once more, for feet alone: all else, and the parameters of feet, stay those of the patches.
   std::shared_ptr<const brep::FacedPatches> faced = nullptr;

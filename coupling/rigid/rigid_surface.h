@@ -26,7 +26,7 @@ class RigidSurface final : public StructureSolver {
   /// `faced`: the same patches as faces, if feet are searched on these.
   explicit RigidSurface(const std::vector<nurbs::Surface>& patches, std::vector<int> outward_sign = {},
                         std::shared_ptr<const brep::FacedPatches> faced = nullptr);
-  /// Of faces, edges and vertices, two-sided.
+  /// Of faces, edges and vertices, each with the side that is outside (brep::Face::outward).
   explicit RigidSurface(std::shared_ptr<const brep::Surface> faces);
   /// Before the first step.  Throws std::invalid_argument if a servo cannot turn the wall.
   void drive(RigidDrive drive);

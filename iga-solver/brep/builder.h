@@ -24,15 +24,15 @@ struct BuildReport {
 /// face; wedges within edge_angle [rad] of pi are smooth.  Either orientation of triangles will do.  Throws
 /// std::invalid_argument if a number is not finite or there is no such point, or if no triangle is left.
 Surface from_triangles(const NodalVectors& points, const std::vector<int>& triangles,
-                       double edge_angle = 0.02, BuildReport* report = nullptr);
+                       double edge_angle = kEdgeAngle, BuildReport* report = nullptr);
 
 /// Faces with rectangles of parameters; borders of two that coincide to 1e-9 of the size are one edge.  A
 /// whole turn has no border at its seam; the tip of a cone and the poles of part of a sphere are vertices.
 /// Throws std::invalid_argument, naming the face, if a radius, angle or range is not possible.
-Surface from_faces(const std::vector<Face>& faces, double edge_angle = 0.02);
+Surface from_faces(const std::vector<Face>& faces, double edge_angle = kEdgeAngle);
 
 /// These faces of a CAD model, with the edges and vertices on their borders; an edge whose other faces are
 /// not among them is free.  Throws std::invalid_argument, naming the face, if its loops make no sense.
-Surface from_cad(const CadModel& model, const std::vector<int>& faces, double edge_angle = 0.02);
+Surface from_cad(const CadModel& model, const std::vector<int>& faces, double edge_angle = kEdgeAngle);
 
 }  // namespace brep
