@@ -35,6 +35,12 @@ std::uint32_t binary_count(const std::string& bytes, const std::string& file) {
         fmt::format("{}: {} bytes, expected {} at least in a binary STL file", file, bytes.size(), kHeader));
   const std::uint32_t count = unsigned_at(bytes.data() + kHeader - 4);
   const std::uint64_t expected = kHeader + kTriangle * std::uint64_t{count};
+  if (bytes.size() > expected && count > 0)
+    throw InputError(
+        fmt::format("{}: {} bytes too many behind the last of the {} triangles that are announced at byte "
+                    "{}, expected {} bytes in a "
+                    "binary STL file, {} are there; 'head -c {} FILE' gives these",
+                    file, bytes.size() - expected, count, kHeader - 4, expected, bytes.size(), expected));
   if (bytes.size() != expected)
     throw InputError(
         fmt::format("{}: {} triangles are announced at byte {}, expected {} bytes in a binary "
@@ -81,9 +87,6 @@ GeometryFile parse_stl(const std::string& bytes, const std::string& file, Units 
   for (TriangleMesh& mesh : meshes) {
     const SurfacePiece piece{static_cast<int>(geometry.patches.size()), std::nullopt};
     geometry.surfaces[kAllPatches].push_back(piece);
-    if (mesh.name == kAllPatches && meshes.size() > 1)
-      fail_at_line(file, mesh.place.front(),
-                   "a solid is called 'all', which means all solids, expected another name");
     if (!mesh.name.empty() && mesh.name != kAllPatches) geometry.surfaces[mesh.name].push_back(piece);
     geometry.patches.emplace_back(std::move(mesh));
   }

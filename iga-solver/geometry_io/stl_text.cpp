@@ -49,10 +49,11 @@ class TextReader {
  private:
   void read_solid() {
     solid_line_ = line_;
-    soup_.blocks.push_back({name(false), static_cast<int>(soup_.place.size())});
+    const std::size_t first = soup_.place.size();
+    soup_.blocks.push_back({name(false), static_cast<int>(first)});
     for (;;) {
       const string_view word = next_word();
-      if (is_word(word, "endsolid")) break;
+      if (is_word(word, "endsolid") || (word.empty() && soup_.place.size() > first)) break;  // some forget it
       if (!is_word(word, "facet")) fail(word, "'facet' or 'endsolid'");
       read_facet();
     }
