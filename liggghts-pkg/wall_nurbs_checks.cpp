@@ -175,8 +175,10 @@ std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, double 
         "the centre of particle {} would cross the wall within one step, at a speed of {:.6g} towards it ({} "
         "cases of this kind in this run): {}",
         crossing.tag, crossing.speed, crossing.count,
-        slow_enough < dt ? fmt::format("use a timestep of at most {:.3g}", slow_enough)
-                         : "its contact does not hold it, use a stiffer one or less cohesion"));
+        slow_enough < dt
+            ? fmt::format("use a timestep of at most {:.3g}", slow_enough)
+            : "its contact does not hold it, use a stiffer one or less cohesion; or it began inside "
+              "a solid, where it feels nothing until it comes out: is the part the void?"));
   }
   if (stiff.count > 0)
     alarms.push_back(

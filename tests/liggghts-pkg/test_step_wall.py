@@ -181,6 +181,13 @@ class Contacts(unittest.TestCase):
         for k in (1, 2):
             self.assertLess(np.abs(table[f"wall[{k}]"]).max(), 1e-12 * WEIGHT)
 
+    def test_a_centre_that_begins_inside(self):
+        """It falls through the box, and what is said of it where it comes out names that cause."""
+        deck = prelude().text() + balls([(0.0, 0.0, -0.019)], (0, 0, -0.2)) + wall("box.step surface all")
+        run = decks.good(deck + output(["f_wall[7]"], 10) + "run 280\n", files=parts())
+        self.assertEqual(run.table["wall[7]"][0], 0.0)
+        self.assertIn("began inside a solid", run.text)
+
     def test_a_centre_that_passes_a_thin_sheet(self):
         """A soft ball hits 2 mm so hard that its centre comes out below: Hertz' law, all of its energy, back it goes."""
         deepest = 1.6 * RADIUS
