@@ -98,7 +98,8 @@ class InverseProduct {
         on_solve_(options.on_solve),
         b_(3, tangent.body().node_count()) {}
   Eigen::Index rows() const { return free_.count(); }
-  int node_count() const { return tangent_.body().node_count(); }
+  /// Of the space that the known shapes leave.
+  Eigen::Index dimension() const { return rows() - static_cast<Eigen::Index>(known_.all().size()); }
   void set_shift(double /*sigma*/) {}  // the tangent has it
   /// Of this many, at least, from now on, whose first chooses c.
   void begin(int products) {
@@ -107,9 +108,17 @@ class InverseProduct {
   }
   /// omega^2 of what Spectra found, and q of its numbers.
   Mode mode(double eigenvalue, const double* values, double shift) const {
-    Mode mode{scale_ * eigenvalue - shift, NodalVectors(3, node_count())};
+    Mode mode{scale_ * eigenvalue - shift, NodalVectors(3, tangent_.body().node_count())};
     free_.spread(values, mode.shape);
+    mode.shape /= std::sqrt(known_.product(mode.shape, mode.shape));
     return mode;
+  }
+  /// Where one is left.
+  Mode last_mode(double shift) {
+    begin(1);
+    Eigen::VectorXd values = Eigen::VectorXd::LinSpaced(rows(), 1.0, 2.0);
+    perform_op(values.data(), values.data());
+    return mode(1.0, values.data(), shift);
   }
   /// Rayleigh's quotient less omega^2, relative: the square of what a shape has of other modes.
   double error(const Mode& mode, double shift) const {
@@ -187,7 +196,8 @@ double shift_of_free_body(const Tangent& tangent, const OrthonormalShapes& rigid
 /// Of the lowest `count` that are not among the known those that round-off lets be found.
 std::vector<Mode> further_modes(InverseProduct& inverse, MassProduct& mass, int count, double shift,
                                 double tolerance) {
-  const Eigen::Index basis = std::min<Eigen::Index>(inverse.rows(), 2 * count + 10);
+  if (inverse.dimension() == 1) return {inverse.last_mode(shift)};
+  const Eigen::Index basis = std::min<Eigen::Index>(inverse.dimension(), 2 * count + 10);
   inverse.begin(static_cast<int>(basis));
   Spectra::SymGEigsShiftSolver<InverseProduct, MassProduct, Spectra::GEigsMode::ShiftInvert> solver(
       inverse, mass, count, basis, 0.0);
@@ -240,7 +250,8 @@ std::vector<Mode> lowest_modes(const Body& body, const Supports& supports, const
   InverseProduct inverse(tangent, free, known, options);
   MassProduct mass_product(mass, free, body.node_count());
   const auto is_lower = [](const Mode& a, const Mode& b) { return a.eigenvalue < b.eigenvalue; };
-  for (int wanted = options.count - static_cast<int>(modes.size()); wanted > 0; wanted = 1) {
+  for (int wanted = options.count - static_cast<int>(modes.size()); wanted > 0 && inverse.dimension() > 0;
+       wanted = 1) {
     const std::vector<Mode> found = further_modes(inverse, mass_product, wanted, shift, options.tolerance);
     const bool is_all =
         static_cast<int>(modes.size()) >= options.count && !is_lower(found.front(), modes[options.count - 1]);

@@ -39,6 +39,22 @@ TEST(Modes, AreTheEigenvaluesOfTheDenseMatrix) {
   }
 }
 
+TEST(Modes, MayBeAllButOne) {
+  const Solid solid(models::block({3, 2, 1}, {1, 1, 1}, 2), models::elastic());
+  Supports held;
+  held.fix(structure::nodes_on(solid.space(), {Face::xi_minus}), {true, true, true});
+  for (const Supports& supports : {held, Supports()}) {
+    const Eigen::VectorXd expected =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(models::mass_scaled_stiffness(solid, supports))
+            .eigenvalues();
+    const int count = static_cast<int>(expected.size()) - 1;
+    const std::vector<Mode> modes = structure::lowest_modes(solid, supports, undeformed(solid), {count});
+    ASSERT_EQ(modes.size(), std::size_t(count));
+    for (int k = 0; k < count; ++k)
+      EXPECT_NEAR(modes[k].eigenvalue, expected[k], 1e-7 * (expected[k] + expected[6])) << k;
+  }
+}
+
 // A body of other units has the same modes: omega^2 ~ E / (rho L^2), of values that are far from 1, too.
 TEST(Modes, ScaleWithTheModulusAndWithLengths) {
   const auto eigenvalues = [](double E, double length, bool is_held) {
