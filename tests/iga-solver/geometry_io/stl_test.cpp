@@ -15,7 +15,6 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::StartsWith;
 using testing::ThrowsMessage;
 
 GeometryFile parsed_stl(const std::string& bytes, const std::string& file = "part.stl") {

@@ -32,6 +32,9 @@ loads: {gravity: [0, 0, -2]}
 constexpr double kMass = 3.0, kGravity = 2.0, kStep = 0.01;
 
 class HistoryFile : public testing::Test {
+ public:
+  ~HistoryFile() override { fs::remove_all(folder_); }
+
  protected:
   // One folder per test: CTest runs them at the same time.
   HistoryFile()
@@ -39,7 +42,6 @@ class HistoryFile : public testing::Test {
                 (std::string("history_") + testing::UnitTest::GetInstance()->current_test_info()->name())) {
     fs::create_directories(folder_);
   }
-  ~HistoryFile() override { fs::remove_all(folder_); }
 
   std::string base() const { return (folder_ / "falling").string(); }
 
