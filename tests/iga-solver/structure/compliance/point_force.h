@@ -40,18 +40,14 @@ inline NodalVectors unit_force(const ReferenceBody& body, const nurbs::Parameter
   return load;
 }
 
-/// Displacements under nodal forces, the body held where `is_held(X)`: by conjugate gradients.
-template <class IsHeld>
-NodalVectors displacements(const ReferenceBody& body, const NodalVectors& load, IsHeld is_held) {
-  const Volume& patch = body.patches[0];
-  const structure::Solid solid(patch, body.materials[0], {body.quadrature});
-  NodalVectors free = NodalVectors::Zero(3, load.cols());
-  for (int a = 0; a < solid.node_count(); ++a)
-    if (!is_held(patch.control_points.col(a))) free.col(a).setOnes();
+/// u of K u = load on what is `free` (1 or 0), by conjugate gradients down to `goal` of the load;
+/// product(d, q): q = K d.
+template <class Product>
+NodalVectors solved(const NodalVectors& load, const NodalVectors& free, double goal, Product product) {
   NodalVectors r = load.cwiseProduct(free), u = 0.0 * r, d = r, q = r;
-  const double goal = 1e-20 * r.squaredNorm();
-  for (double rr = r.squaredNorm(); rr > goal;) {
-    solid.internal_force(d, q);
+  const double least = goal * goal * r.squaredNorm();
+  for (double rr = r.squaredNorm(); rr > least;) {
+    product(d, q);
     q = q.cwiseProduct(free);
     const double step = rr / d.cwiseProduct(q).sum();
     u += step * d;
@@ -61,6 +57,18 @@ NodalVectors displacements(const ReferenceBody& body, const NodalVectors& load, 
     rr = next;
   }
   return u;
+}
+
+/// Displacements under nodal forces, the body held where `is_held(X)`.
+template <class IsHeld>
+NodalVectors displacements(const ReferenceBody& body, const NodalVectors& load, IsHeld is_held) {
+  const Volume& patch = body.patches[0];
+  const structure::Solid solid(patch, body.materials[0], {body.quadrature});
+  NodalVectors free = NodalVectors::Zero(3, load.cols());
+  for (int a = 0; a < solid.node_count(); ++a)
+    if (!is_held(patch.control_points.col(a))) free.col(a).setOnes();
+  return solved(load, free, 1e-10,
+                [&](const NodalVectors& d, NodalVectors& q) { solid.internal_force(d, q); });
 }
 
 /// Normal displacement of the foot by a unit force there.

@@ -82,19 +82,13 @@ double give_when_strained(const nurbs::Volume& patch, const Matrix3& F, const Pa
   NodalVectors free = NodalVectors::Ones(3, X.cols());
   for (Eigen::Index a = 0; a < X.cols(); ++a)
     if (X(2, a) < 1e-9) free.col(a).setZero();
-  NodalVectors r = load, u = 0.0 * r, d = r, q = r, before = r;
-  for (double rr = r.squaredNorm(); rr > 1e-12 * load.squaredNorm();) {
+  NodalVectors before = load;
+  const NodalVectors u = point_force::solved(load, free, 1e-6, [&](const NodalVectors& d, NodalVectors& q) {
     const double small = 1e-5 / d.lpNorm<Eigen::Infinity>();
     solid.internal_force(u0 + small * d, q);
     solid.internal_force(u0 - small * d, before);
-    q = ((q - before) / (2.0 * small)).cwiseProduct(free);
-    const double step = rr / d.cwiseProduct(q).sum();
-    u += step * d;
-    r -= step * q;
-    const double next = r.squaredNorm();
-    d = r + next / rr * d;
-    rr = next;
-  }
+    q = (q - before) / (2.0 * small);
+  });
   return u.cwiseProduct(load).sum();
 }
 
