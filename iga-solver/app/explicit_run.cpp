@@ -193,14 +193,17 @@ Steps steps_to(double end, const SolveOptions& options, const io::ModelFile& mod
   return {count, size, count == 1 ? longest : size};
 }
 
-double find_stable_step(const io::ModelFile& model, const ExplicitSolver& solver, Talk talk) {
-  const double stable = with_name(model, [&] { return solver.stable_time_step(); });
+double find_stable_step(const io::ModelFile& model, ExplicitSolver& solver, Talk talk) {
+  const double undeformed = with_name(model, [&] { return solver.stable_time_step(); }),
+               strained = model.state ? with_name(model, [&] { return solver.renew_stable_time_step(); })
+                                      : undeformed,
+               stable = std::min(undeformed, strained);
   const double viscosity = structure::viscosity(*model.materials.front());
-  if (talk != Talk::errors_only)
-    print_on_first("  stable step  {}{}\n", step_text(stable),
-                   viscosity == 0.0 ? ""
-                                    : fmt::format(", damped; {} without",
-                                                  step_text(structure::undamped_step(stable, viscosity))));
+  std::string beside;
+  if (stable < undeformed) beside += fmt::format(", strained as in 'state'; {} else", step_text(undeformed));
+  if (viscosity > 0.0)
+    beside += fmt::format(", damped; {} without", step_text(structure::undamped_step(stable, viscosity)));
+  if (talk != Talk::errors_only) print_on_first("  stable step  {}{}\n", step_text(stable), beside);
   return stable;
 }
 

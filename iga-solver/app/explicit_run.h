@@ -42,7 +42,7 @@ Steps steps_to(double end, const SolveOptions& options, const io::ModelFile& mod
 double longest_step(const SolveOptions& options, const io::ModelFile& model, double stable);
 
 /// The stable step, which takes 20 internal forces; printed.  Collective.
-double find_stable_step(const io::ModelFile& model, const structure::ExplicitSolver& solver, Talk talk);
+double find_stable_step(const io::ModelFile& model, structure::ExplicitSolver& solver, Talk talk);
 
 /// Runs, prints, writes what the model asks for.  Collective; throws std::runtime_error.
 void run_in_time(const SolveOptions& options, io::ModelFile& model);

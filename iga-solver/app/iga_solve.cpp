@@ -8,8 +8,8 @@
 #include "analyses.h"
 #include "command.h"
 #include "explicit_run.h"
+#include "held_pieces.h"
 #include "io/model_file.h"
-#include "loose_patches.h"
 #include "model_check.h"
 #include "model_report.h"
 #include "parallel/all_or_none.h"
@@ -48,9 +48,10 @@ void run(const SolveOptions& options) {
     throw std::runtime_error(
         fmt::format("{}: --continue goes on with a motion in time, the model has an 'analysis'", model.file));
   if (options.check) return app::check_model(options, model);
-  if (app::is_first_rank())
+  parallel::on_first_rank(MPI_COMM_WORLD, [&] {
     for (const std::string& warning : app::warnings_of_run(model))
       fmt::print(stderr, "WARNING: {}: {}\n", model.file, warning);
+  });
   app::check_save(model);  // a long run would be for nothing
   model.analysis ? analyse(options, model) : app::run_in_time(options, model);
 }

@@ -12,7 +12,7 @@
 #include "explicit_run.h"
 #include "geometry_io/regular_file.h"
 #include "io/history.h"
-#include "loose_patches.h"
+#include "io/loose_patches.h"
 #include "model_report.h"
 #include "nurbs/memory.h"
 #include "parallel/all_or_none.h"
@@ -36,7 +36,7 @@ double memory_taken() {
 void print_size(const io::ModelFile& model, const ExplicitSolver& solver) {
   long control_points = 0;
   for (int p = 0; p < model.patch_count(); ++p) control_points += model.volume(p).space.control_point_count();
-  const int pieces = pieces_of(model.nodes).count;
+  const int pieces = io::pieces_of(model.nodes).count;
   print_on_first("  patches      {}, {} control points, {} nodes{}\n", model.patch_count(), control_points,
                  static_cast<long>(model.nodes.node_count()),
                  pieces > 1 ? fmt::format(", {} pieces that are not welded to each other", pieces) : "");
@@ -85,11 +85,12 @@ std::optional<std::string> save_of(const io::ModelFile& model) {
   return {};
 }
 
-void check_motion(const SolveOptions& options, const io::ModelFile& model, const ExplicitSolver& solver,
+void check_motion(const SolveOptions& options, const io::ModelFile& model, ExplicitSolver& solver,
                   const Continued& continued) {
   const Clock::time_point start = Clock::now();
-  const double stable = find_stable_step(model, solver, Talk::usual);
+  with_name(model, [&] { solver.stable_time_step(); });  // kept
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  const double stable = find_stable_step(model, solver, Talk::usual);
   const std::optional<double> end = end_of(options, model);
   with_name(model, [&] {
     solver.expect_finite_conditions(continued ? continued->time : 0.0);

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <variant>
 
+#include "held_pieces.h"
 #include "io/inner_faces.h"
-#include "loose_patches.h"
+#include "io/loose_patches.h"
 #include "model_report.h"
 #include "structure/material/viscous.h"
 
@@ -89,10 +90,13 @@ void warn_of_unused(const io::ModelFile& model, Warnings& warnings) {
   const auto unused = [&](bool is_so, const char* key, const char* why) {
     if (is_so) warnings.push_back(fmt::format("'{}' is not used: {}", key, why));
   };
-  unused(!model.output && !model.analysis && !model.probes.empty(), "probes", "there is no 'output'");
-  unused(!model.output && !model.analysis && !model.named_supports().empty(), "name of boundary",
-         "reactions are recorded by 'output'");
-  if (!model.analysis) return;
+  if (!model.analysis) {
+    unused(!model.output && !model.probes.empty(), "probes", "there is no 'output'");
+    unused(!model.output && !model.named_supports().empty(), "name of boundary",
+           "reactions are recorded by 'output'");
+    return;
+  }
+  unused(is_of(model, kModes) && !model.probes.empty(), "probes", "modes have no displacement of their own");
   const char* const why = "an 'analysis' has no motion in time";
   unused(model.time.has_value() && !(is_of(model, kRelax) && model.time->step), "time", why);
   unused(model.initial_velocity.has_value(), "initial", why);
@@ -144,9 +148,9 @@ Warnings warnings_of_run(const io::ModelFile& model) {
   Warnings warnings;
   if (!model.modal_damping.empty())
     warnings.emplace_back("'damping.modal' is not used: it is of 'body modal N' in a deck");
-  for (std::string looseness : {almost_welded(model), hinges(model)})
-    if (!looseness.empty()) warnings.push_back(std::move(looseness));
+  for (std::string& looseness : io::loose_patches(model)) warnings.push_back(std::move(looseness));
   warn_of_inner_faces(model, warnings);
+  warn_of_unused(model, warnings);
   return warnings;
 }
 
@@ -154,7 +158,6 @@ Warnings warnings_of(const io::ModelFile& model, std::optional<double> end) {
   Warnings warnings = warnings_of_run(model);
   warn_of_conditions(model, warnings);
   warn_of_thin_elements(model, warnings);
-  warn_of_unused(model, warnings);
   warn_of_output(model, end, warnings);
   return warnings;
 }

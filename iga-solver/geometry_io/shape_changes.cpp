@@ -26,12 +26,20 @@ std::vector<int> per_direction(const YamlMap& map, const std::string& key, int d
 template <int Dim>
 void raise_degree(const YamlMap& map, Patch<Dim>& patch) {
   const std::vector<int> degrees = per_direction(map, "degree", Dim, nurbs::max_degree(Dim));
+  std::vector<int> counts, others;
   for (int d = 0; d < Dim; ++d) {
     const int given = patch.space.degree(d);
     if (degrees[d] < given)
       map.fail("degree",
                fmt::format("degree is {} in direction {}, expected at least the {} that the patch has",
                            degrees[d], d + 1, given));
+    const int elements = patch.space.knots(d).element_count();  // each gets so many control points more
+    counts.push_back(elements);
+    others.push_back(patch.space.control_point_count(d) + (degrees[d] - given - 1) * elements);
+  }
+  expect_size(map, "degree", counts, others);
+  for (int d = 0; d < Dim; ++d) {
+    const int given = patch.space.degree(d);
     if (degrees[d] > given) patch = nurbs::elevate_degree(patch, d, degrees[d] - given);
   }
 }

@@ -68,7 +68,13 @@ void take(const SavedState& state, double time, structure::ExplicitSolver& solve
   append(state.displacement, numbers);
   append(state.velocity, numbers);
   append(NodalVectors::Zero(3, reference.cols()), numbers);  // accelerations: found from the forces
-  const bool is_kept = state.memory.size() == remembered;
+  const std::string discretisation = solver.body().discretisation();
+  const bool are_its_points = state.discretisation.empty() || state.discretisation == discretisation,
+             is_kept = state.memory.size() == remembered && are_its_points;
+  if (!are_its_points && has_own_memory(solver.body()))
+    throw InputError(fmt::format(
+        "{}: has the memory of the law '{}' at other points: {} then, {} now; give the quadrature of then",
+        state.file, solver.body().materials().front()->law(), state.discretisation, discretisation));
   if (!is_kept && has_own_memory(solver.body()))
     throw InputError(
         fmt::format("{}: has a memory of {} numbers, expected {}: that of the law '{}'; give "
@@ -103,6 +109,7 @@ void write_state(const std::string& path, geometry_io::Units units, const SavedS
     file.add_numbers("/state/work", {state.moment->work.size()}, state.moment->work.data());
     if (!state.moment->momentum.empty()) add("momentum", nodal_vectors(state.moment->momentum));
   }
+  if (!state.discretisation.empty()) file.set_text("/state", "discretisation", state.discretisation);
   if (!state.settings.empty()) file.add_texts("/state/settings", to_texts(state.settings));
   const std::string problem = geometry_io::write_file(path, [&](std::ostream& out) { out << file.bytes(); });
   if (!problem.empty()) throw std::runtime_error(fmt::format("{}: cannot write here: {}", path, problem));
@@ -142,6 +149,7 @@ SavedState read_state(const std::string& path, geometry_io::Units units, const g
                                                momentum.cols(), state.reference.cols()));
     append(momentum, state.moment->momentum);
   }
+  if (file.has("/state", "discretisation")) state.discretisation = file.text("/state", "discretisation");
   if (file.has("/state/settings")) state.settings = settings_from(file.texts("/state/settings"));
   return state;
 }
@@ -158,9 +166,11 @@ void put_at_rest(structure::ExplicitSolver& solver, const NodalVectors& u, doubl
 }
 
 SavedState state_of(const structure::ExplicitSolver& solver) {
-  return {"", nodal_vectors(solver.in_order(solver.body().reference())),
-          nodal_vectors(solver.in_order(solver.displacements())),
-          nodal_vectors(solver.in_order(solver.velocities())), solver.memory_in_order()};
+  SavedState state{"", nodal_vectors(solver.in_order(solver.body().reference())),
+                   nodal_vectors(solver.in_order(solver.displacements())),
+                   nodal_vectors(solver.in_order(solver.velocities())), solver.memory_in_order()};
+  state.discretisation = solver.body().discretisation();
+  return state;
 }
 
 SavedState moment_of(const structure::ExplicitSolver& solver) {

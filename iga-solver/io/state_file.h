@@ -32,7 +32,8 @@ struct SavedState {
     std::vector<double> work, momentum;
   };
   std::optional<Moment> moment = {};
-  Settings settings = {};  ///< of the model of then, if the file tells
+  Settings settings = {};           ///< of the model of then, if the file tells
+  std::string discretisation = {};  ///< Body's: of other points the memory is; likewise
 };
 
 /// Throws std::runtime_error, naming the file, if it cannot be written.
@@ -51,8 +52,8 @@ SavedState state_of(const structure::ExplicitSolver& solver);
 /// The same in a motion, to be continued.
 SavedState moment_of(const structure::ExplicitSolver& solver);
 /// The solver goes on from there, at time 0; loads and supports are its own.  Viscosity that has nothing to
-/// remember of its points begins at rest.  Throws geometry_io::InputError if the state is of another mesh, or
-/// of a law with another memory.  Collective.
+/// remember of its points, or of those of another quadrature, begins at rest.  Throws geometry_io::InputError
+/// if the state is of another mesh, or of a law with another memory.  Collective.
 void start_from(const SavedState& state, structure::ExplicitSolver& solver);
 /// The same at the time of the state: with the same time step, and after initialise_forces the work of then,
 /// the motion is that of a run that was not interrupted, to the last bit, cut in any way.  Also throws if the

@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "nurbs/memory.h"
+
 namespace structure {
 
 MassMatrix::MassMatrix(const Body& body, MassKind kind) : matrix_(body.node_count(), body.node_count()) {
@@ -10,6 +12,11 @@ MassMatrix::MassMatrix(const Body& body, MassKind kind) : matrix_(body.node_coun
   if (kind == MassKind::lumped) {
     for (int A = 0; A < body.node_count(); ++A) entries.emplace_back(A, A, body.row_sum_mass()[A]);
   } else {
+    constexpr double kMore = 1.5;  // of the matrix that they become
+    const auto of_element = static_cast<double>(body.element_nodes(0).size());
+    const double count = body.element_count() * of_element * of_element;
+    nurbs::expect_memory(kMore * count * sizeof(entries.front()), "the matrix of consistent masses");
+    entries.reserve(static_cast<std::size_t>(count));
     for (int e = 0; e < body.element_count(); ++e) {
       const std::vector<int> nodes = body.element_nodes(e);
       const Eigen::MatrixXd mass = body.element_mass_matrix(e);

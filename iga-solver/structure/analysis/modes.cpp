@@ -239,7 +239,10 @@ std::vector<Mode> lowest_modes(const Body& body, const Supports& supports, const
                     free.count()));
   const MassMatrix mass(body, options.mass);
   OrthonormalShapes known(mass);
-  const NodalVectors positions = body.reference() + u;
+  const std::vector<const Material*> laws = body.materials();
+  const bool turns =
+      std::none_of(laws.begin(), laws.end(), [](const Material* law) { return law->is_small_strain(); });
+  const NodalVectors positions = turns ? body.reference() + u : body.reference();
   for (NodalVectors& motion : free_rigid_motions(positions, supports, springs)) known.add(std::move(motion));
   std::vector<Mode> modes;
   for (const NodalVectors& shape : known.all()) modes.push_back({0.0, shape});

@@ -62,6 +62,7 @@ RelaxPeak relax(ExplicitSolver& solver, const RelaxOptions& options,
       continue;
     }
     solver.set_motion(at_peak, none, solver.time());
+    solver.settle();
     solver.initialise_forces(none);
     peak = {step, relative_residual(solver, options.conditions_time, f)};
     if (on_peak) on_peak(peak);

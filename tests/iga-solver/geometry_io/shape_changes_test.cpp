@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry_io/geometry_file.h"
+#include "geometry_io/shape_limits.h"
 
 namespace geometry_io {
 namespace {
@@ -53,6 +54,23 @@ TEST(ShapeChanges, ScaledThenTurnedThenMoved) {
 struct BadChange {
   const char *line, *message;
 };
+
+// Control points come with degrees, too.
+TEST(ShapeChanges, AHigherDegreeAsksForRoom) {
+  const geometry_io::ShapeLimits limits = geometry_io::shape_limits();
+  const auto read = [](const char* degree) {
+    parse_geometry_file(
+        std::string("units: si\ngeometry:\n  refine: {degree: ") + degree +
+            "}\n  box: {origin: [0, 0, 0], size: [1, 1, 1], elements: [4, 3, 2], degree: 1}\n",
+        "wall.yaml");
+  };
+  geometry_io::shape_limits().control_points = 315;  // 9 x 7 x 5
+  EXPECT_NO_THROW(read("2"));
+  EXPECT_THAT([&] { read("[2, 3, 2]"); },
+              testing::ThrowsMessage<InputError>(testing::HasSubstr(
+                  "degree: elements are 4 x 3 x 2, about 450 control points, expected at most 315")));
+  geometry_io::shape_limits() = limits;
+}
 
 TEST(ShapeChanges, SaysWhatWasGivenAndWhatWasExpected) {
   const std::string box =

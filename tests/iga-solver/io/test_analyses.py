@@ -98,7 +98,8 @@ class Analyses(unittest.TestCase):
     def test_viscosity_comes_and_goes_at_a_state(self):
         """It begins with the strain at rest, on parts of the body, too; with other points, likewise."""
         viscous, fewer = "damping: {stiffness: 1e-5}\n", "integration: {quadrature: reduced}\n"
-        for then, now in (("", viscous), (viscous, ""), (viscous, viscous + fewer)):
+        others = "integration: {quadrature: zou}\n"  # of as many numbers
+        for then, now in (("", viscous), (viscous, ""), (viscous, viscous + fewer), (viscous + others, viscous + fewer)):
             with self.subTest(then=then, now=now):
                 self.run_model(f"{then}analysis: {{kind: static, save: rest.h5}}", law="neo_hooke")
                 self.check_rest(now)
@@ -109,6 +110,22 @@ class Analyses(unittest.TestCase):
             ends.append(self.rows("probes/end"))
             self.assertLess(np.abs(self.rows("ledger/damped")).max(), 1e-10 * self.rows("strain_energy")[0])
         np.testing.assert_array_equal(*ends)
+
+    def test_the_step_of_a_strained_state_is_one_that_it_can_take(self):
+        stretched = [text.replace("[1e6, 0, 0]", "[5.28e8, 0, 0]") for text in (MODEL, MOVING)]  # by a fifth
+        self.run_model("analysis: {kind: static, load_steps: 4, save: rest.h5}", law="saint_venant_kirchhoff", text=stretched[0])
+        self.assertAlmostEqual(self.rows("probes/end")[-1, 0], 0.2, delta=1e-6)
+        printed = self.run_model("state: rest.h5\ntime: {end: 1e-3}", law="saint_venant_kirchhoff", text=stretched[1])
+        strained, undeformed = map(float, re.search(r"stable step +(\S+), strained as in 'state'; (\S+) else", printed).groups())
+        self.assertTrue(0.5 * undeformed < strained < 0.9 * undeformed)
+        np.testing.assert_allclose(self.rows("probes/end")[:, 0], 0.2, atol=1e-6)
+
+    def test_what_an_analysis_does_not_use_is_said_when_it_runs(self):
+        self.run_model("analysis: {kind: static, save: rest.h5}")
+        for more, key in (("state: rest.h5\nanalysis: static", "state"), ("analysis: {kind: modes, count: 1}", "probes")):
+            (self.folder / "model.yaml").write_text(MODEL.format(law="linear_elastic", more=more))
+            done = subprocess.run([PROGRAM, "--quiet", "model.yaml"], cwd=self.folder, capture_output=True, text=True, check=True)
+            self.assertIn(f"WARNING: model.yaml: '{key}' is not used: ", done.stderr)
 
     def test_initial_velocities_are_taken_with_the_displacements_of_a_state(self):
         self.run_model("analysis: {kind: static, save: rest.h5}")

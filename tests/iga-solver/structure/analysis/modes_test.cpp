@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -87,6 +88,42 @@ TEST(Modes, OfABodyOnVeryWeakSpringsAreThoseOfAFreeOne) {
                           sprung = structure::lowest_modes(solid, {}, undeformed(solid), {12}, springs);
   for (int k = 6; k < 12; ++k)
     EXPECT_NEAR(sprung[k].eigenvalue, free[k].eigenvalue, 1e-7 * free[k].eigenvalue) << k;
+}
+
+// Beside those of a soft one all 1/omega^2 of a stiff piece are round-off, and Lanczos' method takes what it
+// has there for modes.
+TEST(Modes, OfPiecesWhoseStiffnessesAreFarApart) {
+  const nurbs::Volume soft = models::block({1, 1, 1}, {1, 1, 1}, 1),
+                      stiff = models::block({3, 2, 1}, {2, 2, 1}, 2);
+  const structure::NodeNumbering nodes({soft.space.control_point_count(), stiff.space.control_point_count()});
+  const structure::Partition whole({structure::PatchBoxes(soft.space, structure::box_cuts(soft.space)),
+                                    structure::PatchBoxes(stiff.space, structure::box_cuts(stiff.space))},
+                                   nodes, 1);
+  const Solid both({{soft, models::elastic(1e-15)}, {stiff, models::elastic()}}, nodes, {}, whole.part(0)),
+      alone(stiff, models::elastic());
+  Supports of_both, of_one;
+  const std::vector<int> ends = structure::nodes_on(stiff.space, {Face::xi_minus});
+  std::vector<int> all = structure::nodes_on(soft.space, {Face::xi_minus});
+  for (const int node : ends) all.push_back(soft.space.control_point_count() + node);
+  of_both.fix(all, {true, true, true});
+  of_one.fix(ends, {true, true, true});
+  constexpr int kSoft = 12, kStiff = 3;
+  const std::vector<Mode> found = structure::lowest_modes(both, of_both, undeformed(both), {kSoft + kStiff}),
+                          expected = structure::lowest_modes(alone, of_one, undeformed(alone), {kStiff});
+  for (int k = 0; k < kSoft; ++k) EXPECT_LT(found[k].eigenvalue, 1e-12) << k;
+  for (int k = 0; k < kStiff; ++k)
+    EXPECT_NEAR(found[kSoft + k].eigenvalue, expected[k].eigenvalue, 1e-7 * expected[k].eigenvalue) << k;
+}
+
+// The stiffness of a law of small strain is that of the reference, and so are the motions that cost nothing.
+TEST(Modes, OfALawOfSmallStrainDoNotSeeThatTheBodyIsTurned) {
+  const Solid solid(models::block({3, 2, 1}, {3, 2, 1}, 2), models::elastic());
+  const Eigen::AngleAxisd turn(0.2, Vector3(1, 2, 3).normalized());
+  const NodalVectors turned = turn.toRotationMatrix() * solid.reference() - solid.reference();
+  const std::vector<Mode> found = structure::lowest_modes(solid, {}, turned, {9}),
+                          expected = structure::lowest_modes(solid, {}, undeformed(solid), {9});
+  for (int k = 0; k < 9; ++k)
+    EXPECT_NEAR(found[k].eigenvalue, expected[k].eigenvalue, 1e-9 * expected[8].eigenvalue) << k;
 }
 
 // One after the other, of which there are never fewer than was said.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "loose_patches.h"
+#include "io/loose_patches.h"
 
 #include <fmt/format.h>
 
@@ -8,17 +8,13 @@
 #include <deque>
 #include <map>
 #include <optional>
-#include <stdexcept>
 #include <utility>
-#include <variant>
 
 #include "brep/disjoint_sets.h"
-#include "io/boundary_keys.h"
 #include "search/surface_projector.h"
-#include "structure/analysis/rigid_motions.h"
 #include "structure/weld.h"
 
-namespace app {
+namespace io {
 
 namespace {
 
@@ -55,12 +51,12 @@ struct Gap {
   }
 };
 
-std::deque<OpenFace> open_faces(const io::ModelFile& model) {
+std::deque<OpenFace> open_faces(const ModelFile& model) {
   std::vector<nurbs::Space<3>> spaces;
   for (int p = 0; p < model.patch_count(); ++p) spaces.push_back(model.volume(p).space);
   std::deque<OpenFace> faces;  // which do not move
   for (const structure::SkinPiece& piece : structure::free_faces(spaces, model.nodes))
-    faces.emplace_back(io::skin_of(model.geometry, model.nodes, piece));
+    faces.emplace_back(skin_of(model.geometry, model.nodes, piece));
   return faces;
 }
 
@@ -114,57 +110,7 @@ std::optional<Gap> gap_between(const OpenFace& from, const OpenFace& to, bool ar
   return narrowest;
 }
 
-/// Of the nodes of a piece, which rise.
-std::size_t free_motions(const io::ModelFile& model, const std::vector<structure::Id>& nodes) {
-  nurbs::NodalVectors X(3, nodes.size());
-  for (std::size_t column = 0; column < nodes.size(); ++column) {
-    const auto place = model.nodes.place(nodes[column]);
-    X.col(static_cast<Eigen::Index>(column)) =
-        model.volume(place.patch).control_points.col(place.control_point);
-  }
-  return structure::free_rigid_motions(X, io::supports_of(model.boundary).on(nodes),
-                                       io::springs_of(model.boundary, model.geometry, model.nodes, nodes))
-      .size();
-}
-
-}  // namespace
-
-Pieces pieces_of(const structure::NodeNumbering& nodes) {
-  brep::DisjointSets sets(nodes.patch_count());
-  for (std::size_t i = 0; i < nodes.welded().size(); ++i) {
-    const auto places = nodes.places_of_welded(i);
-    for (const auto& place : places) sets.join(places.front().patch, place.patch);
-  }
-  Pieces pieces;
-  pieces.count = sets.number(pieces.of_patch);
-  return pieces;
-}
-
-FreeMotions free_motions(const io::ModelFile& model) {
-  const Pieces pieces = pieces_of(model.nodes);
-  std::vector<std::vector<structure::Id>> nodes(pieces.count);
-  for (structure::Id node = 0; node < model.nodes.node_count(); ++node)
-    nodes[pieces.of_patch[model.nodes.place(node).patch]].push_back(node);
-  for (int piece = 0; piece < pieces.count; ++piece)
-    if (const std::size_t count = free_motions(model, nodes[piece]); count > 0) {
-      const auto first = std::find(pieces.of_patch.begin(), pieces.of_patch.end(), piece);
-      return {count, pieces.count == 1
-                         ? "it"
-                         : fmt::format("patch {} and what is welded to it", first - pieces.of_patch.begin())};
-    }
-  return {};
-}
-
-void expect_held_pieces(const io::ModelFile& model) {
-  if (std::holds_alternative<io::ModeAnalysis>(*model.analysis) || pieces_of(model.nodes).count == 1) return;
-  if (const FreeMotions free = free_motions(model); free.count > 0)
-    throw std::runtime_error(
-        fmt::format("{}: {}: 'boundary' leaves {} free in {} of its 6 rigid motions, expected none: hold it, "
-                    "or let whole faces of one mesh meet those of what is held",
-                    model.file, io::analysis_word(*model.analysis), free.whose, free.count));
-}
-
-std::string almost_welded(const io::ModelFile& model) {
+std::string almost_welded(const ModelFile& model) {
   if (!model.welds) return "";
   const Pieces pieces = pieces_of(model.nodes);
   const auto piece = [&](const OpenFace& face) { return pieces.of_patch[face.skin.piece.patch]; };
@@ -191,7 +137,7 @@ std::string almost_welded(const io::ModelFile& model) {
       is_crack ? "leave it so" : "'weld: no'");
 }
 
-std::string hinges(const io::ModelFile& model) {
+std::string hinges(const ModelFile& model) {
   using PatchPair = std::pair<int, int>;
   std::vector<nurbs::Space<3>> spaces;
   for (int p = 0; p < model.patch_count(); ++p) spaces.push_back(model.volume(p).space);
@@ -219,4 +165,24 @@ std::string hinges(const io::ModelFile& model) {
       shared.size() == 1 ? "" : fmt::format(" ({} such pairs in all)", shared.size()));
 }
 
-}  // namespace app
+}  // namespace
+
+Pieces pieces_of(const structure::NodeNumbering& nodes) {
+  brep::DisjointSets sets(nodes.patch_count());
+  for (std::size_t i = 0; i < nodes.welded().size(); ++i) {
+    const auto places = nodes.places_of_welded(i);
+    for (const auto& place : places) sets.join(places.front().patch, place.patch);
+  }
+  Pieces pieces;
+  pieces.count = sets.number(pieces.of_patch);
+  return pieces;
+}
+
+std::vector<std::string> loose_patches(const ModelFile& model) {
+  std::vector<std::string> told;
+  for (std::string looseness : {almost_welded(model), hinges(model)})
+    if (!looseness.empty()) told.push_back(std::move(looseness));
+  return told;
+}
+
+}  // namespace io
