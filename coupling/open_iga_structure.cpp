@@ -11,6 +11,7 @@
 #include "coupling/model_text.h"
 #include "coupling/open_structure.h"
 #include "io/inner_faces.h"
+#include "io/loose_patches.h"
 #include "io/model_file.h"
 #include "parallel/all_or_none.h"
 #include "parallel/session.h"
@@ -86,6 +87,7 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
     skin.push_back({piece.patch, *piece.face});
   expect_skin(model, skin, surface);
   expect_one_material(model, skin, surface);
+  std::vector<std::string> warnings = io::loose_patches(model);
   const std::optional<ModalDamping> damping =
       options.modes ? std::optional(take_damping(model)) : expect_no_modal_damping(model);
   std::optional<parallel::SharedFields> fields;
@@ -106,9 +108,9 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
     solver->write_history(parallel::SharedHistory(comm, *model.output, model.geometry.units, model.probes,
                                                   model.named_supports()));
   if (fields) solver->write_fields(std::move(*fields));
-  if (!damping) return {std::move(solver), model.geometry.units};
+  if (!damping) return {std::move(solver), model.geometry.units, std::move(warnings)};
   return {make_modal(comm, std::move(solver), std::move(whole), *options.modes, *damping),
-          model.geometry.units};
+          model.geometry.units, std::move(warnings)};
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "coupling/rigid/rigid_surface.h"
 #include "coupling/solid_options.h"
@@ -21,6 +22,7 @@ namespace coupling {
 struct OpenedStructure {
   std::unique_ptr<StructureSolver> solver;
   geometry_io::Units units;
+  std::vector<std::string> warnings = {};  ///< of what is allowed and hardly meant, a sentence each
 };
 
 struct RigidOptions {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "coupling/two_masses.h"
@@ -39,6 +40,7 @@ Substeps::Substeps(std::unique_ptr<IgaStructure> body, SubstepOptions options)
       spread_(solver_),
       F_(NodalVectors::Zero(3, solver_.positions().cols())),
       no_forces_(F_),
+      contacts_(F_),
       x_(body_->positions()),
       v_(body_->velocities()),
       du_(F_.values),
@@ -55,12 +57,16 @@ void Substeps::set_time_step(double dt) {
           "timestep {:.6g} comes within an outer step of {} particle steps of {:.6g}, of which {} "
           "are done: change it {} steps later",
           dt, count_, dt_, done_, count_ - done_));
-  } else {
-    stable_ = body_->stable_time_step();
-    if (!options_.count) stable_ = std::min(stable_, solver_.renew_stable_time_step());
-    choose(dt);
+    return take_steps(dt);
   }
+  stable_ = body_->stable_time_step();
+  if (!options_.count) stable_ = std::min(stable_, solver_.renew_stable_time_step());
+  const auto shares = [this] { return std::tuple(particles_fast(), count_, spreads_); };
+  const auto before = shares();
+  const NodalForces forces = particles_fast() ? F_ : contacts_;
+  choose(dt);
   take_steps(dt);
+  if (shares() != before) kick_from_now(forces);
 }
 
 void Substeps::choose(double dt) {
@@ -110,7 +116,6 @@ void Substeps::take_steps(double dt) {
   body_->set_time_step(step);
 }
 
-// Contacts kick the body by as much as before, if in other shares.
 void Substeps::choose_again(const NodalForces& forces) {
   stable_ = solver_.stable_time_step_now();
   choose(dt_);
@@ -162,7 +167,9 @@ std::string Substeps::describe_step() const {
 void Substeps::initialise_forces(const NodalForces& forces) {
   if (!particles_fast()) {
     body_->initialise_forces(forces);
-    return kick_from_now(forces);
+    contacts_ = forces;
+    if (count_ > 1) kick_from_now(forces);
+    return;
   }
   body_->initialise_forces(no_forces_);
   take_contacts(forces);
@@ -182,7 +189,7 @@ void Substeps::begin_step() {
   solver_.follow_spin();
   body_->begin_step();
   for (int i = 1; i < count_; ++i) {
-    solver_.press_evenly(contacts_, no_forces_.values);
+    solver_.press_evenly(contacts_.values, no_forces_.values);
     body_->end_step(no_forces_);
     body_->begin_step();
   }
@@ -193,7 +200,7 @@ void Substeps::end_step(const NodalForces& forces) {
   is_within_step_ = false;
   if (!particles_fast()) {
     set_impulse(forces);
-    if (count_ > 1) solver_.press_evenly(contacts_, F_.values);
+    if (count_ > 1) solver_.press_evenly(contacts_.values, F_.values);
     body_->end_step(F_);
   } else {
     take_contacts(forces);
@@ -212,17 +219,21 @@ void Substeps::end_outer_step() {
   for (NodalVectors* sum : {&du_, &dv_, &J_}) sum->setZero();
 }
 
-// Between steps, the body's last forces were these as they are.
+// Between steps, the last forces were these: contacts kick the body by as much as before, if in other shares.
 void Substeps::kick_from_now(const NodalForces& forces) {
-  if (count_ == 1) return;
+  if (particles_fast()) {
+    solver_.change_forces(no_forces_.values);
+    take_contacts(forces);
+    return place_surface();
+  }
   set_impulse(forces);
   solver_.change_forces(F_.values);
-  solver_.press_evenly(contacts_, F_.values);
+  if (count_ > 1) solver_.press_evenly(contacts_.values, F_.values);
 }
 
 // From the forces of the step: two half kicks of dt/count, which are to be those of dt.
 void Substeps::set_impulse(const NodalForces& forces) {
-  contacts_ = forces.values;
+  contacts_ = forces;
   F_.values = count_ * forces.values;
   if (spreads_) spread_.apply(F_.values, dt_ / count_, count_);
 }
@@ -298,8 +309,14 @@ void Substeps::load(const std::vector<double>& state) {
           "the state stands within an outer step of fast particles, expected 'substeps particles' or "
           "'substeps auto'");
     fast_ = Fast::particles;
-    done_ = static_cast<int>(state[own]);
-    count_ = static_cast<int>(state[own + 1]);
+    done_ = static_cast<int>(saved_size(state[own], kMostSubsteps));
+    count_ = static_cast<int>(saved_size(state[own + 1], kMostSubsteps));
+    if (done_ == 0 || done_ >= count_) fail_as_damaged();
+    if (options_.count.value_or(count_) != count_)
+      throw std::invalid_argument(fmt::format(
+          "the state stands within an outer step of {} particle steps, expected 'substeps particles {}' "
+          "or 'substeps auto'",
+          count_, count_));
     dt_ = state[own + 2];
     solver_.from_order(state.data() + own + 3, du_);
     solver_.from_order(state.data() + own + 3 + motion, dv_);

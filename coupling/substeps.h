@@ -112,8 +112,8 @@ class Substeps final : public StructureSolver {
   bool spreads_ = false;  // structure fast: impulses are spread
   SpreadImpulse spread_;
   NodalForces F_, no_forces_;
+  NodalForces contacts_;         // structure fast: their forces, which F_ has as kicks
   bool is_within_step_ = false;  // of particles, which begins and ends
-  NodalVectors contacts_;        // structure fast: their forces, which F_ has as kicks
   // Particles fast: the surface now, and what contacts have added since the outer step began.  Structure
   // fast: where the step began, and how fast it is on the mean.
   NodalVectors x_, v_, du_, dv_;

@@ -67,6 +67,8 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
   can_create_mesh_ = true;
   meshwall_ = may_pose_as_mesh();
   or_fail([&] { liggghts_pkg::check_other_walls(*modify, world, options_); });
+  for (const std::string& warning : opened_.warnings)
+    messages_.warn(fmt::format("'{}': {}", options_.file, warning));
   if (options_.verbose) describe();
   or_fail([&] { open_files(); });
 }
@@ -163,6 +165,7 @@ void FixWallNurbs::init() {
   restart_.warn_of_state_not_taken();
   or_fail([&] {
     liggghts_pkg::check_run_style(*update);
+    check_box(*domain);
     memory_.find();
     fix_wallforce_ = memory_.force();
     {
@@ -185,6 +188,7 @@ void FixWallNurbs::init() {
 void FixWallNurbs::reset_dt() {
   dt_ = update->dt;
   or_fail([&] { structure_.set_time_step(dt_); });
+  columns_.structure_is_new();
 }
 
 void FixWallNurbs::createMulticontactData() {
@@ -209,6 +213,7 @@ void FixWallNurbs::setup(int vflag) {
   }
   or_fail([&] { liggghts_pkg::give_gravity(*modify, structure_, options_.file); });
   if (structure_.moves()) in_step([&] { structure_.initialise_forces(*nodal_forces_); });
+  columns_.structure_is_new();
   write_files(output_ && output_->at_beginning(), stl_ && stl_->at_beginning());
   const std::string missing = liggghts_pkg::missing_gravity(*modify, structure_, options_.file);
   if (!missing.empty() && !warned_of_gravity_) messages_.warn(missing);
@@ -219,6 +224,7 @@ void FixWallNurbs::initial_integrate(int) {
   if (!structure_.moves()) return;
   in_step([&] {
     structure_.begin_step();
+    columns_.structure_is_new();
     loop_.wall().import();
     // The list is good until the wall has moved half a skin; it is then rebuilt before this step's forces.
     const double motion = loop_.wall_motion();
@@ -269,7 +275,7 @@ void FixWallNurbs::post_force_primitive(int) {
   contact::ParticleView view = particles();
   // Other fixes may change radii as late as in pre_force.
   if (loop_.has_outgrown_list(view)) build_list();
-  view.mass = masses();
+  if (structure_.needs_forces()) view.mass = masses();
   try {
     const bool setup = update->setupflag != 0;
     model_.begin_step();
@@ -301,6 +307,7 @@ const double* FixWallNurbs::masses() {
 
 void FixWallNurbs::final_integrate() {
   in_step([&] { structure_.end_step(*nodal_forces_); });
+  columns_.structure_is_new();
   const std::string change = structure_.take_change();
   if (!change.empty()) messages_.print(fmt::format("step {}: {}", update->ntimestep, change));
   const std::string warning = structure_.take_warning();

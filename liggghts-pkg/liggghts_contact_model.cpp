@@ -83,4 +83,9 @@ Vector3 LiggghtsContactModel::slip(const Contact& contact) const {
   return Vector3::Map(atom_.v[i]) - contact.wall_velocity + arm * n.cross(omega);
 }
 
+// The models store what they answer: store_force.
+void LiggghtsContactModel::hear_of_further(const Contact& contact, const Vector3& force) {
+  if (wall_.store_force()) Vector3::Map(wall_.fix_wallforce()->array_atom[contact.particle]) += force;
+}
+
 }  // namespace liggghts_pkg

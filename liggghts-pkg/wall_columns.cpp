@@ -1,45 +1,70 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "wall_columns.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace liggghts_pkg {
 
 using contact::ContactTotals;
 using contact::WallContact;
+using coupling::Vector3;
 
-namespace {
-
-// In this order: the first of ContactTotals, the structure, its probes (three each), power, work, truncation,
-// reactions of supports (three each), work of supports, energy damped, gained by tangential springs, share of
-// the force that is missing.
-constexpr int kTotalColumns = offsetof(ContactTotals, power) / sizeof(double);
-constexpr int kStructureColumns = 9;
-constexpr int kWorkColumns = 3;
 static_assert(offsetof(WallContact, torque) == WallColumns::kLocalColumns * sizeof(double),
               "WallContact begins with the local columns");
 
-}  // namespace
+// The order of the columns.
+WallColumns::WallColumns(const coupling::StructureSolver& structure, const contact::ContactLoop& loop,
+                         const TangentialSprings& springs, MPI_Comm comm)
+    : structure_(structure), loop_(loop), springs_(springs), comm_(comm) {
+  add(8, [this](double* values) {
+    const ContactTotals& all = totals();
+    std::copy_n(all.force, 3, values);
+    std::copy_n(all.torque, 3, values + 3);
+    values[6] = all.contacts, values[7] = all.overlap;
+  });
+  add(3, [this](double* values) { Vector3::Map(values) = structure_.linear_momentum(); });
+  add(3, [this](double* values) { Vector3::Map(values) = structure_.angular_momentum(Vector3::Zero()); });
+  add(1, [this](double* values) { *values = structure_.kinetic_energy(); });
+  add(1, [this](double* values) { *values = structure_.strain_energy(); });
+  add(1, [this](double* values) { *values = structure_.stable_time_step(); });
+  add(3 * static_cast<int>(structure_.probes().size()), [this](double* values) {
+    for (const coupling::Probe& probe : structure_.probes())
+      Vector3::Map(std::exchange(values, values + 3)) = probe.displacement;
+  });
+  add(1, [this](double* values) { *values = totals().power; });
+  add(3, [this](double* values) {
+    const coupling::Work work = structure_.work();
+    values[0] = work.contacts, values[1] = work.loads, values[2] = work.internal;
+  });
+  add(1, [this](double* values) { *values = structure_.truncation(); });
+  add(3 * static_cast<int>(structure_.reactions().size()), [this](double* values) {
+    for (const coupling::Reaction& reaction : structure_.reactions())
+      Vector3::Map(std::exchange(values, values + 3)) = reaction.force;
+  });
+  add(2, [this](double* values) {
+    const coupling::Work work = structure_.work();
+    values[0] = work.supports, values[1] = work.damped;
+  });
+  add(1, [this](double* values) {
+    *values = springs_.gained();
+    MPI_Allreduce(MPI_IN_PLACE, values, 1, MPI_DOUBLE, MPI_SUM, comm_);
+  });
+  add(1, [this](double* values) { *values = totals().missing; });
+}
 
-int WallColumns::count() const { return power_column() + 1 + kWorkColumns + 1 + 3 * supports_ + 4; }
-
-int WallColumns::power_column() const { return kTotalColumns + kStructureColumns + 3 * probes_; }
+void WallColumns::add(int count, std::function<void(double* values)> find) {
+  groups_.push_back({this->count(), count, std::move(find)});
+  values_.resize(values_.size() + count);
+}
 
 double WallColumns::operator[](int column) {
-  const int power = power_column(), after_work = column - (power + 1 + kWorkColumns);
-  if (column == power) return totals().power;
-  if (after_work == 0) return structure_.truncation();
-  if (after_work == 3 * supports_ + 1) return structure_.work().supports;
-  if (after_work == 3 * supports_ + 2) return structure_.work().damped;
-  if (after_work == 3 * supports_ + 3) return gained_by_springs();
-  if (after_work == 3 * supports_ + 4) return totals().missing;
-  if (after_work > 0) return structure_.reactions()[(after_work - 1) / 3].force[(after_work - 1) % 3];
-  if (column > power) {
-    const coupling::Work work = structure_.work();
-    return column == power + 1 ? work.contacts : column == power + 2 ? work.loads : work.internal;
-  }
-  if (column < kTotalColumns) return reinterpret_cast<const double*>(&totals())[column];
-  return of_structure(column - kTotalColumns);
+  const auto is_before = [](const Group& group, int c) { return group.first + group.count <= c; };
+  Group& group = *std::lower_bound(groups_.begin(), groups_.end(), column, is_before);
+  if (!group.is_known) group.find(&values_[group.first]);
+  group.is_known = true;
+  return values_[column];
 }
 
 const ContactTotals& WallColumns::totals() {
@@ -48,20 +73,13 @@ const ContactTotals& WallColumns::totals() {
   return totals_;
 }
 
-double WallColumns::of_structure(int column) const {
-  if (column < 3) return structure_.linear_momentum()[column];
-  if (column < 6) return structure_.angular_momentum(coupling::Vector3::Zero())[column - 3];
-  if (column == 6) return structure_.kinetic_energy();
-  if (column == 7) return structure_.strain_energy();
-  if (column == 8) return structure_.stable_time_step();
-  const int probe = (column - kStructureColumns) / 3, direction = (column - kStructureColumns) % 3;
-  return structure_.probes()[probe].displacement[direction];
+void WallColumns::contacts_are_new() {
+  totals_are_summed_ = false;
+  structure_is_new();
 }
 
-double WallColumns::gained_by_springs() const {
-  double gained = springs_.gained();
-  MPI_Allreduce(MPI_IN_PLACE, &gained, 1, MPI_DOUBLE, MPI_SUM, comm_);
-  return gained;
+void WallColumns::structure_is_new() {
+  for (Group& group : groups_) group.is_known = false;
 }
 
 double** WallColumns::local_rows() {

@@ -6,6 +6,7 @@
 
 #include <mpi.h>
 
+#include <functional>
 #include <vector>
 
 #include "coupling/contact/contact_loop.h"
@@ -20,33 +21,36 @@ class WallColumns {
   static constexpr int kLocalColumns = 12;
 
   WallColumns(const coupling::StructureSolver& structure, const contact::ContactLoop& loop,
-              const TangentialSprings& springs, MPI_Comm comm)
-      : structure_(structure),
-        loop_(loop),
-        springs_(springs),
-        comm_(comm),
-        probes_(static_cast<int>(structure.probes().size())),
-        supports_(static_cast<int>(structure.reactions().size())) {}
+              const TangentialSprings& springs, MPI_Comm comm);
+  WallColumns(const WallColumns&) = delete;
+  WallColumns& operator=(const WallColumns&) = delete;
 
-  int count() const;
+  int count() const { return static_cast<int>(values_.size()); }
   /// From 0; collective.
   double operator[](int column);
   /// After each evaluation of the contacts.
-  void contacts_are_new() { totals_are_summed_ = false; }
+  void contacts_are_new();
+  /// Whenever the structure has moved, or is loaded otherwise.
+  void structure_is_new();
   /// A row for each of this rank's contacts(); until they are new.
   double** local_rows();
 
  private:
+  /// Columns that are found together, which may take as long as a time step: when one of them is asked for.
+  struct Group {
+    int first, count;
+    std::function<void(double* values)> find;
+    bool is_known = false;
+  };
+  void add(int count, std::function<void(double* values)> find);
   const contact::ContactTotals& totals();
-  double of_structure(int column) const;
-  double gained_by_springs() const;
-  int power_column() const;
 
   const coupling::StructureSolver& structure_;
   const contact::ContactLoop& loop_;
   const TangentialSprings& springs_;
   MPI_Comm comm_;
-  int probes_, supports_;
+  std::vector<Group> groups_;
+  std::vector<double> values_;
   contact::ContactSums sums_;
   contact::ContactTotals totals_{};
   bool totals_are_summed_ = false;

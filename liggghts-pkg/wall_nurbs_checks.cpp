@@ -42,10 +42,6 @@ struct DeckGravity : LAMMPS_NS::FixGravity {
   static bool varies(const LAMMPS_NS::FixGravity& gravity) { return gravity.*(&DeckGravity::varflag) != 0; }
 };
 
-}  // namespace
-
-namespace {
-
 // Each fix integrates a solid of its own.
 void refuse_second_solid(MPI_Comm world, const WallNurbsOptions& options, const WallNurbsOptions& other,
                          const char* other_id) {

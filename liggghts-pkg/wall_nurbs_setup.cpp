@@ -69,13 +69,6 @@ std::optional<geometry_io::Format> format_of_wall(const WallNurbsOptions& option
   return geometry_io::format_of_path(options.file);
 }
 
-void check_box(const Domain& box) {
-  if (box.triclinic && (box.xperiodic || box.yperiodic || box.zperiodic))
-    throw std::invalid_argument(
-        "the simulation box is triclinic and periodic, expected an orthogonal one ('region ID block'), or "
-        "boundaries that are not periodic");
-}
-
 void check_units(const WallNurbsOptions& options, geometry_io::Units units, const char* deck_units) {
   if (format_of_wall(options) == geometry_io::format::stl) return;  // has none: its numbers are the deck's
   if (std::strcmp(geometry_io::units_name(units), deck_units) != 0)
@@ -138,6 +131,13 @@ void WallNurbsSetup::complete_servo(LAMMPS* lmp, coupling::ServoSettings& servo)
     MPI_Allreduce(&near_particles_, &all, 1, MPI_LONG, MPI_SUM, lmp->world);
     return all;
   };
+}
+
+void WallNurbsSetup::check_box(const Domain& box) {
+  if (box.triclinic && (box.xperiodic || box.yperiodic || box.zperiodic))
+    throw std::invalid_argument(
+        "the simulation box is triclinic and periodic, expected an orthogonal one ('region ID block'), or "
+        "boundaries that are not periodic");
 }
 
 int WallNurbsSetup::modify_drive(LAMMPS* lmp, const char* id, int narg, char** arg) {

@@ -21,6 +21,9 @@ class WallNurbsSetup {
 
  protected:
   WallNurbsSetup(class LAMMPS* lmp, int narg, char** arg);
+  /// That it is orthogonal where it is periodic, since images are found along the axes; the deck may change
+  /// it between runs.  Throws std::invalid_argument.
+  static void check_box(const class Domain& box);
   /// fix_modify: changes what drives a rigid wall; returns how many words that took.
   int modify_drive(class LAMMPS* lmp, const char* id, int narg, char** arg);
 

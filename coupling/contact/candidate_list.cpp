@@ -15,6 +15,7 @@ void CandidateList::build(const coupling::RigidFrame& frame, const std::vector<V
   image_elements_.clear();
   elements_.clear();
   for (int i = 0; i < particles.count; ++i) {
+    if (particles.reach[i] == kNotAtAll) continue;
     const int first_image = static_cast<int>(image_elements_.size());
     for (size_t image = 0; image < images.size(); ++image) {
       const int first = static_cast<int>(elements_.size());

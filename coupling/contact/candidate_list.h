@@ -22,7 +22,7 @@ struct Candidate {
   int first_image, image_count;  ///< range in CandidateList::image_elements()
 };
 
-/// Centres of particles, rows of three, and how far around each to look [length].
+/// Centres of particles, rows of three, and how far around each to look [length], or kNotAtAll.
 struct Surroundings {
   int count;
   const double* centre;
@@ -31,6 +31,7 @@ struct Surroundings {
 
 class CandidateList {
  public:
+  static constexpr double kNotAtAll = -1.0;
   /// Adds the numbers, in rising order, of all elements that may be within `reach` of a point in the wall's
   /// frame, where that particle is, or an image of it.
   using Near =

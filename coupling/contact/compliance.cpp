@@ -236,7 +236,7 @@ void ComplianceCorrection::see_slip(const ParticleView& particles, const Time& n
   contact.correction->further_slip = vector_of(shear_.more, lane);
 }
 
-void ComplianceCorrection::after(const ParticleView& particles, const Time& now, const ContactModel& model,
+void ComplianceCorrection::after(const ParticleView& particles, const Time& now, ContactModel& model,
                                  Contact* contacts, int count) {
   for (int k = 0; k < count; ++k)
     if (const int lane = before_[k].shear_lane; lane >= 0)
@@ -269,7 +269,9 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
         for (int m = 0; m < ShearBlock::kMemory; ++m) memory[m] = shear_.memory[m][lane];
     }
     by.follows = along;
-    contact.force.noalias() += before.directions.tangents * along;
+    const Vector3 further = before.directions.tangents * along;
+    contact.force += further;
+    model.hear_of_further(contact, further);
   }
 }
 

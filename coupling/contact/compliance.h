@@ -52,7 +52,7 @@ class ComplianceCorrection {
               int count);
   /// Takes the model's answers (all as before): contacts are what they were, forces have their part along the
   /// surface, and Contact::tangent and Contact::dashpot are known.
-  void after(const ParticleView& particles, const Time& now, const ContactModel& model, Contact* contacts,
+  void after(const ParticleView& particles, const Time& now, ContactModel& model, Contact* contacts,
              int count);
   /// Feet of contacts on this rank: what the mesh gives way elsewhere is that of the body as it is strained
   /// now.  Collective.

@@ -40,6 +40,11 @@ void ContactLoop::build_list(const ParticleView& particles, const ListReach& rea
   radius_limit_.resize(particles.count);
   double largest = 0.0;
   for (int i = 0; i < particles.count; ++i) {
+    if (!particles.meets_wall(i)) {
+      list_reach_[i] = CandidateList::kNotAtAll;
+      radius_limit_[i] = std::numeric_limits<double>::infinity();
+      continue;
+    }
     const double travel = particles.velocity(i).norm() * reach.dt + wall_travel_;
     list_reach_[i] = particles.radius[i] * reach.touch_factor + 1.5 * reach.skin + travel;
     radius_limit_[i] = particles.radius[i] + 0.5 * reach.skin / reach.touch_factor;

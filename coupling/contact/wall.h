@@ -68,17 +68,18 @@ class Wall {
   Vector3 to_space_direction(const Vector3& X) const { return is_turned_ ? frame_.direction_to_space(X) : X; }
   /// At most, of any of its points [length/time].
   double max_speed() const;
-  /// At a foot, which is at `point` in space.
+  /// At a foot, which is at `point` in space, on the wall or an image of it.
   Vector3 velocity(const Foot& foot, const Vector3& point, const Vector3& delta) const {
     if (stands_) return Vector3::Zero();
-    return deforms_ ? velocity_of_deforming(foot) : velocity_of_rigid(point, delta);
+    return deforms_ ? velocity_of_deforming(foot)
+                    : velocity_of_rigid(point - to_space_direction(foot.image), delta);
   }
 
   /// The same with the place of the centre.
   Vector3 velocity_below(const Foot& foot, const Vector3& centre, const Vector3& delta) const {
     return stands_ ? Vector3(Vector3::Zero()) : velocity(foot, centre - delta, delta);
   }
-  /// The same of a wall that is rigid and does not stand.
+  /// The same at a point of a wall itself that is rigid and does not stand.
   Vector3 velocity_of_rigid(const Vector3& point, const Vector3& delta) const {
     Vector3 v = turns_ ? frame_.velocity_at(point) : frame_.velocity;
     if (slides_) v += structure_.surface_velocity(point, delta.normalized());

@@ -79,6 +79,7 @@ double PluginStructure::work_of_half_kick(const NodalVectors& before) const {
 }
 
 void PluginStructure::initialise_forces(const NodalForces& forces) {
+  count_of_forces_ = count_;
   F_ = count_ * forces.values;
   touched_ = forces.touched;
   body_->call("initialise", body_->functions().initialise, F_.data());
@@ -91,6 +92,13 @@ void PluginStructure::initialise_forces(const NodalForces& forces) {
 
 void PluginStructure::begin_step() {
   const StructurePlugin& functions = body_->functions();
+  if (count_ != count_of_forces_)
+    throw std::invalid_argument(
+        fmt::format("the timestep is {:.6g} now, in which the structure takes {} steps in place of {}, with "
+                    "forces that are meant for {}: expected such a change between two runs alone, or "
+                    "'substeps structure {}'",
+                    dt_, count_, count_of_forces_, count_of_forces_, std::max(count_, count_of_forces_)));
+  if (count_ == 1 && skin_.inverse_mass.cols() > 0) stable_ = stable_time_step();
   v_before_ = v_;
   body_->call("begin_step", functions.begin_step);
   take_motion("begin_step");
@@ -121,7 +129,7 @@ double PluginStructure::stable_time_step() const {
 }
 
 double PluginStructure::stable_time_step_with_contacts() const {
-  return count_ == 1 ? stable_time_step() : StructureSolver::stable_time_step_with_contacts();
+  return count_ == 1 ? stable_ : StructureSolver::stable_time_step_with_contacts();
 }
 
 bool PluginStructure::take_substeps(const SubstepOptions& options) {
@@ -134,7 +142,7 @@ bool PluginStructure::take_substeps(const SubstepOptions& options) {
 }
 
 void PluginStructure::set_time_step(double dt) {
-  const double stable = stable_time_step(), needed = std::ceil(dt / stable * (1.0 - 1e-12));
+  const double stable = stable_ = stable_time_step(), needed = std::ceil(dt / stable * (1.0 - 1e-12));
   if (!(needed <= kMostSubsteps) || needed > (has_substeps_ ? wanted_count_.value_or(kMostSubsteps) : 1))
     throw std::invalid_argument(fmt::format(
         "timestep {:.6g} is above the structure's stable step {:.6g}{}; use a timestep of at most {:.3g}, or "

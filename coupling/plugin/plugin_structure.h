@@ -81,10 +81,11 @@ class PluginStructure final : public StructureSolver {
   std::vector<Eigen::Index> touched_;
   NodalVectors no_forces_, v_before_;
   bool has_substeps_ = false;
-  std::optional<int> wanted_count_;  // nothing: as many as the stable step asks for
-  int count_ = 1;
-  double dt_ = 0.0;            // of the particles
-  double contact_work_ = 0.0;  // of this rank's nodes
+  std::optional<int> wanted_count_;      // nothing: as many as the stable step asks for
+  int count_ = 1, count_of_forces_ = 1;  // those that the body has now
+  double dt_ = 0.0;                      // of the particles
+  double stable_ = 0.0;                  // at the beginning of the step
+  double contact_work_ = 0.0;            // of this rank's nodes
   double kinetic_start_ = 0.0, strain_start_ = 0.0;
 };
 

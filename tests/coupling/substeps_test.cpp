@@ -8,13 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "coupling/force_distribution.h"
-#include "nurbs/primitives.h"
+#include "block_with_substeps.h"
 #include "options_of_substeps.h"
-#include "structure/conditions/loads.h"
-#include "structure/material/laws.h"
-#include "structure/material/saint_venant_kirchhoff.h"
-#include "structure/solid/solid.h"
 
 namespace {
 
@@ -24,66 +19,13 @@ using coupling::SubstepOptions;
 using coupling::Substeps;
 using coupling::Vector3;
 using structure::TimeMass;
+using test::forces_on;
+using test::Ground;
+using test::on_surface;
 using test::options;
+using test::run;
+using test::small_block;
 using Fast = SubstepOptions::Fast;
-
-enum class Ground { none, fixed, moves };
-
-/// A block of 3 x 3 x 2 elements, held at nodes of its surface, too.
-std::unique_ptr<coupling::IgaStructure> small_block(
-    Ground ground = Ground::none, std::shared_ptr<const structure::Material> material = {},
-    TimeMass mass = TimeMass::lumped,
-    std::unique_ptr<const structure::Halo> halo = std::make_unique<const structure::Halo>()) {
-  const auto knots = [](int n) { return nurbs::KnotVector::uniform(2, n); };
-  nurbs::Volume patch = nurbs::box({0, 0, -2}, {3, 3, 2}, {knots(3), knots(3), knots(2)});
-  structure::Supports supports;
-  const auto hold = [&](nurbs::Face face, const std::array<bool, 3>& directions) {
-    const structure::NodeSet nodes = structure::nodes_on(patch.space, {face});
-    if (ground == Ground::fixed) supports.fix(nodes, directions);
-    if (ground == Ground::moves)
-      supports.move(nodes, directions, {0.01, 0, -0.02}, [](double t) { return t + 0.1 * t * t; });
-  };
-  hold(nurbs::Face::zeta_minus, {true, true, true});
-  hold(nurbs::Face::xi_minus, {false, false, true});
-  if (!material) material = std::make_shared<structure::LinearElastic>(1.0, 0.3, 1.0);
-  structure::ExplicitSolver solver(
-      std::make_unique<structure::Solid>(std::move(patch), material, structure::Integration{{}, {}, mass}),
-      supports, std::move(halo));
-  solver.set_load(structure::gravity_load(solver.body(), {1e-4, 0, -2e-4}));
-  return std::make_unique<coupling::IgaStructure>(
-      std::move(solver), std::vector<structure::SkinPiece>{{0, nurbs::Face::zeta_plus}});
-}
-
-NodalVectors on_surface(const coupling::StructureSolver& body, const NodalVectors& nodal) {
-  NodalVectors values;
-  body.surface().map.to_surface(nodal, values);
-  return values;
-}
-
-/// A force that follows the surface and drags at it, so that it depends on places and velocities.
-NodalForces forces_on(const coupling::StructureSolver& body) {
-  const auto& topology = body.surface().topology;
-  const NodalVectors x = on_surface(body, body.positions()), v = on_surface(body, body.velocities());
-  NodalVectors spread = NodalVectors::Zero(3, topology.control_point_count());
-  const coupling::FootBasis foot(topology, {0, {0.3, 0.7}});
-  Vector3 at = Vector3::Zero(), speed = Vector3::Zero();
-  for (int k = 0; k < spread.cols(); ++k) {
-    NodalVectors unit = NodalVectors::Zero(3, spread.cols());
-    foot.distribute(Vector3(1, 0, 0), unit);
-    at += unit(0, k) * x.col(k), speed += unit(0, k) * v.col(k);
-  }
-  foot.distribute(Vector3(1e-3, 0, -5e-3) - 0.05 * (at - Vector3(0.9, 2.1, 0)) - 0.01 * speed, spread);
-  NodalVectors forces = NodalVectors::Zero(3, body.positions().cols());
-  body.surface().map.add_to_nodes(spread, forces);
-  return NodalForces(forces);
-}
-
-void run(Substeps& body, int steps) {
-  for (int n = 0; n < steps; ++n) {
-    body.begin_step();
-    body.end_step(forces_on(body));
-  }
-}
 
 struct Way {
   Fast fast;
@@ -259,6 +201,23 @@ TEST(Substeps, ARunThatIsSplitWithinAnOuterStepGoesOnAsTheWholeDoes) {
   split.set_time_step(0.01);  // now an outer step is done
 }
 
+TEST(Substeps, AStateWithinAnOuterStepAsksForItsNumber) {
+  Substeps body(small_block(), options(Fast::particles, 5)),
+      other(small_block(), options(Fast::particles, 4)), same(small_block(), options(Fast::particles, 5));
+  body.set_time_step(0.02);
+  body.initialise_forces(forces_on(body));
+  run(body, 3);
+  std::vector<double> state = body.save();
+  EXPECT_THROW(other.load(state), std::invalid_argument);
+  same.load(state);
+  const std::size_t count = state.size() - 2 - 9 * static_cast<std::size_t>(body.positions().cols());
+  ASSERT_EQ(state[count], 5.0);
+  for (const double damaged : {0.0, 2.0, 4.5, 1e9}) {
+    state[count] = damaged;
+    EXPECT_THROW(same.load(state), std::invalid_argument) << damaged;
+  }
+}
+
 /// How often the shares of nodes are summed: once for the internal force, once for each product with M.
 class CountingHalo final : public structure::Halo {
  public:
@@ -297,88 +256,6 @@ TEST(Substeps, WithinAnOuterStepTheBodysNumbersAreThoseOfItsBeginning) {
   EXPECT_EQ(body.work().contacts, work);
   run(body, 1);
   EXPECT_NE(body.kinetic_energy(), kinetic);
-}
-
-/// A block whose lower face stays while the rest flies off, of a law that stiffens.
-std::unique_ptr<coupling::IgaStructure> stretched_block(double speed) {
-  auto body = small_block(Ground::fixed, std::make_shared<structure::SaintVenantKirchhoff>(1.0, 0.3, 1.0));
-  NodalVectors v = NodalVectors::Zero(3, body->positions().cols());
-  v.row(2).setConstant(speed);
-  body->solver().set_velocities(v);
-  return body;
-}
-
-struct Changes {
-  std::vector<std::string> said;
-  std::vector<int> counts;
-};
-
-Changes run_and_listen(Substeps& body, int steps) {
-  Changes changes;
-  for (int n = 0; n < steps; ++n) {
-    run(body, 1);
-    if (std::string change = body.take_change(); !change.empty()) {
-      changes.said.push_back(std::move(change));
-      changes.counts.push_back(body.count());
-    }
-  }
-  EXPECT_EQ(body.take_change(), "");
-  return changes;
-}
-
-void expect_closed_ledger(const Substeps& body, double start) {
-  const coupling::Work work = body.work();
-  EXPECT_NEAR(body.kinetic_energy() + work.internal - work.loads - work.contacts, start, 1e-12 * start);
-}
-
-// Strain shortens the stable step: fewer particle steps in one of the body's, then more steps of the body in
-// one of theirs.
-TEST(Substeps, AutoTakesAnotherNumberWhereStrainAsksForIt) {
-  const double stable = stretched_block(0.3)->stable_time_step();
-  for (const bool by_time_step : {true, false}) {
-    Substeps body(stretched_block(0.3),
-                  options(by_time_step ? Fast::by_time_step : Fast::particles, {}, 1e-4));
-    body.set_time_step(0.32 * stable);
-    EXPECT_EQ(body.count(), 3);
-    body.initialise_forces(forces_on(body));
-    const double start = body.kinetic_energy();
-    const Changes changes = run_and_listen(body, 30);
-    ASSERT_EQ(changes.said.size(), 1u);
-    EXPECT_THAT(changes.said[0], testing::HasSubstr("substeps particles 2"));
-    EXPECT_THAT(changes.said[0], testing::HasSubstr("brought its stable step down to"));
-    expect_closed_ledger(body, start);
-  }
-  for (const Fast fast : {Fast::by_time_step, Fast::structure}) {
-    Substeps body(stretched_block(0.3), options(fast, {}, 1e-4));
-    body.set_time_step(0.97 * stable);
-    EXPECT_EQ(body.count(), 1);
-    body.initialise_forces(forces_on(body));
-    const double start = body.kinetic_energy();
-    const Changes changes = run_and_listen(body, 20);
-    ASSERT_EQ(changes.said.size(), 1u);
-    EXPECT_THAT(changes.said[0], testing::HasSubstr("substeps structure 2"));
-    expect_closed_ledger(body, start);
-  }
-}
-
-TEST(Substeps, ANumberStaysAndSaysWhatHelps) {
-  const double stable = stretched_block(0.3)->stable_time_step();
-  const auto failure = [&](Fast fast, std::optional<int> count, double dt) -> std::string {
-    Substeps body(stretched_block(0.3), options(fast, count, 1e-4));
-    try {
-      body.set_time_step(dt);
-      body.initialise_forces(forces_on(body));
-      run(body, 60);
-    } catch (const std::exception& problem) {
-      return problem.what();
-    }
-    return "";
-  };
-  EXPECT_THAT(failure(Fast::particles, 3, 0.32 * stable), testing::HasSubstr("or 'substeps auto'"));
-  EXPECT_THAT(failure(Fast::structure, 1, 0.97 * stable), testing::HasSubstr("or 'substeps auto'"));
-  EXPECT_THAT(failure(Fast::particles, {}, 0.97 * stable),
-              testing::AllOf(testing::HasSubstr("above the structure's stable step"),
-                             testing::HasSubstr("or 'substeps auto'")));
 }
 
 }  // namespace

@@ -309,6 +309,9 @@ DECKS = {
         f"fix w2 all wall/nurbs {RIGID}\n", "fix_modify w2 colour red\n", ["id w2", "'colour'", "motion"]),
     "fix_modify of a deforming wall": ("", "fix_modify plate motion none\n", ["id plate", "deforming"]),
     "a periodic triclinic box": ("change_box all boundary p p f triclinic\n", "", ["triclinic and periodic", "expected an orthogonal"]),
+    "a box that turns triclinic behind the fix": (
+        "change_box all boundary p p f\n", "change_box all triclinic\nrun 1\n", ["id plate", "triclinic and periodic", "expected an orthogonal"],
+    ),
     "multicontact of the pairs": (
         "pair_style gran model hertz tangential no_history surface multicontact\npair_coeff * *\n"
         "fix mc all multicontact/halfspace\n", "run 1\n", ["multicontact|geometric|Poisson|prefactor"],

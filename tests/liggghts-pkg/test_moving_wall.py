@@ -129,6 +129,18 @@ class BesideStock(unittest.TestCase):
         self.assertGreater(stock["fz"].max(), 0.05)
         self.compare(ours, stock, 1e-10)
 
+    def test_a_roller_beyond_a_periodic_face(self):
+        """Its surface moves as where it is, however many boxes away it is met."""
+        words = "surface_ang_vel origin 0.001 {} 0 axis 0 0 2 omega 300"
+        options = dict(balls=((3e-3, 0.0145, 1.05e-3),))
+        small = mw.deck(mw.nurbs_wall(MODELS, words.format(-1e-3)), box="-0.04 0.04 -0.004 0.016 -0.02 0.02", boundary="f p f", **options)
+        large = mw.deck(mw.stock_wall(MODELS, drive="move 0 0.02 0 " + words.format(0.019)), box="-0.04 0.04 -0.02 0.04 -0.02 0.02", **options)
+        run = mw.output() + "run 800\n"
+        ours = decks.good(small + run, files=mw.FILES).table
+        stock = decks.good(large + run, files=mw.FILES, program=decks.STOCK).table
+        self.assertGreater(stock["fz"].max(), 0.05)
+        self.compare(ours, stock, 1e-10)
+
     def test_servo_with_the_words_of_the_mesh_module(self):
         for name, words in SERVOS.items():
             with self.subTest(name):

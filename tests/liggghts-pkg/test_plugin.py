@@ -217,6 +217,11 @@ class Misbehaviour(unittest.TestCase):
         run = decks.good(deck(plugin(rest="surface top substeps auto"), "run 3\n", timestep=5e-5), files=net(HAMMOCK))
         self.assertIn("substeps structure 2: the structure takes 2 steps of 2.5e-05", run.text)
 
+    def test_a_time_step_that_changes_in_a_run(self):
+        """The body has forces for two half steps of what was its own step."""
+        wall = plugin(rest="surface top substeps auto") + "\nfix reset all dt/reset 5 9e-6 1e-5 1"
+        self.check(wall, "takes 1 steps in place of 2, .* between two runs alone, or 'substeps structure 2'", timestep=5e-5)
+
     def test_words(self):
         self.check("plugin", "expected a shared library")
         self.check(f"plugin {NET} surface", "keyword 'surface' is missing|top")

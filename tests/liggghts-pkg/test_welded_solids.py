@@ -83,6 +83,18 @@ class WeldedSolids(unittest.TestCase):
             self.assertNotEqual(run.code, 0)
             self.assertIn(f"tube.yaml: surface 'outside' is on {seam}, expected faces that particles can reach", " ".join(run.errors))
 
+    def test_what_is_hardly_meant_is_said_before_the_run(self):
+        deck = bob.prelude() + bob.wall(rest="structure tube.yaml surface outside") + "run 1\n"
+
+        def told(model: str) -> list[str]:
+            text = decks.good(deck, files={"tube.yaml": model}, ranks=1).text
+            return [line for line in text.split("Step")[0].splitlines() if "WARNING: Fix wall/nurbs (id plate): 'tube.yaml': " in line]
+
+        self.assertEqual(told(quarters()), [])
+        self.assertEqual(told(one_patch("no")), [])
+        (crack,) = told(quarters().replace("[270, 360]", "[270, 359.99]"))
+        self.assertRegex(crack, "the body has a crack: face '. xi.' is 3.93e-07 from face")
+
     def test_ranks(self):
         for ranks in (2,):
             found = hit(quarters(), steps=300, ranks=ranks)

@@ -323,6 +323,7 @@ TEST(ContactLoop, LeavesOtherGroupsAlone) {
   BallsOnWall scene(wall, balls, 1.0, 1.0);
   for (int k = 0; k < 100; ++k) EXPECT_NEAR(scene.balls.force(k)[2], k % 3 == 0 ? 0.0 : 0.1, 1e-14) << k;
   EXPECT_EQ(scene.spring.batches, 2);  // not one call for each
+  EXPECT_EQ(scene.loop.candidate_count(), 66);
 }
 
 // Inside a solid, and faster than its radius per step.

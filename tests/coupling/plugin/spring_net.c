@@ -41,7 +41,7 @@ struct StructurePluginBody {
   double *knots[2], *inverse_mass;
   int64_t* own;
   double dt;
-  int step;
+  int step, is_within_step;
   StructurePluginPatch patch;
   char error[256];
 };
@@ -246,6 +246,7 @@ static void share(const Net* net, double* values) {
 }
 
 static int net_stable_step(Net* net, double* dt) {
+  if (net->is_within_step) return fail(net, 9, "asked for the stable step within a step");
   /* no row of the stiffness has more in it than eight springs and the ground: Gershgorin's circle */
   *dt = 2.0 / sqrt((8.0 * net->stiffness + net->ground) / net->mass);
   return 0;
@@ -263,6 +264,7 @@ static int net_initialise(Net* net, const double* forces) {
 
 static int net_begin_step(Net* net) {
   ++net->step;
+  net->is_within_step = 1;
   half_kick(net);
   for (int k = 3 * net->first; k < 3 * net->end; ++k) net->x[k] += net->dt * net->v[k];
   share(net, net->x);
@@ -273,6 +275,7 @@ static int net_end_step(Net* net, const double* forces) {
   if (fails_now(net, 1)) return fail(net, 7, "a spring has snapped");
   accelerate(net, forces);
   half_kick(net);
+  net->is_within_step = 0;
   return 0;
 }
 
