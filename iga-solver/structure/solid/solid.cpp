@@ -65,7 +65,8 @@ void Solid::expect_equal_memories() {
     if (patch->remembered() != remembered_)
       throw std::invalid_argument(fmt::format(
           "Solid: elements of its patches remember {} and {} numbers, expected equally many: laws with "
-          "memory need the same law and degrees in all patches",
+          "memory need the same law and degrees in all patches, and 'quadrature: full' where some are one "
+          "element thick and others are not",
           remembered_, patch->remembered()));
 }
 

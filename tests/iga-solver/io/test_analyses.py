@@ -274,6 +274,14 @@ output: {{{{file: out}}}}
         for analysis, (elastic, viscous) in found.items():
             np.testing.assert_allclose(viscous, elastic, rtol=1e-6, atol=1e-12, err_msg=analysis)
 
+    def test_relax_looks_for_balance_without_viscosity(self):
+        """Of a bar that creeps: what viscosity carries on the way is no equilibrium."""
+        coarse = MODEL.replace("[20, 2, 2]", "[2, 1, 1]")
+        self.run_model("analysis: static", text=coarse)
+        expected = self.rows("probes/end")[-1]
+        self.run_model("analysis: {kind: relax, tolerance: 1e-6}\ndamping: {stiffness: 3e-3}", text=coarse)
+        np.testing.assert_allclose(self.rows("probes/end")[-1], expected, rtol=1e-5, atol=1e-12)
+
     def test_refusals(self):
         for more, expected in (
             ("analysis: statics", "model.yaml:8: analysis is statics, did you mean 'static'? expected one of: static, relax, modes"),
