@@ -142,13 +142,14 @@ bool PluginStructure::take_substeps(const SubstepOptions& options) {
 }
 
 void PluginStructure::set_time_step(double dt) {
-  const double stable = stable_ = stable_time_step(), needed = std::ceil(dt / stable * (1.0 - 1e-12));
+  stable_ = stable_time_step();
+  const double needed = std::ceil(dt / stable_ * (1.0 - 1e-12));
   if (!(needed <= kMostSubsteps) || needed > (has_substeps_ ? wanted_count_.value_or(kMostSubsteps) : 1))
     throw std::invalid_argument(fmt::format(
         "timestep {:.6g} is above the structure's stable step {:.6g}{}; use a timestep of at most {:.3g}, or "
         "'substeps structure auto'",
-        dt, stable, has_substeps_ ? fmt::format(", which asks for {:.0f} steps in it", needed) : "",
-        0.9 * stable));
+        dt, stable_, has_substeps_ ? fmt::format(", which asks for {:.0f} steps in it", needed) : "",
+        0.9 * stable_));
   count_ = has_substeps_ ? wanted_count_.value_or(std::max(1, static_cast<int>(needed))) : 1;
   dt_ = dt;
   body_->call("set_time_step", body_->functions().set_time_step, dt / count_);

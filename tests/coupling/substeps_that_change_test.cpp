@@ -88,30 +88,22 @@ void expect_closed_ledger(const Substeps& body, double start) {
 // one of theirs.
 TEST(SubstepsThatChange, AutoTakesAnotherNumberWhereStrainAsksForIt) {
   const double stable = stretched_block(0.3)->stable_time_step();
-  for (const bool by_time_step : {true, false}) {
-    Substeps body(stretched_block(0.3),
-                  options(by_time_step ? Fast::by_time_step : Fast::particles, {}, 1e-4));
-    body.set_time_step(0.32 * stable);
-    EXPECT_EQ(body.count(), 3);
+  const auto expect_another = [&](Fast fast, double share, int count, int steps, const char* said) {
+    Substeps body(stretched_block(0.3), options(fast, {}, 1e-4));
+    body.set_time_step(share * stable);
+    EXPECT_EQ(body.count(), count);
     body.initialise_forces(forces_on(body));
     const double start = body.kinetic_energy();
-    const Changes changes = run_and_listen(body, 30);
+    const Changes changes = run_and_listen(body, steps);
     ASSERT_EQ(changes.said.size(), 1u);
-    EXPECT_THAT(changes.said[0], testing::HasSubstr("substeps particles 2"));
+    EXPECT_THAT(changes.said[0], testing::HasSubstr(said));
     EXPECT_THAT(changes.said[0], testing::HasSubstr("brought its stable step down to"));
     expect_closed_ledger(body, start);
-  }
-  for (const Fast fast : {Fast::by_time_step, Fast::structure}) {
-    Substeps body(stretched_block(0.3), options(fast, {}, 1e-4));
-    body.set_time_step(0.97 * stable);
-    EXPECT_EQ(body.count(), 1);
-    body.initialise_forces(forces_on(body));
-    const double start = body.kinetic_energy();
-    const Changes changes = run_and_listen(body, 20);
-    ASSERT_EQ(changes.said.size(), 1u);
-    EXPECT_THAT(changes.said[0], testing::HasSubstr("substeps structure 2"));
-    expect_closed_ledger(body, start);
-  }
+  };
+  for (const Fast fast : {Fast::by_time_step, Fast::particles})
+    expect_another(fast, 0.32, 3, 30, "substeps particles 2");
+  for (const Fast fast : {Fast::by_time_step, Fast::structure})
+    expect_another(fast, 0.97, 1, 20, "substeps structure 2");
 }
 
 TEST(SubstepsThatChange, ANumberStaysAndSaysWhatHelps) {
