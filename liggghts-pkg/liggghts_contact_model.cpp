@@ -84,8 +84,11 @@ Vector3 LiggghtsContactModel::slip(const Contact& contact) const {
 }
 
 // The models store what they answer: store_force.
-void LiggghtsContactModel::hear_of_further(const Contact& contact, const Vector3& force) {
-  if (wall_.store_force()) Vector3::Map(wall_.fix_wallforce()->array_atom[contact.particle]) += force;
+void LiggghtsContactModel::hear_of_corrections(const Contact* contacts, int count) {
+  if (!wall_.store_force()) return;
+  for (const Contact* contact = contacts; contact < contacts + count; ++contact)
+    if (const contact::ContactCorrection* const by = contact->correction)
+      Vector3::Map(wall_.fix_wallforce()->array_atom[contact->particle]) += by->tangents * by->follows;
 }
 
 }  // namespace liggghts_pkg

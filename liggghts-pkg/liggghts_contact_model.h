@@ -36,7 +36,7 @@ class LiggghtsContactModel final : public contact::ContactModel {
     return springs_.exist() ? springs_.stretch(contact.history) : ContactModel::shear_stretch(contact);
   }
   nurbs::Vector3 slip(const contact::Contact& contact) const override;
-  void hear_of_further(const contact::Contact& contact, const nurbs::Vector3& force) override;
+  void hear_of_corrections(const contact::Contact* contacts, int count) override;
   /// Before each run.
   void read_constants(LAMMPS_NS::LAMMPS* lmp, const std::string& normal_model, int wall_type) {
     constants_.read(lmp, normal_model);

@@ -269,10 +269,9 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
         for (int m = 0; m < ShearBlock::kMemory; ++m) memory[m] = shear_.memory[m][lane];
     }
     by.follows = along;
-    const Vector3 further = before.directions.tangents * along;
-    contact.force += further;
-    model.hear_of_further(contact, further);
+    contact.force.noalias() += before.directions.tangents * along;
   }
+  model.hear_of_corrections(contacts, count);
 }
 
 }  // namespace contact

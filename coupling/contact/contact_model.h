@@ -72,8 +72,9 @@ class ContactModel {
   /// How fast the particle's surface slides over the foot [length/time]; what is along the normal does not
   /// count.
   virtual Vector3 slip(const Contact& /*contact*/) const { return Vector3::Zero(); }
-  /// Hears of a force [force] on the particle that comes to its answer (compliance.h), for its own records.
-  virtual void hear_of_further(const Contact& /*contact*/, const Vector3& /*force*/) {}
+  /// Hears of what has come to the forces that it gave a batch, for its own records: of each contact that has
+  /// a correction what follows its foot.
+  virtual void hear_of_corrections(const Contact* /*contacts*/, int /*count*/) {}
 };
 
 /// Hears of contacts that touch or have a force, after they have it.
