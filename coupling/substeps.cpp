@@ -242,7 +242,8 @@ void Substeps::set_impulse(const NodalForces& forces) {
 void Substeps::take_contacts(const NodalForces& forces) {
   const structure::Halo& halo = solver_.halo();
   const structure::MassOperator& mass = solver_.mass();
-  F_ = forces;
+  F_.touched = forces.touched;
+  for (const Eigen::Index A : surface_nodes_) F_.values.col(A) = forces.values.col(A);
   halo.owners_to_ghosts(F_.values);
   if (mass.is_diagonal()) {
     for (const Eigen::Index A : surface_nodes_)

@@ -99,6 +99,8 @@ void PluginStructure::begin_step() {
                     "'substeps structure {}'",
                     dt_, count_, count_of_forces_, count_of_forces_, std::max(count_, count_of_forces_)));
   if (count_ == 1 && skin_.inverse_mass.cols() > 0) stable_ = stable_time_step();
+  is_within_step_ = true;
+  x_before_ = x_;
   v_before_ = v_;
   body_->call("begin_step", functions.begin_step);
   take_motion("begin_step");
@@ -109,9 +111,11 @@ void PluginStructure::begin_step() {
     body_->call("begin_step", functions.begin_step);
   }
   take_motion("begin_step");
+  v_mean_ = (x_ - x_before_) / dt_;
 }
 
 void PluginStructure::end_step(const NodalForces& forces) {
+  is_within_step_ = false;
   F_ = count_ * forces.values;
   touched_ = forces.touched;
   v_before_ = v_;

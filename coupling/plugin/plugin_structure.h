@@ -27,7 +27,8 @@ class PluginStructure final : public StructureSolver {
   const std::vector<NodeId>& nodes() const override { return skin_.own; }
   bool is_in_parts() const override { return in_parts_; }
   const NodalVectors& positions() const override { return x_; }
-  const NodalVectors& velocities() const override { return v_; }
+  /// With sub-steps, within a step: those of its middle, as a particle's are.
+  const NodalVectors& velocities() const override { return is_within_step_ && count_ > 1 ? v_mean_ : v_; }
 
   void initialise_forces(const NodalForces& forces) override;
   void begin_step() override;
@@ -75,6 +76,8 @@ class PluginStructure final : public StructureSolver {
   std::string surface_name_, identity_;
   std::optional<SurfaceMaterial> material_;
   NodalVectors x_, v_;
+  NodalVectors x_before_, v_mean_;  // where a step of several began, and how fast it is on the mean
+  bool is_within_step_ = false;     // of particles, which begins and ends
   std::optional<ContactSurface> surface_;
   FingerprintPart geometry_;  // as it was opened
   NodalVectors F_;            // contact forces of the last step, times count_

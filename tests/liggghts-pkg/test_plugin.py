@@ -81,6 +81,22 @@ class Oscillator(unittest.TestCase):
             with self.subTest(name):
                 np.testing.assert_allclose(found, expected, rtol=0, atol=2e-4 * np.abs(expected).max())
 
+    def test_a_load_at_rest_sees_masses_at_rest(self):
+        """What comes to rest through the damper of its contact lies as deep as the law has it, also where the masses take several steps
+        between two kicks: at the end of a step they fly back from the last one."""
+        stiffness = 4 / 3 * E / (2 * (1 - NU**2)) * np.sqrt(bob.RADIUS)
+        weight = 9.81 * BALL_MASS
+        lies = bob.RADIUS - weight / (4 * 500.0) - (weight / stiffness) ** (2 / 3)
+        for steps in (1, 4):
+            with self.subTest(steps=steps):
+                run = deck(plugin(rest=f"surface top substeps structure {steps}"),
+                           "fix g all gravity 9.81 vector 0 0 -1\nrun 10000\n",
+                           velocity=(0, 0, 0), timestep=4e-6, restitution=0.3, balls=((0, 0, lies),))  # fmt: skip
+                table = decks.good(run, files=net(OSCILLATOR)).table
+                self.assertGreater(np.abs(table["vz"]).max(), 1e-5, "the masses begin without load")
+                np.testing.assert_allclose(table["vz"][-1], 0, atol=1e-12)
+                self.assertLess(abs(table["z"][-1] - lies), 5e-5 * (bob.RADIUS - lies))
+
 
 class Balances(unittest.TestCase):
     """A net that nothing holds, without stretch, and a ball."""
