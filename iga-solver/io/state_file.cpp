@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <ostream>
 #include <stdexcept>
+#include <variant>
 
 #include "geometry_io/hdf5_file.h"
 #include "geometry_io/regular_file.h"
@@ -54,6 +56,35 @@ bool has_own_memory(const structure::Body& body) {
   });
 }
 
+template <int Dim>
+void append(const nurbs::Space<Dim>& patch, std::vector<double>& numbers) {
+  for (const nurbs::KnotVector& direction : patch.knots()) {
+    const std::vector<double>& knots = direction.knots();
+    numbers.push_back(direction.degree());
+    for (const double knot : knots)
+      numbers.push_back((knot - knots.front()) / (knots.back() - knots.front()));
+  }
+  std::vector<double> weights(patch.control_point_count());
+  for (int A = 0; A < patch.control_point_count(); ++A) weights[A] = patch.weight(A);
+  if (std::any_of(weights.begin(), weights.end(), [](double weight) { return weight != 1.0; }))
+    numbers.insert(numbers.end(), weights.begin(), weights.end());
+}
+
+std::vector<double> splines_of(const structure::Body& body) {
+  std::vector<double> numbers;
+  const auto append_all = [&](const auto& patches) {
+    for (const auto& patch : patches) append(patch, numbers);
+  };
+  std::visit(append_all, body.patches());
+  return numbers;
+}
+
+bool agree(const std::vector<double>& some, const std::vector<double>& others) {
+  constexpr double kSame = 1e-9;
+  return std::equal(some.begin(), some.end(), others.begin(), others.end(),
+                    [](double a, double b) { return std::abs(a - b) <= kSame * std::max(1.0, std::abs(b)); });
+}
+
 void take(const SavedState& state, double time, structure::ExplicitSolver& solver) {
   constexpr double kSame = 1e-9;  // of the size
   const NodalVectors reference = nodal_vectors(solver.in_order(solver.body().reference()));
@@ -64,6 +95,11 @@ void take(const SavedState& state, double time, structure::ExplicitSolver& solve
         fmt::format("{}: is a state of {} control points, expected one of the same {} undeformed ones as in "
                     "the model: mesh and geometry are others",
                     state.file, state.reference.cols(), reference.cols()));
+  if (!state.splines.empty() && !agree(state.splines, splines_of(solver.body())))
+    throw InputError(fmt::format(
+        "{}: is a state of a mesh with the same control points, but degrees, knots or weights are others than "
+        "in the model: give the mesh of then",
+        state.file));
   std::vector<double> numbers{time};
   append(state.displacement, numbers);
   append(state.velocity, numbers);
@@ -109,6 +145,8 @@ void write_state(const std::string& path, geometry_io::Units units, const SavedS
     file.add_numbers("/state/work", {state.moment->work.size()}, state.moment->work.data());
     if (!state.moment->momentum.empty()) add("momentum", nodal_vectors(state.moment->momentum));
   }
+  if (!state.splines.empty())
+    file.add_numbers("/state/splines", {state.splines.size()}, state.splines.data());
   if (!state.discretisation.empty()) file.set_text("/state", "discretisation", state.discretisation);
   if (!state.settings.empty()) file.add_texts("/state/settings", to_texts(state.settings));
   const std::string problem = geometry_io::write_file(path, [&](std::ostream& out) { out << file.bytes(); });
@@ -149,6 +187,7 @@ SavedState read_state(const std::string& path, geometry_io::Units units, const g
                                                momentum.cols(), state.reference.cols()));
     append(momentum, state.moment->momentum);
   }
+  if (file.has("/state/splines")) state.splines = file.numbers("/state/splines").numbers;
   if (file.has("/state", "discretisation")) state.discretisation = file.text("/state", "discretisation");
   if (file.has("/state/settings")) state.settings = settings_from(file.texts("/state/settings"));
   return state;
@@ -170,6 +209,7 @@ SavedState state_of(const structure::ExplicitSolver& solver) {
                    nodal_vectors(solver.in_order(solver.displacements())),
                    nodal_vectors(solver.in_order(solver.velocities())), solver.memory_in_order()};
   state.discretisation = solver.body().discretisation();
+  state.splines = splines_of(solver.body());
   return state;
 }
 

@@ -5,6 +5,7 @@
 //   /state/displacement  [nodes][3],  /state/velocity [nodes][3],  /state/memory [numbers], if any
 //   /state/time, /state/time_step [1], /state/work [numbers], of a motion that may be continued
 //   /state/momentum      [nodes][3], of one that is damped by the mass, if that is corrected
+//   /state/splines       [numbers] that the patches have beside control points; older files have none
 //   /state/settings      texts: names and values, in turn, of what the model said beside the mesh; older
 //                        files have none
 #pragma once
@@ -34,6 +35,9 @@ struct SavedState {
   std::optional<Moment> moment = {};
   Settings settings = {};           ///< of the model of then, if the file tells
   std::string discretisation = {};  ///< Body's: of other points the memory is; likewise
+  /// Of each patch the degree and the knots of each direction, from 0 to 1, and weights where one is not 1;
+  /// likewise.
+  std::vector<double> splines = {};
 };
 
 /// Throws std::runtime_error, naming the file, if it cannot be written.

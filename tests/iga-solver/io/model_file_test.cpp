@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -293,6 +294,32 @@ TEST(SavedState, OfALawWithoutMemoryIsRefusedByOneThatHasIts) {
               testing::ThrowsMessage<geometry_io::InputError>(testing::AllOf(
                   HasSubstr("has a memory of 0 numbers, expected"),
                   HasSubstr("of the law 'standard_linear_solid'; give the material of then"))));
+}
+
+TEST(SavedState, OfOtherKnotsIsRefused) {
+  const auto model_of = [](const char* knot, const char* weight) {
+    return io::parse_model_file(
+        fmt::format(R"(units: si
+geometry:
+  patches:
+    - degrees: [2, 1, 1]
+      knots: [[0, 0, 0, {}, 1, 1, 1], [0, 0, 1, 1], [0, 0, 1, 1]]
+      control_points: [[0, 0, 0], [1, 0, 0], [2, 0, 0], [3, 0, 0], [0, 1, 0], [1, 1, 0], [2, 1, 0], [3, 1, 0],
+                       [0, 0, 1], [1, 0, 1], [2, 0, 1], [3, 0, 1], [0, 1, 1], [1, 1, 1], [2, 1, 1], [3, 1, 1]]
+      weights: [1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, {}]
+material: {{law: linear_elastic, youngs_modulus: 1e9, poissons_ratio: 0.3, density: 1000}}
+)",
+                    knot, weight),
+        "bar.yaml");
+  };
+  const io::SavedState state = io::state_of(io::build_solver(model_of("0.5", "1")));
+  structure::ExplicitSolver same = io::build_solver(model_of("0.5", "1"));
+  EXPECT_NO_THROW(io::start_from(state, same));
+  for (const auto& [knot, weight] : {std::pair{"0.4", "1"}, std::pair{"0.5", "1.1"}}) {
+    structure::ExplicitSolver other = io::build_solver(model_of(knot, weight));
+    EXPECT_THAT([&] { io::start_from(state, other); },
+                testing::ThrowsMessage<geometry_io::InputError>(HasSubstr("knots or weights are others")));
+  }
 }
 
 TEST(ModelFile, NamesAFileThatCannotBeRead) {
