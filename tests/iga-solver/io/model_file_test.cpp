@@ -298,8 +298,7 @@ TEST(SavedState, OfALawWithoutMemoryIsRefusedByOneThatHasIts) {
 
 TEST(SavedState, OfOtherKnotsIsRefused) {
   const auto model_of = [](const char* knot, const char* weight) {
-    return io::parse_model_file(
-        fmt::format(R"(units: si
+    return io::parse_model_file(fmt::format(R"(units: si
 geometry:
   patches:
     - degrees: [2, 1, 1]
@@ -309,8 +308,8 @@ geometry:
       weights: [1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, {}]
 material: {{law: linear_elastic, youngs_modulus: 1e9, poissons_ratio: 0.3, density: 1000}}
 )",
-                    knot, weight),
-        "bar.yaml");
+                                            knot, weight),
+                                "bar.yaml");
   };
   const io::SavedState state = io::state_of(io::build_solver(model_of("0.5", "1")));
   structure::ExplicitSolver same = io::build_solver(model_of("0.5", "1"));
