@@ -96,10 +96,11 @@ void take(const SavedState& state, double time, structure::ExplicitSolver& solve
                     "the model: mesh and geometry are others",
                     state.file, state.reference.cols(), reference.cols()));
   if (!state.splines.empty() && !agree(state.splines, splines_of(solver.body())))
-    throw InputError(fmt::format(
-        "{}: is a state of a mesh with the same control points, but degrees, knots or weights are others than "
-        "in the model: give the mesh of then",
-        state.file));
+    throw InputError(
+        fmt::format("{}: is a state of a mesh with the same control points, but degrees, knots or weights "
+                    "are others than "
+                    "in the model: give the mesh of then",
+                    state.file));
   std::vector<double> numbers{time};
   append(state.displacement, numbers);
   append(state.velocity, numbers);
