@@ -14,15 +14,8 @@ namespace {
 
 // Nodes along one side of a face.
 std::vector<int> side_nodes(const nurbs::BoundarySurface& face, int side) {
-  const int n_xi = face.space.control_point_count(0), n_eta = face.space.control_point_count(1);
-  const bool upper = side % 2 == 1;
-  std::vector<int> nodes;
-  if (side < 2)
-    for (int j = 0; j < n_eta; ++j)
-      nodes.push_back(face.volume_control_point[(upper ? n_xi - 1 : 0) + n_xi * j]);
-  else
-    for (int i = 0; i < n_xi; ++i)
-      nodes.push_back(face.volume_control_point[i + (upper ? n_xi * (n_eta - 1) : 0)]);
+  std::vector<int> nodes = nurbs::side_control_points(face.space, side);
+  for (int& node : nodes) node = face.volume_control_point[node];
   std::sort(nodes.begin(), nodes.end());
   return nodes;
 }
@@ -158,10 +151,7 @@ void IgaStructure::write_output(double time, double step, const std::function<vo
 void IgaStructure::correct_contacts(std::unique_ptr<MeshCompliance> compliance) {
   compliance_ = std::move(compliance);
   if (!compliance_) return;
-  compliance_->set_places([this]() -> NodalVectors {
-    const std::vector<double> places = solver_.in_order(solver_.positions());
-    return Eigen::Map<const NodalVectors>(places.data(), 3, static_cast<Eigen::Index>(places.size() / 3));
-  });
+  compliance_->set_places([this] { return nurbs::nodal_vectors(solver_.in_order(solver_.positions())); });
 }
 
 std::vector<double> IgaStructure::save() const {

@@ -210,13 +210,11 @@ inline double ContactLoop::squared_travel(const ParticleView& particles, int i) 
 
 namespace {
 
-constexpr double kDeep = 0.5;  // of the radius
-
 // The side changes where the branch goes on to another patch or, of one that is cut, to another part, and
 // where the centre passes the surface; and somebody may have put the particle elsewhere before a new list.
 bool keeps_side(const ContactSlot& slot, const TrackedFoot& tracked, double radius) {
   return slot.is_beside(tracked.foot.patch) && (tracked.side == 0 || tracked.side == slot.side()) &&
-         tracked.foot.distance >= kDeep * radius;
+         tracked.foot.distance >= kDeepInReach * radius;
 }
 
 }  // namespace

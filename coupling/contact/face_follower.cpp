@@ -46,9 +46,8 @@ void FaceFollower::advance() {
 
 // A centre that is not fast passes a surface only through places near it.  Then sheets have their say.
 bool FaceFollower::keeps_side(const Query& query, const TrackedFoot& tracked) const {
-  constexpr double kDeep = 0.5;  // of its reach
   const Foot& foot = tracked.foot;
-  if (foot.distance >= kDeep * query.touch_reach) return true;
+  if (foot.distance >= kDeepInReach * query.touch_reach) return true;
   const Vector3 normal = brep::normal_on(search().surface(), tracked.face, foot.xi);
   return tracked.side * normal.dot(query.centre - foot.point) > 0.0;
 }

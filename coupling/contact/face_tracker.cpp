@@ -175,9 +175,9 @@ void FaceTracker::find(const Query& query, double reach, double margin) {
   for (const brep::Foot& foot : found_) counts_.add_direct(foot);
 }
 
-// Whether the centre is, or may be, inside a body whose skin it pressed on.
+// Whether the centre is, or may be, inside a body whose skin it pressed on: the plane at where the foot was
+// last is not the surface.
 bool FaceTracker::may_be_behind(const Query& query, const ParticleSlots& slots) const {
-  constexpr double kDeep = 0.5;  // of its reach: the plane at where the foot was last is not the surface
   for (int s = 0; s < slots.used(); ++s) {
     if (slots.slot(s).empty()) continue;
     const nurbs::SurfacePoint last = slots.slot(s).foot();
@@ -191,7 +191,7 @@ bool FaceTracker::may_be_behind(const Query& query, const ParticleSlots& slots) 
       const Vector3 from = query.centre - image - point;
       if (from.squaredNorm() >= nearest) continue;
       nearest = from.squaredNorm();
-      is_deep = out.dot(from) < kDeep * query.touch_reach;
+      is_deep = out.dot(from) < kDeepInReach * query.touch_reach;
     }
     if (is_deep) return true;
   }

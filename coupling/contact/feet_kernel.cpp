@@ -125,11 +125,10 @@ void over_one_cylinder(FeetBlock& __restrict block, const KeptFeet& __restrict k
 }
 
 void stay_outside(FeetBlock& block, const StepNumbers& step) {
-  constexpr double kDeep = 0.5;
   const StepNumbers s = step;
   for (int k = 0; k < block.count; ++k) {
     const double distance = block.distance[k], way2 = s.squared_time * block.squared_speed[k] + s.squared_way;
-    const double outside = least(distance * distance - way2, distance - kDeep * block.touch_reach[k]);
+    const double outside = least(distance * distance - way2, distance - kDeepInReach * block.touch_reach[k]);
     block.room[k] = least(block.room[k], least(outside, distance - s.resolution));
   }
 }

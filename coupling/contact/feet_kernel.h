@@ -12,6 +12,10 @@ namespace contact {
 constexpr int kFeetCapacity = 32;  // with their contacts they stay in the first cache
 using FeetLanes = double[kFeetCapacity + 8];
 
+/// A centre that is nearer to the surface than that, of its reach, is looked at by itself: it may be about to
+/// pass the surface, or be behind a skin.
+constexpr double kDeepInReach = 0.5;
+
 /// What feet have been kept with, number by number: it is read in place in each step.  Feet last as long as
 /// the centre reaches `margin` less than `reach` and has not moved by more; lines without a foot have a
 /// margin < 0.

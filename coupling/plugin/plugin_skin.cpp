@@ -84,11 +84,8 @@ std::vector<NodeId> read_own(const StructurePluginDescription& is) {
 /// Rows of the map along one side of a patch, sorted: which nodes, in which shares.
 using Row = std::vector<std::pair<NodeId, double>>;
 std::vector<Row> side_rows(const SurfaceMap& map, const nurbs::Space<2>& patch, int first, int side) {
-  const int n_xi = patch.control_point_count(0), n_eta = patch.control_point_count(1);
-  const bool upper = side % 2 == 1, across_xi = side < 2;
   std::vector<Row> rows;
-  for (int i = 0; i < (across_xi ? n_eta : n_xi); ++i) {
-    const int point = across_xi ? (upper ? n_xi - 1 : 0) + n_xi * i : i + (upper ? n_xi * (n_eta - 1) : 0);
+  for (const int point : nurbs::side_control_points(patch, side)) {
     Row row;
     map.for_each_share(first + point, [&](NodeId node, double share) { row.emplace_back(node, share); });
     rows.push_back(std::move(row));

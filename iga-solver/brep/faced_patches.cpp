@@ -29,17 +29,12 @@ double size_of(const std::vector<nurbs::Surface>& patches) {
 
 // A side of a patch as a curve, along the patch's own direction.
 Spline<3> side_of(const nurbs::Surface& patch, int side) {
-  const int across = side / 2, along = 1 - across;
-  const int n = patch.space.control_point_count(0);
-  const int last = side % 2 == 1 ? patch.space.control_point_count(across) - 1 : 0;
-  const KnotVector& knots = patch.space.knots(along);
+  const KnotVector& knots = patch.space.knots(1 - side / 2);
+  const std::vector<int> points = nurbs::side_control_points(patch.space, side);
   Spline<3> spline{knots.degree(), knots.knots(), {}, {}};
-  spline.points.resize(3, knots.control_point_count());
-  for (int k = 0; k < knots.control_point_count(); ++k) {
-    const int a = along == 0 ? k + n * last : last + n * k;
-    spline.points.col(k) = patch.control_points.col(a);
-    if (patch.space.rational()) spline.weights.push_back(patch.space.weight(a));
-  }
+  spline.points = patch.control_points(Eigen::all, points);
+  if (patch.space.rational())
+    for (const int point : points) spline.weights.push_back(patch.space.weight(point));
   return spline;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geometry_io/any_spline.h"
+#include "geometry_io/golden_section.h"
 #include "nurbs/gauss_legendre.h"
 
 namespace geometry_io {
@@ -34,7 +35,7 @@ Tangents of_patch(const nurbs::Surface& patch, const Parameter<2>& xi, int deriv
   return t;
 }
 
-// The lowest of f on [a, b]: the best of some places, then golden sections around it.
+// The same of any valleys: of the lowest of some places.
 template <class F>
 double lowest_place(const F& f, double a, double b, int places) {
   int best = 0;
@@ -43,14 +44,9 @@ double lowest_place(const F& f, double a, double b, int places) {
     const double value = f(a + (b - a) * i / places);
     if (value < lowest) best = i, lowest = value;
   }
-  double low = a + (b - a) * std::max(best - 1, 0) / places,
-         high = a + (b - a) * std::min(best + 1, places) / places;
-  constexpr double kGolden = 0.61803398874989485;
-  for (int i = 0; i < 50; ++i) {
-    const double c = high - kGolden * (high - low), d = low + kGolden * (high - low);
-    (f(c) < f(d) ? high : low) = f(c) < f(d) ? d : c;
-  }
-  return 0.5 * (low + high);
+  const double low = a + (b - a) * std::max(best - 1, 0) / places,
+               high = a + (b - a) * std::min(best + 1, places) / places;
+  return golden_section(f, low, high);
 }
 
 Parameter<2> parameter_at(const AnySpline& curve, double t) {

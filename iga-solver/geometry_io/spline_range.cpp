@@ -2,29 +2,11 @@
 #include "geometry_io/spline_range.h"
 
 #include <algorithm>
-#include <cmath>
+#include <vector>
+
+#include "geometry_io/golden_section.h"
 
 namespace geometry_io {
-namespace {
-
-// The highest of f on [a, b], which has one peak there: golden sections.
-template <class F>
-double peak(const F& f, double a, double b) {
-  constexpr double kGolden = 0.61803398874989485;
-  double c = b - kGolden * (b - a), d = a + kGolden * (b - a), f_c = f(c), f_d = f(d);
-  for (int i = 0; i < 50; ++i) {
-    if (f_c > f_d) {
-      b = d, d = c, f_d = f_c;
-      c = b - kGolden * (b - a), f_c = f(c);
-    } else {
-      a = c, c = d, f_c = f_d;
-      d = a + kGolden * (b - a), f_d = f(d);
-    }
-  }
-  return std::max(f_c, f_d);
-}
-
-}  // namespace
 
 Range range_of(const AnySpline& curve, int coordinate) {
   const auto n = curve.points.cols();
@@ -44,10 +26,10 @@ Range range_of(const AnySpline& curve, int coordinate) {
   for (int i = 0; i <= parts; ++i) {
     const int before = std::max(i - 1, 0), after = std::min(i + 1, parts);
     if (value[i] >= value[before] && value[i] >= value[after] && value[i] > range.low)
-      range.high = std::max({range.high, value[i], peak(at, t[before], t[after])});
+      range.high = std::max(
+          {range.high, value[i], at(golden_section([&](double s) { return -at(s); }, t[before], t[after]))});
     if (value[i] <= value[before] && value[i] <= value[after] && value[i] < range.high)
-      range.low =
-          std::min({range.low, value[i], -peak([&](double s) { return -at(s); }, t[before], t[after])});
+      range.low = std::min({range.low, value[i], at(golden_section(at, t[before], t[after]))});
   }
   return range;
 }

@@ -20,15 +20,12 @@ namespace {
 
 using geometry_io::Hdf5Input;
 using geometry_io::InputError;
+using nurbs::nodal_vectors;
 using nurbs::NodalVectors;
 
 constexpr const char* kFormat = "iga-solver state";
 constexpr int kVersion = 1;
 constexpr const char* kExpected = "a state that 'save' of an analysis or a run has written";
-
-NodalVectors nodal_vectors(const std::vector<double>& rows) {
-  return Eigen::Map<const NodalVectors>(rows.data(), 3, static_cast<Eigen::Index>(rows.size() / 3));
-}
 
 void append(const NodalVectors& values, std::vector<double>& numbers) {
   numbers.insert(numbers.end(), values.data(), values.data() + values.size());

@@ -213,6 +213,17 @@ const char* side_name(int side) {
   return kNames[side];
 }
 
+std::vector<int> side_control_points(const Space<2>& patch, int side) {
+  const int n_xi = patch.control_point_count(0), n_eta = patch.control_point_count(1);
+  const bool upper = side % 2 == 1;
+  std::vector<int> points;
+  if (side < 2)
+    for (int j = 0; j < n_eta; ++j) points.push_back((upper ? n_xi - 1 : 0) + n_xi * j);
+  else
+    for (int i = 0; i < n_xi; ++i) points.push_back(i + (upper ? n_xi * (n_eta - 1) : 0));
+  return points;
+}
+
 bool same_orientation(int side, const Border& border) {
   // Along eta- and xi+ the patch lies to the left, seen from its normal.
   const auto on_the_left = [](int s) { return s == 1 || s == 2; };

@@ -15,6 +15,8 @@ namespace nurbs {
 /// Sides of a surface: 0 xi-, 1 xi+, 2 eta-, 3 eta+.
 constexpr int kSideCount = 4;
 const char* side_name(int side);
+/// The control points of a patch that an edge has, along it.
+std::vector<int> side_control_points(const Space<2>& patch, int side);
 
 /// One edge of a patch and what it meets.
 struct Border {

@@ -5,15 +5,10 @@
 #include <algorithm>
 
 #include "nurbs/assert.h"
-#include "nurbs/gauss_legendre.h"
+#include "nurbs/span_rule.h"
 
 namespace nurbs {
 namespace {
-
-QuadratureRule element_rule(const KnotVector& knots, int element) {
-  return gauss_legendre(std::min(knots.degree() + 2, kMaxGaussPoints), knots.breaks()[element],
-                        knots.breaks()[element + 1]);
-}
 
 double area_jacobian(const RationalBasis<2>& basis, const NodalVectors& X) {
   Vector3 tangent[2] = {Vector3::Zero(), Vector3::Zero()};
@@ -31,8 +26,7 @@ Eigen::VectorXd control_point_areas(const Space<2>& space, const NodalVectors& c
   RationalBasis<2> basis;
   for (int e = 0; e < space.element_count(); ++e) {
     const Indices<2> indices = space.element_indices(e);
-    const QuadratureRule u = element_rule(space.knots(0), indices[0]),
-                         v = element_rule(space.knots(1), indices[1]);
+    const QuadratureRule u = span_rule(space.knots(0), indices[0]), v = span_rule(space.knots(1), indices[1]);
     for (std::size_t j = 0; j < v.points.size(); ++j)
       for (std::size_t i = 0; i < u.points.size(); ++i) {
         evaluate_on_element(space, e, {u.points[i], v.points[j]}, 1, basis);

@@ -8,15 +8,6 @@
 
 namespace parallel {
 
-namespace {
-
-structure::NodalVectors nodal_vectors(const std::vector<double>& rows) {
-  return Eigen::Map<const structure::NodalVectors>(rows.data(), 3,
-                                                   static_cast<Eigen::Index>(rows.size() / 3));
-}
-
-}  // namespace
-
 SharedFields::SharedFields(MPI_Comm comm, const io::ModelFile& model)
     : comm_(comm), output_(*model.output->fields) {
   on_first_rank(comm_, [&] { series_.emplace(model); });
@@ -38,8 +29,9 @@ bool SharedFields::is_due(double time, double step) {
 }
 
 void SharedFields::write(const structure::ExplicitSolver& solver) {
-  const io::SolidState state{solver.time(), nodal_vectors(solver.in_order(solver.displacements())),
-                             nodal_vectors(solver.in_order(solver.velocities())), solver.memory_in_order()};
+  const io::SolidState state{solver.time(), nurbs::nodal_vectors(solver.in_order(solver.displacements())),
+                             nurbs::nodal_vectors(solver.in_order(solver.velocities())),
+                             solver.memory_in_order()};
   on_first_rank(comm_, [&] { series_->write(state); });
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "nurbs/control_area.h"
-#include "structure/conditions/span_rule.h"
+#include "nurbs/span_rule.h"
 
 namespace structure {
 
@@ -96,7 +96,7 @@ void add_line_load(const nurbs::Volume& patch, const std::vector<Id>& ids,
     spans[along] = span;
     const int element = patch.space.element_index(spans);
     if (!point.concerns(element)) continue;
-    const nurbs::QuadratureRule rule = span_rule(patch.space.knots(along), span);
+    const nurbs::QuadratureRule rule = nurbs::span_rule(patch.space.knots(along), span);
     for (std::size_t q = 0; q < rule.points.size(); ++q) {
       xi[along] = rule.points[q];
       point.evaluate(element, xi);
@@ -112,7 +112,7 @@ void add_body_force(const nurbs::Volume& patch, const std::vector<Id>& ids, cons
     if (!point.concerns(element)) continue;
     const nurbs::Indices<3> spans = patch.space.element_indices(element);
     nurbs::QuadratureRule rule[3];
-    for (int d = 0; d < 3; ++d) rule[d] = span_rule(patch.space.knots(d), spans[d]);
+    for (int d = 0; d < 3; ++d) rule[d] = nurbs::span_rule(patch.space.knots(d), spans[d]);
     for (std::size_t k = 0; k < rule[2].points.size(); ++k)
       for (std::size_t j = 0; j < rule[1].points.size(); ++j)
         for (std::size_t i = 0; i < rule[0].points.size(); ++i) {

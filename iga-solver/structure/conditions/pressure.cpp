@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "structure/conditions/span_rule.h"
+#include "nurbs/span_rule.h"
 
 namespace structure {
 
@@ -30,8 +30,8 @@ void FollowingPressure::add_points(const nurbs::BoundarySurface& skin, const Nod
   nurbs::RationalBasis<2> basis;
   for (const int e : box.elements) {
     const nurbs::Indices<2> spans = skin.space.element_indices(e);
-    const nurbs::QuadratureRule u = span_rule(skin.space.knots(0), spans[0]),
-                                v = span_rule(skin.space.knots(1), spans[1]);
+    const nurbs::QuadratureRule u = nurbs::span_rule(skin.space.knots(0), spans[0]),
+                                v = nurbs::span_rule(skin.space.knots(1), spans[1]);
     for (std::size_t j = 0; j < v.points.size(); ++j)
       for (std::size_t i = 0; i < u.points.size(); ++i) {
         nurbs::evaluate_on_element(skin.space, e, {u.points[i], v.points[j]}, 1, basis);

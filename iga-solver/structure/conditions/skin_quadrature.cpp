@@ -3,8 +3,8 @@
 
 #include <Eigen/Geometry>
 
+#include "nurbs/span_rule.h"
 #include "structure/conditions/columns.h"
-#include "structure/conditions/span_rule.h"
 
 namespace structure {
 
@@ -17,8 +17,8 @@ SkinQuadrature::SkinQuadrature(const SkinSurface& surface, const std::vector<Id>
   nurbs::RationalBasis<2> basis;
   for (int e = 0; e < skin.space.element_count(); ++e) {
     const nurbs::Indices<2> spans = skin.space.element_indices(e);
-    const nurbs::QuadratureRule u = span_rule(skin.space.knots(0), spans[0]),
-                                v = span_rule(skin.space.knots(1), spans[1]);
+    const nurbs::QuadratureRule u = nurbs::span_rule(skin.space.knots(0), spans[0]),
+                                v = nurbs::span_rule(skin.space.knots(1), spans[1]);
     for (std::size_t j = 0; j < v.points.size(); ++j)
       for (std::size_t i = 0; i < u.points.size(); ++i) {
         nurbs::evaluate_on_element(skin.space, e, {u.points[i], v.points[j]}, 1, basis);
