@@ -182,6 +182,10 @@ void FixWallNurbs::init() {
   reset_dt();
   const std::string step = structure_.describe_step();
   if (!step.empty()) messages_.print(step);
+  weld_across_box();
+}
+
+void FixWallNurbs::weld_across_box() {
   if (!structure_.deforms()) loop_.wall().weld_across(contact::periods(box_of(*domain)));
 }
 
@@ -206,7 +210,7 @@ void FixWallNurbs::setup(int vflag) {
   });
   structure_.begin_run();  // not in init: LIGGGHTS knows only now which computes its variables need
   loop_.wall().import();
-  is_read_locally_ = may_be_read_locally();
+  is_read_locally_ = may_be_read_locally();  // now, too
   {
     const liggghts_pkg::Setting<int> as_primitive(meshwall_, 0);
     FixWallGran::setup(vflag);  // pre_neighbor, pre_force, post_force, heat transfer
@@ -220,7 +224,15 @@ void FixWallNurbs::setup(int vflag) {
   warned_of_gravity_ = !missing.empty();
 }
 
+// What commands between two runs have changed, where LIGGGHTS sets up nothing anew (`run N pre no`), too.
+void FixWallNurbs::begin_first_step() {
+  is_read_locally_ = may_be_read_locally();
+  if (!structure_.moves()) loop_.wall().import();  // it may have moved until now
+  if (loop_.has_other_members(particles())) rebuild_list_ = true;
+}
+
 void FixWallNurbs::initial_integrate(int) {
+  if (update->ntimestep == update->firststep + 1) begin_first_step();
   if (!structure_.moves()) return;
   in_step([&] {
     structure_.begin_step();
@@ -246,6 +258,7 @@ void FixWallNurbs::pre_force(int) {
 
 void FixWallNurbs::build_list() {
   rebuild_list_ = false;
+  if (domain->box_change) weld_across_box();
   try {
     loop_.build_list(particles(), {neighbor->skin, neighbor->contactDistanceFactor, dt_, box_of(*domain)});
   } catch (const std::exception& problem) {

@@ -71,6 +71,8 @@ class FixWallNurbs : public WallNurbsSetup, public FixWallGran {
   void or_fail(Action action) const;  // what goes wrong ends the program, on every rank
   template <class Action>
   void in_step(Action action) const;  // likewise, with the step
+  void weld_across_box();
+  void begin_first_step();
   void build_list();
   contact::ParticleView particles();
   const double* masses();

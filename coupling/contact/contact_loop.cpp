@@ -111,6 +111,13 @@ bool ContactLoop::has_outgrown_list(const ParticleView& particles) const {
   return wall_.any(kernel_.any_above(particles.radius, radius_limit_.data(), particles.count));
 }
 
+bool ContactLoop::has_other_members(const ParticleView& particles) const {
+  bool differs = particles.count != static_cast<int>(list_reach_.size());
+  for (int i = 0; i < particles.count && !differs; ++i)
+    differs = particles.meets_wall(i) == (list_reach_[i] == CandidateList::kNotAtAll);
+  return wall_.any(differs);
+}
+
 /* ---------------------------------------------------------------------- one step */
 
 void ContactLoop::step(const ParticleView& particles, const StepInfo& step, ContactModel& model,

@@ -68,7 +68,7 @@ class ContactLoop {
   Wall& wall() { return wall_; }
 
   /// Global search, for all particles of this rank; forgets the contacts of those that are out of reach.
-  /// Collective, as are the next two.
+  /// Collective, as are the next three.
   /// Throws std::runtime_error if the wall has turned so that its periodic images do not fit.
   void build_list(const ParticleView& particles, const ListReach& reach);
   /// Largest distance that a point of the wall has moved since then, at most; not finite if its place is not
@@ -77,6 +77,8 @@ class ContactLoop {
   /// Whether a particle has grown more than the list allows for: of this rank or, where the wall is in parts,
   /// of any.
   bool has_outgrown_list(const ParticleView& particles) const;
+  /// Whether other particles than those of the list meet the wall now; likewise.
+  bool has_other_members(const ParticleView& particles) const;
   long candidate_count() const { return static_cast<long>(candidates_.candidates().size()); }
 
   /// Adds the wall's forces to the particles, whose number and order are those of build_list.  Throws

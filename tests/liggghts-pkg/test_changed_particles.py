@@ -79,6 +79,7 @@ CHANGES = {
     "skin": "run 100\nneighbor 0.0001 bin\nrun 200\nneighbor 0.004 bin\nrun 100",
     "wall_defined_anew": "run 100\nunfix wall\nrun 50\nfix wall all {wall}\nrun 200",
     "new_ball": "create_atoms 1 single 0 0.04 0.0046 units box\nset atom 4 diameter 0.01 density 2500 vz -0.5 vx 0.3\nrun 300",
+    "group_pre_no": "unfix wall\ngroup some id 1\nfix wall some {wall}\nrun 100\ngroup some id 2\nrun 100 pre no\ngroup some id 3\nrun 100 pre no",
     "pre_no": "run 100\nset group all diameter 0.0103\nrun 200 pre no",
 }
 INSERTION = """

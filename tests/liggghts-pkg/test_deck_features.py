@@ -57,6 +57,19 @@ class Features(unittest.TestCase):
             with self.subTest(ranks=ranks):
                 self.same(run(small, nurbs(), wall, steps=1500, ranks=ranks).table, stock)
 
+    def test_a_periodic_box_that_grows(self):
+        """A floor as long as the box ends where that grows: a ball at the seam then lies between two edges, a radius apart."""
+        y, apart = "-0.004 0.004 -0.005 0.02", 1e-3
+        start = prelude((3.999e-3, 2e-4, 0.999 * R), (0, 0, 0), gravity=False, boundary="p f f", box=f"-0.004 0.004 {y}")
+        wall = model_file(quad((-4e-3, -4e-3, 0), (8e-3, 0, 0), (0, 8e-3, 0), (3, 3)))
+        rate = apart / 8e-3 / (40000 * 1e-6)
+        grows = f"fix down all gravity 9.81 vector 0 0 -1\ntimestep 1e-6\nfix grow all deform 1 x erate {rate!r}\n"
+        for ranks in (1, 2):
+            seen = run(start, nurbs() + grows, wall, steps=40000, every=400, ranks=ranks).table
+            aside = np.minimum(seen["x"][-1] - 4e-3, 5e-3 - seen["x"][-1])
+            self.assertGreater(aside, 0.3e-3, "it is over the gap")
+            self.assertAlmostEqual(seen["z"][-1] / np.sqrt(R**2 - aside**2), 1, delta=0.01)
+
     def test_clump_of_spheres(self):
         """fix multisphere: a dumbbell tumbles on the floor."""
         clump = """
