@@ -94,10 +94,37 @@ ControlPointDigest digest(const structure::Halo& halo, const NodalVectors& refer
   return digest;
 }
 
-FingerprintPart supports_part(const std::vector<structure::Id>& fixed) {
-  return {"supports",
-          fmt::format("{} fixed degrees of freedom", fixed.size()),
-          {static_cast<double>(fixed.size()), checksum({fixed.begin(), fixed.end()})}};
+// What is held; how it moves is the model's business, as loads are.
+FingerprintPart supports_part(const structure::ExplicitSolver& solver) {
+  FingerprintPart part{"supports", "", {}};
+  const auto add = [&](const std::vector<structure::Id>& dofs) {
+    part.numbers.push_back(static_cast<double>(dofs.size()));
+    part.numbers.push_back(checksum({dofs.begin(), dofs.end()}));
+  };
+  const std::vector<structure::Id> fixed = solver.fixed_dofs(), moved = solver.moved_dofs();
+  part.text = fmt::format("{} fixed degrees of freedom", fixed.size());
+  add(fixed);
+  if (moved.empty()) return part;
+  part.text += fmt::format(", {} of which move", moved.size());
+  add(moved);
+  return part;
+}
+
+/// Of the whole body; without springs there is no such part.
+std::optional<FingerprintPart> springs_part(const structure::ExplicitSolver& solver) {
+  const structure::Halo& halo = solver.halo();
+  const Eigen::Index owned = halo.owned(solver.positions().cols());
+  structure::ExactSum count, stiffness, check;
+  for (const auto& group : solver.springs().groups())
+    for (const auto& [column, k] : group) {
+      if (column >= owned) continue;
+      count.add(1.0), stiffness.add(k.trace());
+      for (int i = 0; i < 9; ++i) check.add(checksum_term(9 * halo.node_id(column) + i, k(i)));
+    }
+  const double all = halo.total(count), sum = halo.total(stiffness), terms = halo.total(check);
+  if (all == 0.0) return {};
+  return FingerprintPart{
+      "springs", fmt::format("{} of stiffness {:.10g} in all directions together", all, sum), {all, terms}};
 }
 
 double total_mass(const structure::ExplicitSolver& solver) {
@@ -115,7 +142,8 @@ IgaStructure::IgaStructure(structure::ExplicitSolver solver, std::vector<structu
       skin_(std::move(skin)),
       nodes_(solver_.node_ids()),
       in_parts_(in_parts),
-      supports_(supports_part(solver_.fixed_dofs())),
+      supports_(supports_part(solver_)),
+      springs_(springs_part(solver_)),
       surface_(surface_of(solver_, skin_)),
       mass_(total_mass(solver_)),
       probes_(std::move(probes)),
@@ -239,6 +267,7 @@ Fingerprint IgaStructure::fingerprint() const {
                           word_part("surface", fmt::format("{}", fmt::join(faces, ", ")))};
   add_materials(body, fingerprint);
   fingerprint.push_back(supports_);
+  if (springs_) fingerprint.push_back(*springs_);
   if (!body.discretisation().empty()) fingerprint.push_back(word_part("quadrature", body.discretisation()));
   if (body.corrects_mass()) fingerprint.push_back(word_part("mass", "corrected"));
   return fingerprint;

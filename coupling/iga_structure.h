@@ -94,6 +94,7 @@ class IgaStructure final : public StructureSolver {
   std::vector<NodeId> nodes_;
   bool in_parts_;
   FingerprintPart supports_;
+  std::optional<FingerprintPart> springs_;
   ContactSurface surface_;
   double mass_;
   std::unique_ptr<MeshCompliance> compliance_;

@@ -66,26 +66,29 @@ ModalStructure::ModalStructure(std::unique_ptr<IgaStructure> body, const ModalBa
 structure::ModalSystem ModalStructure::system_of(const ModalBasis& basis, const ModalDamping& damping) const {
   const Index modes = basis.eigenvalues.size(), motions = static_cast<Index>(basis.follow.size());
   const structure::Halo& halo = solver_.halo();
-  structure::ModalSystem system{basis.eigenvalues,
-                                VectorXd::Zero(modes),
-                                damping.mass,
-                                damping.stiffness,
-                                {},
-                                Eigen::MatrixXd(modes, motions),
-                                Eigen::MatrixXd(motions, motions),
-                                {},
-                                {}};
+  structure::ModalSystem system;
+  system.eigenvalues = basis.eigenvalues;
+  system.damping_ratio = VectorXd::Zero(modes);
+  system.mass_damping = damping.mass;
+  system.viscosity = damping.stiffness * basis.eigenvalues;
+  system.share.resize(modes, motions);
+  system.stiffness.resize(motions, motions);
   for (Index k = 0; k < modes && !damping.ratio.empty(); ++k)
     system.damping_ratio[k] = damping.ratio[std::min<std::size_t>(k, damping.ratio.size() - 1)];
-  system.mass = system.free_mass = system.stiffness;
+  for (Index k = 0; k < modes && !solver_.springs().empty(); ++k)
+    system.viscosity[k] = std::max(
+        0.0, system.viscosity[k] - damping.stiffness * halo.dot(basis.modes[k], of_springs(basis.modes[k])));
+  system.mass = system.free_mass = system.viscous = system.stiffness;
   for (Index j = 0; j < motions; ++j) {
     const NodalVectors m_psi = times_mass(basis.follow[j], solver_);
     NodalVectors free = m_psi, K_psi(3, m_psi.cols());
     solver_.supports().apply(free);
     solver_.internal_forces(basis.follow[j], K_psi);
+    const NodalVectors body_psi = K_psi - of_springs(basis.follow[j]);
     for (Index k = 0; k < modes; ++k) system.share(k, j) = halo.dot(basis.modes[k], m_psi);
     for (Index i = 0; i < motions; ++i) {
       system.stiffness(i, j) = halo.dot(basis.follow[i], K_psi);
+      system.viscous(i, j) = damping.stiffness * halo.dot(basis.follow[i], body_psi);
       system.mass(i, j) = halo.dot(basis.follow[i], m_psi);
       system.free_mass(i, j) = halo.dot(basis.follow[i], free);
     }
@@ -97,6 +100,12 @@ structure::ModalSystem ModalStructure::system_of(const ModalBasis& basis, const 
   return system;
 }
 
+NodalVectors ModalStructure::of_springs(const NodalVectors& u) const {
+  NodalVectors f = NodalVectors::Zero(3, u.cols());
+  solver_.springs().add_forces(u, f);
+  return f;
+}
+
 // Shape by shape, as if the body stood and moved so.
 void ModalStructure::measure_shapes(const ModalBasis& basis) {
   const std::vector<NodalVectors> shapes = all_shapes(basis);
@@ -106,7 +115,7 @@ void ModalStructure::measure_shapes(const ModalBasis& basis) {
   momentum_.resize(3, count);
   signature_ = rows_.project(pattern(nodes()), solver_.halo());
   probes_.assign(body_->watched_points().size(), Row3(3, count));
-  supports_.assign(body_->watched_supports().size(), {Row3(3, count), Row3::Zero(3, count)});
+  supports_.assign(body_->watched_supports().size(), {Row3(3, count), Row3(3, count), Row3::Zero(3, count)});
   for (Index k = 0; k < count; ++k) {
     const NodalVectors& shape = shapes[k];
     solver_.set_motion(shape, shape, 0.0);
@@ -115,9 +124,12 @@ void ModalStructure::measure_shapes(const ModalBasis& basis) {
       probes_[i].col(k) = solver_.displacement(body_->watched_points()[i]);
     if (supports_.empty()) continue;
     solver_.internal_forces(shape, force);
+    const NodalVectors springs = of_springs(shape);
+    force -= springs;
     for (std::size_t i = 0; i < supports_.size(); ++i) {
       const structure::NamedSupport& support = body_->watched_supports()[i];
-      supports_[i].stiffness.col(k) = force_at(support, force) + spring_force(support, shape);
+      supports_[i].body.col(k) = force_at(support, force);
+      supports_[i].springs.col(k) = force_at(support, springs) + spring_force(support, shape);
       if (k >= motion_.mode_count())
         supports_[i].inertia.col(k) = force_at(support, times_mass(shape, solver_));
     }
@@ -136,10 +148,28 @@ void ModalStructure::take_state() {
     rows_.at(A, at_rest, at_rest, psi, same);
     rest.col(A) -= psi;
   }
+  expect_supports_in_place(rest);
   const auto modes = [&](const NodalVectors& q) -> VectorXd {
     return rows_.project(times_mass(q, solver_), solver_.halo()).head(motion_.mode_count());
   };
   motion_.set_state(solver_.time(), modes(rest), modes(v));
+}
+
+// Modes and motions are all that it has: a displacement at what is fixed would be gone.
+void ModalStructure::expect_supports_in_place(NodalVectors displacements) const {
+  constexpr double kRoundOff = 1e-9;  // of the largest displacement
+  const double largest = solver_.largest_displacement();
+  const NodalVectors all = displacements;
+  solver_.supports().apply(displacements);
+  displacements = all - displacements;  // where they hold
+  for (const structure::Motion& motion : solver_.supports().motions())
+    for (const Index dof : motion.dofs) displacements.data()[dof] = 0.0;
+  const double held = solver_.halo().largest(displacements.lpNorm<Eigen::Infinity>());
+  if (held > kRoundOff * largest)
+    throw std::invalid_argument(
+        fmt::format("body modal: the state has control points displaced by up to {:.6g} where 'fix' holds "
+                    "them, and modes know supports in their places: expected 'move' there, by as much",
+                    held));
 }
 
 // As the whole solid, supports begin with the velocity that the body is given there, until they take their
@@ -305,7 +335,8 @@ std::vector<Reaction> ModalStructure::reactions() const {
   accelerations.tail(motion_.motion_count()) = motion_.support_accelerations();
   for (std::size_t i = 0; i < supports_.size(); ++i) {
     const structure::NamedSupport& support = body_->watched_supports()[i];
-    reactions.push_back({support.name, supports_[i].stiffness * strained +
+    reactions.push_back({support.name, supports_[i].body * strained +
+                                           supports_[i].springs * motion_.coordinates() +
                                            supports_[i].inertia * accelerations - force_at(support, given)});
   }
   return reactions;

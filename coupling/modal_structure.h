@@ -75,14 +75,17 @@ class ModalStructure final : public StructureSolver {
 
  private:
   using Row3 = Eigen::Matrix<double, 3, Eigen::Dynamic>;  // a vector of each shape
-  /// What a support feels, per shape: K shape; and of a psi M psi, too.
+  /// What a support feels, per shape: K shape of the body and of springs; and of a psi M psi, too.
   struct SupportForces {
-    Row3 stiffness, inertia;
+    Row3 body, springs, inertia;
   };
   structure::ModalSystem system_of(const structure::ModalBasis& basis, const ModalDamping& damping) const;
+  /// Forces of the springs to the ground at displacements u, 3 x n.
+  NodalVectors of_springs(const NodalVectors& u) const;
   void measure_shapes(const structure::ModalBasis& basis);
   /// What the modes have of the solver's displacements and velocities.
   void take_state();
+  void expect_supports_in_place(NodalVectors displacements) const;
   /// ds/dt [1/time] of the supports' motions, of the solver's velocities where they act.  Collective.
   Eigen::VectorXd support_rates() const;
   structure::ModalForces loads_at(double time) const;

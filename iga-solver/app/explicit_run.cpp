@@ -232,7 +232,7 @@ void run_in_time(const SolveOptions& options, io::ModelFile& model) {
     solver.expect_finite_conditions(continued ? continued->time : 0.0);
     solver.expect_finite_conditions(*end);
   });
-  solver.set_time_step(steps.size);
+  with_name(model, [&] { solver.set_time_step(steps.size); });
   output.set_next_step(steps.next_size);
   if (prints) print_on_first("  time step    {:.6g}, {} steps\n", steps.size, steps.count);
   begin(solver, continued, model);

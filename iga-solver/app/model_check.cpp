@@ -99,6 +99,7 @@ void check_motion(const SolveOptions& options, const io::ModelFile& model, Expli
   if (!end)
     return print_on_first("  time step    not known: neither 'time: {{end: T}}' nor --end T is given\n");
   const Steps steps = steps_to(*end, options, model, stable, continued);
+  with_name(model, [&] { solver.set_time_step(steps.size); });
   print_on_first("  time step    {:.6g}, {} steps\n", steps.size, steps.count);
   print_duration(steps, seconds);
   print_output(model, *end, steps, continued);

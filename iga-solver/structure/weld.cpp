@@ -331,7 +331,8 @@ NodeNumbering weld(const std::vector<nurbs::Volume>& patches, double relative_to
 
 namespace {
 
-/// Faces on the same nodes, which are sorted.
+/// Faces on the same nodes, which are sorted, each once: round faces may have their seams at different
+/// places.
 std::map<std::vector<Id>, std::vector<SkinPiece>> faces_by_nodes(const std::vector<nurbs::Space<3>>& patches,
                                                                  const NodeNumbering& nodes) {
   std::map<std::vector<Id>, std::vector<SkinPiece>> by_nodes;
@@ -342,6 +343,7 @@ std::map<std::vector<Id>, std::vector<SkinPiece>> faces_by_nodes(const std::vect
       for (const int point : nurbs::boundary_surface(patches[p], piece.face).volume_control_point)
         on_face.push_back(nodes.node(p, point));
       std::sort(on_face.begin(), on_face.end());
+      on_face.erase(std::unique(on_face.begin(), on_face.end()), on_face.end());
       by_nodes[on_face].push_back(piece);
     }
   return by_nodes;
@@ -366,14 +368,6 @@ std::vector<std::pair<SkinPiece, SkinPiece>> welded_faces(const std::vector<nurb
     for (std::size_t k = 0; k < pieces.size() && pieces.size() > 1; ++k)
       welded.emplace_back(pieces[k], pieces[(k + 1) % pieces.size()]);
   return welded;
-}
-
-int welded_face_count(const std::vector<nurbs::Volume>& patches, const NodeNumbering& nodes) {
-  int count = 0;
-  for_each_touching_pair(faces_of(patches, nodes), [&](const FaceNet& a, const FaceNet& b) {
-    count += difference(a, b) == Difference::none;
-  });
-  return count;
 }
 
 }  // namespace structure

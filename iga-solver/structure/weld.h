@@ -28,7 +28,4 @@ std::vector<SkinPiece> free_faces(const std::vector<nurbs::Space<3>>& patches, c
 std::vector<std::pair<SkinPiece, SkinPiece>> welded_faces(const std::vector<nurbs::Space<3>>& patches,
                                                           const NodeNumbering& nodes);
 
-/// How many pairs of faces are welded.
-int welded_face_count(const std::vector<nurbs::Volume>& patches, const NodeNumbering& nodes);
-
 }  // namespace structure

@@ -183,6 +183,33 @@ TEST(IgaStructure, ForcesGoToTheNodesOfTheirFace) {
   }
 }
 
+// A saved state knows what is held, what of that moves, and on which springs the body stands.
+TEST(IgaStructure, FingerprintTellsSupportsApart) {
+  const auto fingerprint = [](bool moves, double stiffness) {
+    const nurbs::Volume box = nurbs::box({0, 0, 0}, {1, 1, 1}, {knots(2, 1), knots(2, 1), knots(2, 1)});
+    const structure::NodeSet bottom = structure::nodes_on(box.space, {nurbs::Face::zeta_minus});
+    structure::Supports supports;
+    if (moves)
+      supports.move(bottom, {true, true, true}, {0, 0, 1e-3}, structure::sine(1.0, 0.0));
+    else
+      supports.fix(bottom, {true, true, true});
+    auto steel = std::make_shared<structure::LinearElastic>(210.6e9, 0.286, 7850.0);
+    structure::ExplicitSolver solver(std::make_unique<structure::Solid>(box, steel), supports);
+    structure::Springs springs;
+    if (stiffness > 0.0) springs.add({{26, stiffness * structure::Stiffness3::Identity()}});
+    solver.set_springs(springs);
+    return coupling::IgaStructure(std::move(solver), {{0, nurbs::Face::zeta_plus}}).fingerprint();
+  };
+  EXPECT_EQ(coupling::difference(fingerprint(false, 1e5), fingerprint(false, 1e5)), "");
+  EXPECT_THAT(
+      coupling::difference(fingerprint(true, 0), fingerprint(false, 0)),
+      testing::AllOf(testing::HasSubstr("supports: 27 fixed"), testing::HasSubstr("27 of which move")));
+  EXPECT_THAT(coupling::difference(fingerprint(false, 1e5), fingerprint(false, 1e6)),
+              testing::HasSubstr("springs: 1 of stiffness 300000"));
+  EXPECT_THAT(coupling::difference(fingerprint(false, 1e5), fingerprint(false, 0)),
+              testing::HasSubstr("none now"));
+}
+
 // Which is not above the true one.
 TEST(IgaStructure, TheLimitIsTheStableStep) {
   coupling::IgaStructure solver = block();

@@ -22,6 +22,7 @@ class Springs {
   /// Springs of one support.
   void add(std::vector<Spring> group) { groups_.push_back(std::move(group)); }
   bool empty() const { return groups_.empty(); }
+  const std::vector<std::vector<Spring>>& groups() const { return groups_; }
 
   /// f += K u, both 3 x n: they count as internal forces.
   void add_forces(const NodalVectors& u, NodalVectors& f) const;

@@ -68,19 +68,15 @@ void ExplicitSolver::set_mass_damping(double rate) {
     momenta_damped_ = std::make_unique<MomentumDamping>(rate, *mass_, halo_->owned(v_.cols()));
 }
 
-void ExplicitSolver::set_velocities(const NodalVectors& v) {
-  check_size(v, "velocities");
-  v_ = v;
-  supports_.apply(v_);
-  for (const Motion& motion : supports_.motions())
-    for (const Eigen::Index dof : motion.dofs) v_.data()[dof] = v.data()[dof];
-  if (momenta_damped_) momenta_damped_->forget();
-  budget_.reset();
-}
-
 void ExplicitSolver::set_time_step(double dt) {
   if (!(dt > 0.0 && std::isfinite(dt)))
     throw std::invalid_argument(fmt::format("ExplicitSolver: time step is {}, expected a number > 0", dt));
+  if (damping_ * dt > 2.0)
+    throw std::invalid_argument(
+        fmt::format("damping by the mass at a rate of {:.6g} with time step {:.6g}: velocities would change "
+                    "their sign in each step, expected a time step of at most {:.6g}, or a rate of at most "
+                    "{:.6g}",
+                    damping_, dt, 2.0 / damping_, 2.0 / dt));
   dt_ = dt;
   watch_.reset();
   is_too_strained_ = false;

@@ -169,8 +169,10 @@ class ExplicitSolver {
   /// Ids of the nodes that the part holds, one per column of nodal arrays: those that it owns, rising, then
   /// others; -1 for columns of no node.
   const std::vector<Id>& node_ids() const { return node_ids_; }
-  /// Fixed degrees of freedom of the whole body, 3 node + direction, rising.  Collective.
+  /// Degrees of freedom of the whole body that are held, and those of them that supports move: 3 node +
+  /// direction, rising.  Collective.
   std::vector<Id> fixed_dofs() const;
+  std::vector<Id> moved_dofs() const;
 
   /// The whole body's time, displacements, velocities and accelerations in the order of node ids, what the
   /// material remembers in the order of element ids, and momenta_in_order(), to continue in parts cut in any
@@ -201,6 +203,9 @@ class ExplicitSolver {
 
  private:
   void check_size(const NodalVectors& values, const char* what) const;
+  std::vector<Id> of_whole_body(const std::vector<Eigen::Index>& dofs) const;
+  /// Whether some part had a velocity where it is fixed.
+  bool hold_supports();
   /// What supports that move carry of impulses, times their velocities: in some columns.
   double power_of_carried(Eigen::Index first, Eigen::Index count) const;
   /// What add_motion's displacements have added to the strain energy, at most, if that is convex.

@@ -46,7 +46,7 @@ void ModalMotion::set_time_step(double dt) {
   for (Index k = 0; k < mode_count(); ++k) {
     const double stiffness = system_.eigenvalues[k], omega = std::sqrt(stiffness);
     const double slow = std::max(1.0, omega * dt / kMostTurn);  // the same share of critical damping
-    const double relative = 2.0 * system_.damping_ratio[k] * omega + system_.viscosity * stiffness;
+    const double relative = 2.0 * system_.damping_ratio[k] * omega + system_.viscosity[k];
     inertia_damping_[k] = system_.mass_damping * slow;
     steps_.emplace_back(Oscillator{slow * slow, inertia_damping_[k] + relative * slow, stiffness}, dt);
     slowed_ += slow > 1.0;
@@ -132,7 +132,7 @@ void ModalMotion::move_supports(const ModalForces& loads, const VectorXd& slopes
   const VectorXd rest = mean.tail(motion_count()) - system_.share.transpose() * mean.head(mode_count());
   const double by_loads = dt_ * rest.dot(slopes);
   const double damped = dt_ * (system_.mass_damping * quadratic(system_.free_mass, slopes) +
-                               system_.viscosity * quadratic(system_.stiffness, slopes));
+                               quadratic(system_.viscous, slopes));
   const double strain = quadratic(system_.stiffness, s_);
   s_ = motions_at(time_ + dt_);
   book(kLoadWork, by_loads);

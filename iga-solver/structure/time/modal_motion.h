@@ -23,13 +23,16 @@ namespace structure {
 
 /// What is known of the body.
 struct ModalSystem {
-  Eigen::VectorXd eigenvalues;      ///< omega_k^2 [1/time^2], for modes of modal mass 1
-  Eigen::VectorXd damping_ratio;    ///< of critical damping, of each mode, for motion about psi
-  double mass_damping = 0.0;        ///< rate [1/time]
-  double viscosity = 0.0;           ///< [time], times the stiffness
+  Eigen::VectorXd eigenvalues;    ///< omega_k^2 [1/time^2], for modes of modal mass 1
+  Eigen::VectorXd damping_ratio;  ///< of critical damping, of each mode, for motion about psi
+  double mass_damping = 0.0;      ///< rate [1/time]
+  /// Of each mode, what the material's viscosity takes: b phi_k . K phi_k without springs to the ground
+  /// [1/time].  Of several modes only each one's own: with such springs they are not quite independent.
+  Eigen::VectorXd viscosity;
   std::vector<TimeFunction> times;  ///< s_j(t), motions of supports
   Eigen::MatrixXd share;            ///< phi_k . M psi_j, modes x motions
   Eigen::MatrixXd stiffness;        ///< psi_i . K psi_j
+  Eigen::MatrixXd viscous;          ///< b psi_i . K psi_j, without springs
   /// psi_i . M psi_j less what the modes have of it; the same of free degrees of freedom alone.
   Eigen::MatrixXd mass, free_mass;
 };

@@ -13,20 +13,29 @@
 
 namespace structure {
 
-std::vector<Id> ExplicitSolver::fixed_dofs() const {
+std::vector<Id> ExplicitSolver::fixed_dofs() const { return of_whole_body(supports_.fixed_dofs()); }
+
+std::vector<Id> ExplicitSolver::moved_dofs() const {
+  std::vector<Eigen::Index> moved;
+  for (const Motion& motion : supports_.motions())
+    moved.insert(moved.end(), motion.dofs.begin(), motion.dofs.end());
+  return of_whole_body(moved);
+}
+
+std::vector<Id> ExplicitSolver::of_whole_body(const std::vector<Eigen::Index>& dofs) const {
   const Eigen::Index owned = halo_->owned(u_.cols());
-  std::vector<double> directions(owned, 0.0);  // that are fixed, as bits
-  for (const Eigen::Index dof : supports_.fixed_dofs())
+  std::vector<double> directions(owned, 0.0);  // as bits
+  for (const Eigen::Index dof : dofs)
     if (dof < 3 * owned) directions[dof / 3] += 1 << dof % 3;
-  std::vector<Id> fixed;
+  std::vector<Id> whole;
   Id node = 0;
   halo_->in_slices({node_ids_.begin(), node_ids_.begin() + owned}, directions.data(), directions.size(),
                    [&](const double* some, std::size_t count) {
                      for (std::size_t i = 0; i < count; ++i, ++node)
                        for (int c = 0; c < 3; ++c)
-                         if (static_cast<int>(some[i]) >> c & 1) fixed.push_back(3 * node + c);
+                         if (static_cast<int>(some[i]) >> c & 1) whole.push_back(3 * node + c);
                    });
-  return fixed;
+  return whole;
 }
 
 std::vector<Id> ExplicitSolver::element_ids() const {
@@ -117,7 +126,8 @@ void ExplicitSolver::load(const std::vector<double>& state) {
     std::copy_n(next + width * elements[i], width, memory.data() + width * i);
   body_->set_memory(std::move(memory));
   next += memory_size();
-  if (momenta_damped_ && next != state.data() + state.size()) {
+  const bool were_supports_held = !hold_supports();  // others may have moved them
+  if (momenta_damped_ && were_supports_held && next != state.data() + state.size()) {
     NodalVectors momenta = NodalVectors::Zero(3, u_.cols());
     from_order(next, momenta);
     momenta_damped_->set_momenta(momenta);
@@ -154,6 +164,23 @@ void ExplicitSolver::load_work_done(const std::vector<double>& numbers) {
   if (numbers.size() == kNumbers)  // a material that has not kept its memory goes on from the energy of then
     dissipated_start_ += dissipated_energy() - numbers.back();
   budget_.reset();
+}
+
+void ExplicitSolver::set_velocities(const NodalVectors& v) {
+  check_size(v, "velocities");
+  v_ = v;
+  hold_supports();
+  if (momenta_damped_) momenta_damped_->forget();
+  budget_.reset();
+}
+
+// What is fixed stands; what is moved has the velocity that it is given until its motion takes it.
+bool ExplicitSolver::hold_supports() {
+  const NodalVectors given = v_;
+  supports_.apply(v_);
+  for (const Motion& motion : supports_.motions())
+    for (const Eigen::Index dof : motion.dofs) v_.data()[dof] = given.data()[dof];
+  return halo_->any(v_ != given);
 }
 
 void ExplicitSolver::set_motion(const NodalVectors& u, const NodalVectors& v, double time) {

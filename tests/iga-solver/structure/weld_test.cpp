@@ -62,6 +62,12 @@ void expect_nodes_are_places(const std::vector<Volume>& patches, const NodeNumbe
   for (const Vector3& place : at) EXPECT_FALSE(std::isnan(place[0])) << "a node without a place";
 }
 
+int welded_face_count(const std::vector<Volume>& patches, const NodeNumbering& nodes) {
+  std::vector<nurbs::Space<3>> spaces;
+  for (const Volume& patch : patches) spaces.push_back(patch.space);
+  return static_cast<int>(structure::welded_faces(spaces, nodes).size()) / 2;
+}
+
 TEST(Weld, OnePatchKeepsItsControlPoints) {
   const Volume patch = models::block({1, 1, 1}, {2, 3, 4}, 2);
   const NodeNumbering nodes = weld({patch});
@@ -77,7 +83,7 @@ TEST(Weld, TwoBlocksShareAFaceHoweverTheyAreTurned) {
     const NodeNumbering nodes = weld({first, second});
     EXPECT_EQ(nodes.node_count(), 2 * 64 - 16);
     EXPECT_EQ(nodes.welded().size(), 16u);
-    EXPECT_EQ(structure::welded_face_count({first, second}, nodes), 1);
+    EXPECT_EQ(welded_face_count({first, second}, nodes), 1);
     expect_nodes_are_places({first, second}, nodes);
     for (std::size_t i = 0; i < nodes.welded().size(); ++i) {
       const auto places = nodes.places_of_welded(i);
@@ -94,7 +100,7 @@ TEST(Weld, ATubeClosesWithItself) {
   const int across = tube.space.control_point_count(1) * tube.space.control_point_count(2);
   const NodeNumbering nodes = weld({tube});
   EXPECT_EQ(nodes.node_count(), tube.control_points.cols() - across);
-  EXPECT_EQ(structure::welded_face_count({tube}, nodes), 1);
+  EXPECT_EQ(welded_face_count({tube}, nodes), 1);
   expect_nodes_are_places({tube}, nodes);
 }
 
@@ -103,15 +109,22 @@ TEST(Weld, FourQuartersMakeATube) {
   for (int k = 0; k < 4; ++k) quarters.push_back(ring(90.0 * k, 90.0 * (k + 1), 2));
   const NodeNumbering nodes = weld(quarters);
   EXPECT_EQ(nodes.node_count(), weld({ring(0, 360, 8)}).node_count() + 0) << "C0 at both kinds of joints";
-  EXPECT_EQ(structure::welded_face_count(quarters, nodes), 4);
+  EXPECT_EQ(welded_face_count(quarters, nodes), 4);
   expect_nodes_are_places(quarters, nodes);
+}
+
+TEST(Weld, RoundFacesMayHaveTheirSeamsAtDifferentPlaces) {
+  const std::vector<Volume> tubes{ring(0, 360, 8), moved(ring(90, 450, 8), {0, 0, 1})};
+  const NodeNumbering nodes = weld(tubes);
+  expect_nodes_are_places(tubes, nodes);
+  EXPECT_EQ(welded_face_count(tubes, nodes), 3) << "two seams, and one tube on the other";
 }
 
 // The outer faces of two half tubes have the same corners, and so have the inner ones; they are no joints.
 TEST(Weld, HalvesWithEqualCornersAreNoJoints) {
   const std::vector<Volume> halves{ring(0, 180, 4), ring(180, 360, 4)};
   const NodeNumbering nodes = weld(halves);
-  EXPECT_EQ(structure::welded_face_count(halves, nodes), 2);
+  EXPECT_EQ(welded_face_count(halves, nodes), 2);
 }
 
 TEST(Weld, MoreThanTwoMeetInAnEdge) {

@@ -58,6 +58,14 @@ TEST_P(MassDamping, SlowsFreeFlightByTheExactFactor) {
   EXPECT_NEAR(body.work().damped, 0.5 * mass * v.squaredNorm() - body.kinetic_energy(), 1e-13);
 }
 
+TEST_P(MassDamping, IsNoMoreThanTurnsVelocitiesRound) {
+  ExplicitSolver body = block(0.7, false, GetParam());
+  body.set_mass_damping(1.99 / body.time_step());
+  EXPECT_NO_THROW(body.set_time_step(body.time_step()));
+  body.set_mass_damping(2.01 / body.time_step());
+  EXPECT_THROW(body.set_time_step(body.time_step()), std::invalid_argument);
+}
+
 // Amplitudes of any mode fall as exp(-a t/2): the energy of a block that rings, over a time that is long.
 TEST_P(MassDamping, TakesEnergyAtItsRate) {
   const double rate = 0.05;

@@ -116,6 +116,30 @@ TEST_P(SupportMotion, GoesOnFromASavedStateToTheLastBit) {
   EXPECT_GT(one.displacements().col(moved_nodes()[0])[0], 0.0);
 }
 
+// A shaken face that the next model only holds.
+TEST_P(SupportMotion, AStateThatMovesIsStoppedWhereTheBodyIsFixed) {
+  ExplicitSolver shaken = solver(structure::sine(0.3, 0.4), GetParam());
+  shaken.initialise_forces(no_forces());
+  for (int n = 0; n < 5; ++n) unloaded_step(shaken);
+  ASSERT_GT(std::abs(shaken.velocities()(0, moved_nodes()[3])), 1e-3);
+  structure::Supports fixed;
+  for (const Face face : {Face::xi_minus, Face::xi_plus})
+    fixed.fix(structure::nodes_on(block().space, {face}), {true, true, true});
+  ExplicitSolver held(std::make_unique<structure::Solid>(block(), models::large_strain_laws().front(),
+                                                         structure::Integration{{}, {}, GetParam()}),
+                      fixed);
+  held.set_mass_damping(0.1);
+  held.set_time_step(kStep);
+  held.load(shaken.save());
+  held.initialise_forces(no_forces());
+  const double start = held.kinetic_energy();
+  for (int n = 0; n < 20; ++n) unloaded_step(held);
+  for (const int node : moved_nodes())
+    EXPECT_EQ(Vector3(held.displacements().col(node)), Vector3(shaken.displacements().col(node)));
+  const structure::Work work = held.work();
+  EXPECT_NEAR(held.kinetic_energy() + work.internal + work.damped, start, 1e-13 * start);
+}
+
 TEST(Supports, KeepWhatHeldANodeFirst) {
   structure::Supports supports;
   supports.fix({1}, {true, false, false});
