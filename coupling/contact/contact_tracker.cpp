@@ -92,13 +92,9 @@ void ContactTracker::find_all(const Candidate& candidate, const Query& query, do
     search_.add_minima(query.centre, candidates_.images()[images[k].image], reach,
                        kSameFoot * query.touch_reach, candidates_.elements(images[k]), images[k].count,
                        of_image_);
-    for (const Foot& foot : of_image_) {
-      const auto is_same = [&](const Foot& known) { return same(known, foot, query.touch_reach); };
-      if (candidate.image_count == 1 ||
-          (!is_covered(candidate, query, foot) && std::none_of(found_.begin(), found_.end(), is_same)))
-        found_.push_back(foot);
-    }
+    found_.insert(found_.end(), of_image_.begin(), of_image_.end());
   }
+  if (candidate.image_count > 1) keep_feet_of_all_images(query);
   keep_one_of_each_valley(query);
   keep_nearer_across_smooth_edges(query);
   out.clear();
@@ -106,27 +102,13 @@ void ContactTracker::find_all(const Candidate& candidate, const Query& query, do
   match_slots(query, slots, out.data(), static_cast<int>(out.size()));
 }
 
-bool ContactTracker::is_on_rim(const Foot& foot) const {
-  const nurbs::MultiPatch& surface = search_.projector().surface();
-  for (int side = 0; side < nurbs::kSideCount; ++side)
-    if (surface.border(foot.patch, side).kind == nurbs::Border::free && surface.on_side(foot.at(), side))
-      return true;
-  return false;
-}
-
-// Where a wall goes on beyond a periodic face its rim lies on one of its images, or that on the wall: nothing
-// ends there.
-bool ContactTracker::is_covered(const Candidate& candidate, const Query& query, const Foot& foot) {
-  if (foot.status == search::FootStatus::interior || !is_on_rim(foot)) return false;
-  const ImageElements* images = candidates_.image_elements(candidate);
-  beside_.clear();
-  for (int k = 0; k < candidate.image_count; ++k) {
-    const Vector3& image = candidates_.images()[images[k].image];
-    if (image != foot.image)
-      search_.projector().add_minima(foot.point, image, kCovered * query.touch_reach, 0.0,
-                                     candidates_.elements(images[k]), images[k].count, beside_);
-  }
-  return std::any_of(beside_.begin(), beside_.end(), [&](const Foot& other) { return !is_on_rim(other); });
+void ContactTracker::keep_feet_of_all_images(const Query& query) {
+  FeetTracker::keep_feet_of_all_images(query, found_, [&](const Foot& foot, const ImageElements& at) {
+    beside_.clear();
+    search_.projector().add_minima(foot.point, candidates_.images()[at.image], same_place(query), 0.0,
+                                   candidates_.elements(at), at.count, beside_);
+    return !beside_.empty();
+  });
 }
 
 // Whether the distance does not rise along the surface to second order, as the particle is on a centre of

@@ -44,8 +44,7 @@ class ContactTracker final : public FeetTracker {
   void keep_one_of_each_valley(const Query& query);
   void keep_nearer_across_smooth_edges(const Query& query);
   void match_slots(const Query& query, const ParticleSlots& slots, TrackedFoot* feet, int count);
-  bool is_on_rim(const search::Foot& foot) const;
-  bool is_covered(const Candidate& candidate, const Query& query, const search::Foot& foot);
+  void keep_feet_of_all_images(const Query& query);
   nurbs::Vector3 nearest_image(const nurbs::SurfacePoint& at, const nurbs::Vector3& centre) const;
 
   LocalSearch search_;

@@ -168,8 +168,7 @@ void FaceTracker::find(const Query& query, double reach, double margin) {
     const std::size_t all = found_.size();
     std::sort(found_.begin(), found_.end(),
               [](const brep::Foot& a, const brep::Foot& b) { return a.distance < b.distance; });
-    if (candidates_.candidates()[query.candidate].image_count > 1) drop_covered_rims(query);
-    keep_one_at_seams();
+    if (candidates_.candidates()[query.candidate].image_count > 1) keep_feet_of_all_images(query);
     if (found_.size() < all) room_ = 0.0;
   }
   for (const brep::Foot& foot : found_) counts_.add_direct(foot);

@@ -94,8 +94,7 @@ class FaceTracker : public FeetTracker {
   bool may_be_behind(const Query& query, const ParticleSlots& slots) const;
   void add_feet_behind(const Query& query, const ParticleSlots& slots);
   void drop_feet_through_bodies(const Query& query);
-  void keep_one_at_seams();
-  void drop_covered_rims(const Query& query);
+  void keep_feet_of_all_images(const Query& query);
   double squared_way(const Query& query, const nurbs::Vector3& last, const nurbs::Vector3& now) const;
   double squared_way(const Query& query, const ContactSlot& slot, const brep::Foot& foot) const;
   void match_slots(const Query& query, const ParticleSlots& slots);
@@ -120,7 +119,7 @@ class FaceTracker : public FeetTracker {
   std::vector<brep::Foot> found_;   // of one candidate, in this step; so are the next two
   std::vector<brep::Foot> near_;    // the same, but that do not touch
   double room_ = 0.0;               // how far it may move until others come near them; 0: not known
-  std::vector<brep::Foot> beside_;  // a rim's point, the same
+  std::vector<brep::Foot> beside_;  // where one of these is on an edge, of another image
   std::vector<TrackedFoot> feet_;   // the same
   struct Pair {
     double way2;

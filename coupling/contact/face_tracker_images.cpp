@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "brep/face_shape.h"
 #include "coupling/contact/face_tracker.h"
 
 namespace contact {
@@ -42,38 +43,23 @@ bool FaceTracker::is_near_wall_itself(const Candidate& candidate) const {
          candidates_.images()[candidates_.image_elements(candidate)->image].isZero(0.0);
 }
 
-// Where the wall goes on with one of its images, across a periodic face of the box, neither knows the other:
-// a foot on the rim of the one is none if it lies in the plane that touches the other at a nearer foot, or in
-// that foot.
-void FaceTracker::keep_one_at_seams() {
-  const auto repeats = [&](const brep::Foot& rim, const brep::Foot& nearer) {
-    if (rim.image == nearer.image) return false;
-    const double apart2 = (rim.point - nearer.point).squaredNorm(), same = search_.same_point();
-    if (apart2 <= same * same) return true;
-    const double out_of_plane = rim.distance * rim.distance - nearer.distance * nearer.distance - apart2;
-    return rim.status != search::FootStatus::interior && std::abs(out_of_plane) <= 2.0 * rim.distance * same;
-  };
-  if (found_.size() < 2) return;
-  auto end = found_.begin() + 1;
-  for (auto foot = end; foot != found_.end(); ++foot)
-    if (std::none_of(found_.begin(), end, [&](const brep::Foot& kept) { return repeats(*foot, kept); }))
-      *end++ = *foot;
-  found_.erase(end, found_.end());
-}
-
-// Where the wall and an image of it lie on each other neither ends.
-void FaceTracker::drop_covered_rims(const Query& query) {
-  const auto is_covered = [&](const brep::Foot& foot) {
-    if (!search_.is_on_rim(foot)) return false;
+// Concave edges between images have feet of both faces, as edges of the wall have: an image goes on where the
+// centre is not less steep above it.
+void FaceTracker::keep_feet_of_all_images(const Query& query) {
+  const brep::Surface& surface = search_.surface();
+  FeetTracker::keep_feet_of_all_images(query, found_, [&](const brep::Foot& foot, const ImageElements& at) {
+    const Vector3 up = (query.centre - foot.point).normalized();
+    const auto slant = [&](const brep::Foot& on) {
+      return std::acos(std::min(1.0, std::abs(up.dot(brep::normal_on(surface, on.patch, on.xi)))));
+    };
+    const double same = same_place(query);
     beside_.clear();
-    for_each_image(query, Of::list, [&](const Vector3&, const int* pieces, int count, const Vector3& image) {
-      if (image != foot.image)
-        search_.feet(foot.point - image, kCovered * query.touch_reach, pieces, count, beside_);
+    search_.feet(foot.point - candidates_.images()[at.image] + 0.5 * same * up, same,
+                 candidates_.elements(at), at.count, beside_);
+    return std::any_of(beside_.begin(), beside_.end(), [&](const brep::Foot& other) {
+      return slant(other) <= slant(foot) + surface.edge_angle;
     });
-    return std::any_of(beside_.begin(), beside_.end(),
-                       [&](const brep::Foot& other) { return !search_.is_on_rim(other); });
-  };
-  found_.erase(std::remove_if(found_.begin(), found_.end(), is_covered), found_.end());
+  });
 }
 
 }  // namespace contact

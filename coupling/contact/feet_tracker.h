@@ -82,9 +82,43 @@ class FeetTracker {
   virtual FeetRange feet(const Query& query, const ParticleSlots& slots) = 0;
 
  protected:
-  /// A rim that is not farther from the surface of another image than this does not end there, of the
-  /// particle's reach.
-  static constexpr double kCovered = 1e-4;
+  /// Points of two images that are not farther apart are one [length].
+  static double same_place(const Query& query) {
+    constexpr double kOfReach = 1e-4;
+    return kOfReach * query.touch_reach;
+  }
+  /// Where images of the wall lie on each other, or meet: of `feet` those of all images together stay, once.
+  /// An edge of one image has a foot if no other goes on there, nearer to the centre; of the nearest of all
+  /// nobody needs to ask.  `goes_on(foot, at)`: whether that image does.
+  template <class Foot, class GoesOn>
+  void keep_feet_of_all_images(const Query& query, std::vector<Foot>& feet, GoesOn goes_on) const {
+    if (feet.size() < 2) return;
+    const Candidate& candidate = candidates_.candidates()[query.candidate];
+    const ImageElements* const images = candidates_.image_elements(candidate);
+    const double same2 = same_place(query) * same_place(query);
+    const auto is_inside = [](const Foot& foot) { return foot.status == search::FootStatus::interior; };
+    const double nearest = std::min_element(feet.begin(), feet.end(), [](const Foot& a, const Foot& b) {
+                             return a.distance < b.distance;
+                           })->distance;
+    auto end = feet.begin();
+    for (auto foot = feet.begin(); foot != feet.end(); ++foot) {
+      const auto is_there = [&](const Foot& other) {
+        return other.image != foot->image && (other.point - foot->point).squaredNorm() <= same2;
+      };
+      const auto ends_on = [&](const ImageElements& at) {
+        const nurbs::Vector3& image = candidates_.images()[at.image];
+        if (image == foot->image) return false;
+        const auto other = std::find_if(
+            foot + 1, feet.end(), [&](const Foot& later) { return later.image == image && is_there(later); });
+        if (other != feet.end()) return is_inside(*other);
+        return foot->distance > nearest && goes_on(*foot, at);
+      };
+      if (std::none_of(feet.begin(), end, is_there) &&
+          (is_inside(*foot) || std::none_of(images, images + candidate.image_count, ends_on)))
+        *end++ = *foot;
+    }
+    feet.erase(end, feet.end());
+  }
 
   static double nearest_distance(const FeetRange& feet, const Query& query) {
     double nearest = query.list_reach;

@@ -32,17 +32,7 @@ FootSearch::FootSearch(const Surface& surface)
       border_slack_(largest_border_slack(surface)),
       has_inside_(std::any_of(surface.faces.begin(), surface.faces.end(),
                               [](const Face& face) { return face.outward != 0; })),
-      edge_sides_(surface) {
-  rim_vertices_.resize(surface.vertices.size());
-  for (const Edge& edge : surface.edges)
-    for (const int vertex : edge.vertex)
-      if (edge.use_count == 1 && vertex >= 0) rim_vertices_[vertex] = true;
-}
-
-bool FootSearch::is_on_rim(const Foot& foot) const {
-  if (foot.status == search::FootStatus::edge) return surface_.edges[foot.entity].use_count == 1;
-  return foot.status == search::FootStatus::corner && rim_vertices_[foot.entity];
-}
+      edge_sides_(surface) {}
 
 void FootSearch::near(const Vector3& d, double reach, std::vector<int>& pieces) const {
   const size_t begin = pieces.size();

@@ -48,8 +48,6 @@ class FootSearch {
   /// and its sheet, and a distance less than 0.
   void feet_behind(const Vector3& d, double reach, const int* pieces, int count,
                    std::vector<Foot>& out) const;
-  /// Whether the wall ends at this foot: it is on an edge of one face, or on a vertex of such an edge.
-  bool is_on_rim(const Foot& foot) const;
   /// Whether bodies have an inside here (Face::outward).
   bool has_inside() const { return has_inside_; }
 
@@ -126,8 +124,7 @@ class FootSearch {
   double same_point_;
   double border_slack_;  // how far borders of trimmed faces may be from their edges
   bool has_inside_;
-  std::vector<bool> rim_vertices_;  // by vertex
-  mutable EdgeSides edge_sides_;    // finds out about an edge when something is near it
+  mutable EdgeSides edge_sides_;  // finds out about an edge when something is near it
 };
 
 }  // namespace brep

@@ -57,6 +57,21 @@ class Features(unittest.TestCase):
             with self.subTest(ranks=ranks):
                 self.same(run(small, nurbs(), wall, steps=1500, ranks=ranks).table, stock)
 
+    def test_rims_along_a_periodic_box(self):
+        """On the rim of a wall longer than the box, in closed form or as a patch, near an end of its image: as in a box that is longer still."""
+        ball = (3e-3 + 0.3 * R, -2.9e-3, 0.93 * R)
+        reference = None
+        for length, boundary, along in ((24e-3, "f f f", "-0.02 0.02"), (10.4e-3, "f p f", "-0.004 0.004"), (16e-3, "f p f", "-0.004 0.004")):
+            start = prelude(ball, (0, 0.05, 0), boundary=boundary, box=f"-0.004 0.0045 {along} -0.005 0.02")
+            plane = f"plane: {{origin: [-3e-3, {-length / 2}, 0], edges: [[6e-3, 0, 0], [0, {length}, 0]], elements: [3, 4], degree: 2}}"
+            wall = {"wall.yaml": f"units: si\ngeometry:\n  {plane}\nsurfaces: {{wall: all}}\n"}
+            for search in ("", "search simplex_brent"):
+                with self.subTest(length=length, search=search):
+                    seen = run(start, nurbs(search), wall, steps=2000).table
+                    reference = reference or seen
+                    self.assertGreater(reference["fx"].max(), 0.1 * reference["fz"].max(), "the rim pushes sideways")
+                    self.same(seen, reference)
+
     def test_a_periodic_box_that_grows(self):
         """A floor as long as the box ends where that grows: a ball at the seam then lies between two edges, a radius apart."""
         y, apart = "-0.004 0.004 -0.005 0.02", 1e-3

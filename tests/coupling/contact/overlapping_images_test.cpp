@@ -2,6 +2,7 @@
 // Walls that are longer than a periodic box, so that their images lie on themselves, or beside.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "balls.h"
@@ -37,12 +38,15 @@ RigidSurface long_strip(double slope, double height) {
   return wall_of(points, {0, 1, 3, 1, 4, 3});
 }
 
-/// About the x axis, from x = -4 to 4.
-RigidSurface long_pipe(double radius) {
-  const std::vector<nurbs::Surface> patches{nurbs::cylinder(
-      nurbs::frame({-4, 0, 0}, {1, 0, 0}), radius, 8.0, nurbs::arc(0.0, 360.0), KnotVector::uniform(1, 1))};
+RigidSurface closed_forms(const std::vector<nurbs::Surface>& patches) {
   brep::FacedPatches faced = brep::closed_forms(patches, brep::kEdgeAngle).value();
   return RigidSurface(patches, {}, std::make_shared<brep::FacedPatches>(std::move(faced)));
+}
+
+/// About the x axis, from x = -end to end, so many degrees to both sides of z = -radius.
+RigidSurface long_trough(double radius, double end, double degrees) {
+  return closed_forms({nurbs::cylinder(nurbs::frame({-end, 0, 0}, {1, 0, 0}, Vector3(0, 0, -1)), radius,
+                                       2.0 * end, nurbs::arc(-degrees, degrees), KnotVector::uniform(1, 1))});
 }
 
 /// A smooth patch with waves along x, three elements each, that repeats itself with the box: x is its
@@ -70,6 +74,44 @@ RigidSurface channel(double end, int rows) {
       for (const int corner : {k, k + 4, k + 1, k + 4, k + 5, k + 1}) triangles.push_back(corner);
   }
   return wall_of(points, triangles);
+}
+
+/// Closed, its top at z = 0.
+RigidSurface block(double end) {
+  nurbs::NodalVectors points(3, 8);
+  for (int k = 0; k < 8; ++k)
+    points.col(k) << (k % 2 ? end : -end), (k / 2 % 2 ? 4.0 : -4.0), (k / 4 ? 0.0 : -3.0);
+  std::vector<int> triangles;
+  for (const auto& [a, b, c, d] : {std::array{0, 2, 3, 1},
+                                   {4, 5, 7, 6},
+                                   {0, 1, 5, 4},
+                                   {2, 6, 7, 3},  //
+                                   {0, 4, 6, 2},
+                                   {1, 3, 7, 5}})
+    for (const int corner : {a, b, c, a, c, d}) triangles.push_back(corner);
+  return wall_of(points, triangles);
+}
+
+/// Flat, of so many pieces, with gaps between them if they are shorter than a period.
+RigidSurface plates(double length, int count) {
+  nurbs::NodalVectors points(3, 4 * count);
+  std::vector<int> triangles;
+  for (int k = 0; k < count; ++k) {
+    const double x = (k - count / 2) * kPeriod, half = 0.5 * length;
+    points.middleCols<4>(4 * k) << x - half, x + half, x - half, x + half, -4, -4, 4, 4, 0, 0, 0, 0;
+    for (const int corner : {0, 1, 3, 0, 3, 2}) triangles.push_back(4 * k + corner);
+  }
+  return wall_of(points, triangles);
+}
+
+/// A row of so many arches, each as wide as the box, or of gutters.
+RigidSurface arches(int count, bool are_gutters) {
+  std::vector<nurbs::Surface> patches;
+  for (int k = 0; k < count; ++k)
+    patches.push_back(nurbs::cylinder(
+        nurbs::frame({(k - count / 2) * kPeriod, -4, 0}, {0, 1, 0}, Vector3(0, 0, are_gutters ? -1 : 1)),
+        kPeriod, 8.0, nurbs::arc(-30.0, 30.0), KnotVector::uniform(1, 1)));
+  return closed_forms(patches);
 }
 
 /// Triangles in strips across x, which go up and down three times in the length of the box.
@@ -119,7 +161,9 @@ void expect_no_end(RigidSurface wall, double y, double z) {
 }
 
 TEST(OverlappingImages, OfAPlaneAddNothing) { expect_no_end(long_strip(0.0, 0.0), 0.1, kRadius - kPressed); }
-TEST(OverlappingImages, OfAPipeAddNothing) { expect_no_end(long_pipe(2.0), 2.0 - kRadius + kPressed, 0.0); }
+TEST(OverlappingImages, OfAPipeAddNothing) {
+  expect_no_end(long_trough(2.0, 4.0, 180.0), 2.0 - kRadius + kPressed, 0.0);
+}
 
 TEST(OverlappingImages, OfTrianglesAddNothing) {
   for (const auto& [end, rows] : kLong) expect_no_end(channel(end, rows), 0.2, kRadius - kPressed);
@@ -135,9 +179,10 @@ TEST(OverlappingImages, OfPatchesWithAnEdgeAddNothing) {
     }
 }
 
-/// On waves: `wall_of` makes one of the patch and its range.
+/// On waves: `wall_of` makes one of the patch and its range.  Above where eta is so; beside their rim, at
+/// eta = 0, off their plane.
 template <class WallOf>
-void expect_no_end_of_waves(const WallOf& wall_of) {
+void expect_no_end_of_waves(double eta, const WallOf& wall_of) {
   constexpr double kMiddle = 12.0;
   const nurbs::Surface all = waves();
   for (const auto& [begin, end] :
@@ -147,26 +192,29 @@ void expect_no_end_of_waves(const WallOf& wall_of) {
     RigidSurface wall = wall_of(part);
     expect_one_contact(wall, [&](double x) {
       const double in_first = x - std::floor((x + 3.0) / kPeriod) * kPeriod;
-      const auto at = nurbs::shape_near(all.space, all.control_points, {(in_first + kMiddle) / 24.0, 0.5});
-      const Vector3 up = at.normal[2] < 0.0 ? Vector3(-at.normal) : at.normal;
+      const auto at = nurbs::shape_near(all.space, all.control_points, {(in_first + kMiddle) / 24.0, eta});
+      Vector3 up = at.normal[2] < 0.0 ? Vector3(-at.normal) : at.normal;
+      if (eta == 0.0) up = 0.8 * up - 0.6 * Vector3::UnitY();
       return Vector3(at.point + (kRadius - kPressed) * up + (x - in_first - kMiddle) * Vector3::UnitX());
     });
   }
 }
 
 TEST(OverlappingImages, OfASmoothPatchAddNothing) {
-  expect_no_end_of_waves([](const nurbs::Surface& patch) { return RigidSurface({patch}); });
+  for (const double eta : {0.5, 0.0})
+    expect_no_end_of_waves(eta, [](const nurbs::Surface& patch) { return RigidSurface({patch}); });
 }
 
 // Beyond the edge it goes down.
 TEST(OverlappingImages, OfWavesWithAnEdgeAddNothing) {
-  expect_no_end_of_waves([](const nurbs::Surface& patch) {
-    std::vector<nurbs::Surface> patches{patch, patch};
-    nurbs::NodalVectors& points = patches[1].control_points;
-    for (int k = 0; k < points.cols(); ++k) points(2, k) -= points(1, k) + 4.0;
-    points.row(1).array() += 8.0;
-    return wall_of(patches);
-  });
+  for (const double eta : {0.5, 0.0})
+    expect_no_end_of_waves(eta, [](const nurbs::Surface& patch) {
+      std::vector<nurbs::Surface> patches{patch, patch};
+      nurbs::NodalVectors& points = patches[1].control_points;
+      for (int k = 0; k < points.cols(); ++k) points(2, k) -= points(1, k) + 4.0;
+      points.row(1).array() += 8.0;
+      return wall_of(patches);
+    });
 }
 
 /// Contacts: their number, what they sum to, and how long they last.
@@ -179,30 +227,80 @@ struct Seen {
   double steps = 0.0;
 };
 
-// Up and down, as on the same wall without a periodic box.
-TEST(OverlappingImages, OfAFoldedSheetAddNothing) {
-  for (const auto& [end, strips] : {std::pair{4.0, 8}, std::pair{4.0, 16}, std::pair{3.5, 14}}) {
-    RigidSurface wall = zigzag(end, strips), longer = zigzag(14.0, 28);
-    Balls balls(4, 1), others(4, 1);
-    const Vector3 from(-0.9, 0.3, kRadius);
-    balls.add(from, kRadius), others.add(from, kRadius);
-    BallsOnWall scene(wall, balls, 1.0, 1.0, kShortBox),
-        reference(longer, others, 1.0, 1.0, {{-20, -9, -9}, {20, 9, 9}, {}});
-    std::size_t most = 0;
-    for (int step = 2; step <= 5000; ++step) {
-      double &x = scene.balls.x[0], &further = reference.balls.x[0];
-      further += 2e-3;
-      x = std::remainder(further, kPeriod);
-      if (step % 50 == 0 || std::abs(x + 3.0) < 2e-3) scene.build_list(), reference.build_list();
-      scene.evaluate(), reference.evaluate();
-      const Seen seen(scene), there(reference);
-      ASSERT_EQ(seen.count, there.count) << end << ' ' << further;
-      EXPECT_LT((seen.force - there.force).norm(), 1e-12) << end << ' ' << further;
-      EXPECT_EQ(seen.steps, there.steps) << end << ' ' << further;
-      most = std::max(most, seen.count);
-    }
-    EXPECT_EQ(most, 2u);
+/// A ball that goes along x, from there, feels what it feels on a longer wall without a periodic box; the
+/// most contacts it has.
+std::size_t expect_as_on_longer(RigidSurface wall, RigidSurface longer, const Vector3& from,
+                                double tolerance = 1e-12) {
+  Balls balls(4, 1), others(4, 1);
+  balls.add(from, kRadius), others.add(from, kRadius);
+  BallsOnWall scene(wall, balls, 1.0, 1.0, kShortBox),
+      reference(longer, others, 1.0, 1.0, {{-20, -9, -9}, {20, 9, 9}, {}});
+  std::size_t most = 0;
+  for (int step = 2; step <= 5000; ++step) {
+    double &x = scene.balls.x[0], &further = reference.balls.x[0];
+    further += 2e-3;
+    x = std::remainder(further, kPeriod);
+    if (step % 50 == 0 || std::abs(x + 3.0) < 2e-3) scene.build_list(), reference.build_list();
+    scene.evaluate(), reference.evaluate();
+    const Seen seen(scene), there(reference);
+    EXPECT_EQ(seen.count, there.count) << further;
+    EXPECT_LT((seen.force - there.force).norm(), tolerance) << further;
+    EXPECT_EQ(seen.steps, there.steps) << further;
+    if (testing::Test::HasFailure()) break;
+    most = std::max(most, seen.count);
   }
+  return most;
+}
+
+TEST(OverlappingImages, OfAFoldedSheetAddNothing) {  // up and down
+  for (const auto& [end, strips] : {std::pair{4.0, 8}, std::pair{4.0, 16}, std::pair{3.5, 14}})
+    EXPECT_EQ(expect_as_on_longer(zigzag(end, strips), zigzag(14.0, 28), {-0.9, 0.3, kRadius}), 2u) << end;
+}
+
+TEST(OverlappingImages, OfABlockHideItsEnds) {
+  for (const double end : {3.0, 3.1, 4.0, 6.0, 7.0}) {
+    expect_no_end(block(end), 0.2, kRadius - kPressed);
+    expect_no_end(block(end), 4.0 + 0.6 * (kRadius - kPressed), 0.8 * (kRadius - kPressed));
+  }
+}
+
+TEST(OverlappingImages, OfAShorterPlateLeaveAGap) {
+  EXPECT_EQ(expect_as_on_longer(plates(5.9, 1), plates(5.9, 5), {-0.9, 0.3, 0.8 * kRadius}), 2u);
+}
+
+// Between arches both touch, as long as both are in reach; the edge between gutters is touched once.
+TEST(OverlappingImages, MeetInEdges) {
+  const double rise = kPeriod * std::cos(M_PI / 6.0);
+  constexpr double kSame = 1e-10;  // of round faces, as far as feet are told from those on edges
+  EXPECT_EQ(expect_as_on_longer(arches(1, false), arches(5, false), {-0.9, 0.3, rise + 0.5 * kRadius}, kSame),
+            2u);
+  EXPECT_EQ(expect_as_on_longer(arches(1, true), arches(5, true), {-0.9, 0.3, -rise + 0.8 * kRadius}, kSame),
+            1u);
+}
+
+// Rims along the box are met, and once, wherever images begin and end.
+TEST(OverlappingImages, HaveTheRimsOfThePlane) {
+  constexpr double kBeside = 0.6 * (kRadius - kPressed), kUp = 0.8 * (kRadius - kPressed);
+  expect_no_end(long_strip(0.0, 0.0), 4.0 + kBeside, kUp);
+  expect_no_end(long_strip(0.0, 0.0), -4.0 - kBeside, kUp);
+  for (const double length : {6.0, 6.2, 8.0, 12.0, 14.0})
+    expect_no_end(plates(length, 1), 4.0 + kBeside, kUp);
+}
+TEST(OverlappingImages, HaveTheRimsOfTriangles) {
+  const double slope = std::sqrt(0.5);
+  for (const auto& [end, rows] : kLong)
+    expect_no_end(channel(end, rows), 4.0 - 0.2 * (kRadius - kPressed) * slope,
+                  3.0 + 1.4 * (kRadius - kPressed) * slope);
+}
+TEST(OverlappingImages, HaveTheLipsOfATrough) {
+  for (const double end : {3.0, 3.1, 4.0, 6.0, 7.0})
+    expect_no_end(long_trough(2.0, end, 90.0), -2.0 + 0.8 * (kRadius - kPressed), 0.6 * (kRadius - kPressed));
+}
+TEST(OverlappingImages, HaveTheRimsOfPatches) {
+  const double across = std::sqrt(1.25);
+  for (const auto& [end, elements] : kLong)
+    expect_no_end(ridge(end, elements), 4.0 + (0.8 * 0.5 + 0.6) / across * (kRadius - kPressed),
+                  -2.0 + (0.8 - 0.6 * 0.5) / across * (kRadius - kPressed));
 }
 
 // Of two that lie one above the other a ball feels both.
