@@ -72,7 +72,12 @@ class Features(unittest.TestCase):
                     self.assertGreater(reference["fx"].max(), 0.1 * reference["fz"].max(), "the rim pushes sideways")
                     self.same(seen, reference)
 
-    def test_a_periodic_box_that_grows(self):
+    def test_a_groove_along_a_periodic_box(self):
+        """A heavy ball rolls in a groove, on both its lips, past the ends of the wall and its images, as in one without end."""
+        half, velocity = 0.6 * R, (0.0, 3.0, 0.0)
+        start = (0.0, 0.0, 0.797 * R)
+
+        def test_a_periodic_box_that_grows(self):
         """A floor as long as the box ends where that grows: a ball at the seam then lies between two edges, a radius apart."""
         y, apart = "-0.004 0.004 -0.005 0.02", 1e-3
         start = prelude((3.999e-3, 2e-4, 0.999 * R), (0, 0, 0), gravity=False, boundary="p f f", box=f"-0.004 0.004 {y}")

@@ -21,7 +21,8 @@ using test::BallsOnWall;
 using test::kRadius;
 using test::wall_of;
 
-constexpr double kPressed = 1e-3, kRise = 0.02, kPeriod = 6.0;
+constexpr double kPressed = 1e-3, kBeside = 0.6 * (kRadius - kPressed), kAbove = 0.8 * (kRadius - kPressed),
+                 kRise = 0.02, kPeriod = 6.0;
 const contact::PeriodicBox kShortBox{{-3, -9, -9}, {3, 9, 9}, {true, false, false}};
 
 /// How far a wall reaches along x, to both sides, and in how many elements: some lie on others, some do not,
@@ -229,8 +230,7 @@ struct Seen {
 
 /// A ball that goes along x, from there, feels what it feels on a longer wall without a periodic box; the
 /// most contacts it has.
-std::size_t expect_as_on_longer(RigidSurface wall, RigidSurface longer, const Vector3& from,
-                                double tolerance = 1e-12) {
+std::size_t expect_as_on_longer(RigidSurface wall, RigidSurface longer, const Vector3& from) {
   Balls balls(4, 1), others(4, 1);
   balls.add(from, kRadius), others.add(from, kRadius);
   BallsOnWall scene(wall, balls, 1.0, 1.0, kShortBox),
@@ -244,7 +244,7 @@ std::size_t expect_as_on_longer(RigidSurface wall, RigidSurface longer, const Ve
     scene.evaluate(), reference.evaluate();
     const Seen seen(scene), there(reference);
     EXPECT_EQ(seen.count, there.count) << further;
-    EXPECT_LT((seen.force - there.force).norm(), tolerance) << further;
+    EXPECT_LT((seen.force - there.force).norm(), 1e-10) << further;
     EXPECT_EQ(seen.steps, there.steps) << further;
     if (testing::Test::HasFailure()) break;
     most = std::max(most, seen.count);
@@ -257,10 +257,19 @@ TEST(OverlappingImages, OfAFoldedSheetAddNothing) {  // up and down
     EXPECT_EQ(expect_as_on_longer(zigzag(end, strips), zigzag(14.0, 28), {-0.9, 0.3, kRadius}), 2u) << end;
 }
 
+// The wall itself ends in the box.
+TEST(OverlappingImages, OfAPatchToOneSideAddNothing) {
+  const KnotVector across = KnotVector::uniform(2, 1);
+  const nurbs::Surface patch =
+      nurbs::plane({-2, -4, 0}, {7, 0, 0}, {0, 8, 0}, {KnotVector::uniform(2, 7), across});
+  expect_no_end(RigidSurface({patch}), 0.1, kRadius - kPressed);
+  expect_no_end(RigidSurface({patch}), 4.0 + kBeside, kAbove);
+}
+
 TEST(OverlappingImages, OfABlockHideItsEnds) {
   for (const double end : {3.0, 3.1, 4.0, 6.0, 7.0}) {
     expect_no_end(block(end), 0.2, kRadius - kPressed);
-    expect_no_end(block(end), 4.0 + 0.6 * (kRadius - kPressed), 0.8 * (kRadius - kPressed));
+    expect_no_end(block(end), 4.0 + kBeside, kAbove);
   }
 }
 
@@ -271,20 +280,16 @@ TEST(OverlappingImages, OfAShorterPlateLeaveAGap) {
 // Between arches both touch, as long as both are in reach; the edge between gutters is touched once.
 TEST(OverlappingImages, MeetInEdges) {
   const double rise = kPeriod * std::cos(M_PI / 6.0);
-  constexpr double kSame = 1e-10;  // of round faces, as far as feet are told from those on edges
-  EXPECT_EQ(expect_as_on_longer(arches(1, false), arches(5, false), {-0.9, 0.3, rise + 0.5 * kRadius}, kSame),
-            2u);
-  EXPECT_EQ(expect_as_on_longer(arches(1, true), arches(5, true), {-0.9, 0.3, -rise + 0.8 * kRadius}, kSame),
-            1u);
+  EXPECT_EQ(expect_as_on_longer(arches(1, false), arches(5, false), {-0.9, 0.3, rise + 0.5 * kRadius}), 2u);
+  EXPECT_EQ(expect_as_on_longer(arches(1, true), arches(5, true), {-0.9, 0.3, -rise + 0.8 * kRadius}), 1u);
 }
 
 // Rims along the box are met, and once, wherever images begin and end.
 TEST(OverlappingImages, HaveTheRimsOfThePlane) {
-  constexpr double kBeside = 0.6 * (kRadius - kPressed), kUp = 0.8 * (kRadius - kPressed);
-  expect_no_end(long_strip(0.0, 0.0), 4.0 + kBeside, kUp);
-  expect_no_end(long_strip(0.0, 0.0), -4.0 - kBeside, kUp);
+  expect_no_end(long_strip(0.0, 0.0), 4.0 + kBeside, kAbove);
+  expect_no_end(long_strip(0.0, 0.0), -4.0 - kBeside, kAbove);
   for (const double length : {6.0, 6.2, 8.0, 12.0, 14.0})
-    expect_no_end(plates(length, 1), 4.0 + kBeside, kUp);
+    expect_no_end(plates(length, 1), 4.0 + kBeside, kAbove);
 }
 TEST(OverlappingImages, HaveTheRimsOfTriangles) {
   const double slope = std::sqrt(0.5);
@@ -294,7 +299,14 @@ TEST(OverlappingImages, HaveTheRimsOfTriangles) {
 }
 TEST(OverlappingImages, HaveTheLipsOfATrough) {
   for (const double end : {3.0, 3.1, 4.0, 6.0, 7.0})
-    expect_no_end(long_trough(2.0, end, 90.0), -2.0 + 0.8 * (kRadius - kPressed), 0.6 * (kRadius - kPressed));
+    expect_no_end(long_trough(2.0, end, 90.0), -2.0 + kAbove, kBeside);
+}
+// Of a groove in which a ball rests on both, one nearer than the other.
+TEST(OverlappingImages, HaveBothLipsOfAGroove) {
+  for (const double end : {3.0, 3.1, 4.0, 7.0})
+    EXPECT_EQ(
+        expect_as_on_longer(long_trough(0.4, end, 90.0), long_trough(0.4, 14.0, 90.0), {-0.9, 0.05, 0.15}),
+        2u);
 }
 TEST(OverlappingImages, HaveTheRimsOfPatches) {
   const double across = std::sqrt(1.25);
