@@ -77,7 +77,35 @@ class Features(unittest.TestCase):
         half, velocity = 0.6 * R, (0.0, 3.0, 0.0)
         start = (0.0, 0.0, 0.797 * R)
 
-        def test_a_periodic_box_that_grows(self):
+        def patches(length: float) -> dict[str, str]:
+            sides = (quad((x, -length / 2, 0), (5e-3, 0, 0), (0, length, 0), (3, 4)) for x in (-half - 5e-3, half))
+            return {"wall.yaml": model_file(*sides)["wall.yaml"]}
+
+        def cylinder(length: float) -> dict[str, str]:
+            pipe = f"origin: [0, {-length / 2!r}, 0], axis: [0, 1, 0], radius: {half!r}, length: {length!r}"
+            shape = f"geometry:\n  cylinder: {{{pipe}, reference: [1, 0, 0], angle: [0, 180], elements: [2, 5]}}\n"
+            return {"wall.yaml": "units: si\n" + shape + "surfaces: {wall: all}\n"}
+
+        def triangles(length: float) -> dict[str, str]:
+            return {"wall.stl": square(-half - 5e-3, -half, length / 2) + square(half, half + 5e-3, length / 2)}
+
+        for geometry, search in ((patches, ""), (patches, "search simplex_brent"), (cylinder, ""), (triangles, "")):
+            wall = nurbs(search) + "fix g all gravity 981 vector 0 0 -1\n"
+            if geometry is triangles:
+                wall = wall.replace("wall.yaml surface wall", "wall.stl surface all")
+            large = prelude(start, velocity, gravity=False, box="-0.02 0.02 -0.02 0.02 -0.005 0.02")
+            endless = run(large, wall, geometry(0.04), more=" v_n", steps=2500).table
+            self.assertEqual(endless["n"].min(), 2.0)
+            self.assertGreater(np.ptp(endless["y"]), 0.008)
+            small = prelude(start, velocity, gravity=False, boundary="f p f", box="-0.02 0.02 -0.004 0.004 -0.005 0.02")
+            for length in (0.008, 0.0104, 0.016):
+                with self.subTest(geometry.__name__, search=search, length=length):
+                    ours = run(small, wall, geometry(length), more=" v_n", steps=2500).table
+                    ours["y"] = np.unwrap(ours["y"], period=0.008)
+                    np.testing.assert_array_equal(ours["n"], endless["n"])
+                    self.same(ours, endless)
+
+    def test_a_periodic_box_that_grows(self):
         """A floor as long as the box ends where that grows: a ball at the seam then lies between two edges, a radius apart."""
         y, apart = "-0.004 0.004 -0.005 0.02", 1e-3
         start = prelude((3.999e-3, 2e-4, 0.999 * R), (0, 0, 0), gravity=False, boundary="p f f", box=f"-0.004 0.004 {y}")
