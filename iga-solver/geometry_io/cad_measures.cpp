@@ -35,7 +35,7 @@ Tangents of_patch(const nurbs::Surface& patch, const Parameter<2>& xi, int deriv
   return t;
 }
 
-// The same of any valleys: of the lowest of some places.
+// The lowest of f on [a, b]: the best of some places, then golden sections around it.
 template <class F>
 double lowest_place(const F& f, double a, double b, int places) {
   int best = 0;

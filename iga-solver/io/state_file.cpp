@@ -95,8 +95,7 @@ void take(const SavedState& state, double time, structure::ExplicitSolver& solve
   if (!state.splines.empty() && !agree(state.splines, splines_of(solver.body())))
     throw InputError(
         fmt::format("{}: is a state of a mesh with the same control points, but degrees, knots or weights "
-                    "are others than "
-                    "in the model: give the mesh of then",
+                    "are others than in the model: give the mesh of then",
                     state.file));
   std::vector<double> numbers{time};
   append(state.displacement, numbers);
