@@ -222,9 +222,14 @@ void IgaStructure::set_gravity(const Vector3& g) {
   gravity_ = g;
 }
 
-std::optional<SurfaceMaterial> IgaStructure::material() const {
-  const structure::Material& material = *solver_.body().materials()[skin_.front().patch];
-  return SurfaceMaterial{material.youngs_modulus(), material.poissons_ratio()};
+std::vector<SurfaceMaterial> IgaStructure::materials() const {
+  std::vector<SurfaceMaterial> materials;
+  for (const structure::SkinPiece& piece : skin_) {
+    const structure::Material& material = *solver_.body().materials()[piece.patch];
+    const SurfaceMaterial below = {material.youngs_modulus(), material.poissons_ratio()};
+    if (std::find(materials.begin(), materials.end(), below) == materials.end()) materials.push_back(below);
+  }
+  return materials;
 }
 
 std::optional<MeshedSolid> IgaStructure::solid_below(int patch) const {

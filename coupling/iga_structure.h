@@ -69,7 +69,7 @@ class IgaStructure final : public StructureSolver {
   Work work() const override;
   Vector3 linear_momentum() const override { return solver_.linear_momentum(); }
   Vector3 angular_momentum(const Vector3& about) const override { return solver_.angular_momentum(about); }
-  std::optional<SurfaceMaterial> material() const override;
+  std::vector<SurfaceMaterial> materials() const override;
   std::optional<MeshedSolid> solid_below(int patch) const override;
   /// From now on set_gravity adds to the loads that there are.
   void take_gravity_of_deck() { load_without_gravity_ = solver_.load(); }

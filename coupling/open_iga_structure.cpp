@@ -26,19 +26,6 @@ std::optional<Vector3> gravity_of(const io::ModelFile& model) {
   return model.loads.gravity->value;
 }
 
-/// The contact law takes one material of the wall.
-void expect_one_material(const io::ModelFile& model, const std::vector<structure::SkinPiece>& skin,
-                         const std::string& surface) {
-  const structure::Material& first = *model.materials[skin.front().patch];
-  for (const structure::SkinPiece& piece : skin)
-    if (const structure::Material& other = *model.materials[piece.patch];
-        other.youngs_modulus() != first.youngs_modulus() || other.poissons_ratio() != first.poissons_ratio())
-      throw geometry_io::InputError(
-          fmt::format("{}: surface '{}' lies on patches of two materials ({} and {}), expected one: contact "
-                      "laws have one material of the wall",
-                      model.file, surface, skin.front().patch, piece.patch));
-}
-
 void expect_skin(const io::ModelFile& model, const std::vector<structure::SkinPiece>& skin,
                  const std::string& surface) {
   const io::InnerFaces inner(model.geometry, model.nodes);
@@ -86,7 +73,6 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
   for (const geometry_io::SurfacePiece& piece : model.geometry.surfaces.at(surface))
     skin.push_back({piece.patch, *piece.face});
   expect_skin(model, skin, surface);
-  expect_one_material(model, skin, surface);
   std::vector<std::string> warnings = io::loose_patches(model);
   const std::optional<ModalDamping> damping =
       options.modes ? std::optional(take_damping(model)) : expect_no_modal_damping(model);

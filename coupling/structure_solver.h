@@ -21,10 +21,14 @@
 
 namespace coupling {
 
-/// Elastic constants of the surface's material, to be compared with the deck's.
+/// Elastic constants of the material below a surface, or some of its patches, to be compared with the deck's.
 struct SurfaceMaterial {
   double youngs_modulus;  ///< [Pa]
   double poissons_ratio;  ///< [-]
+
+  bool operator==(const SurfaceMaterial& other) const {
+    return youngs_modulus == other.youngs_modulus && poissons_ratio == other.poissons_ratio;
+  }
 };
 
 /// Isotropic solid below a surface whose elements are those of the solid's mesh.
@@ -140,7 +144,8 @@ class StructureSolver {
   virtual double truncation() const { return 0.0; }
   virtual Vector3 linear_momentum() const = 0;                       ///< sum m_A v_A
   virtual Vector3 angular_momentum(const Vector3& about) const = 0;  ///< sum (x_A - about) x p_A
-  virtual std::optional<SurfaceMaterial> material() const = 0;
+  /// Those of the surface that differ; none if they are not known.
+  virtual std::vector<SurfaceMaterial> materials() const = 0;
   /// Whether its gravity shall be the deck's, which is then set before each run.
   virtual bool takes_gravity_of_deck() const { return false; }
   virtual void set_gravity(const Vector3& /*g*/) {}

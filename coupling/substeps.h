@@ -67,7 +67,7 @@ class Substeps final : public StructureSolver {
   Work work() const override { return body_->work(); }
   Vector3 linear_momentum() const override { return body_->linear_momentum(); }
   Vector3 angular_momentum(const Vector3& about) const override { return body_->angular_momentum(about); }
-  std::optional<SurfaceMaterial> material() const override { return body_->material(); }
+  std::vector<SurfaceMaterial> materials() const override { return body_->materials(); }
   bool takes_gravity_of_deck() const override { return body_->takes_gravity_of_deck(); }
   void set_gravity(const Vector3& g) override { body_->set_gravity(g); }
   std::optional<Vector3> gravity() const override { return body_->gravity(); }

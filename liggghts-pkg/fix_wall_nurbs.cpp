@@ -174,7 +174,7 @@ void FixWallNurbs::init() {
     }
     meshwall_ = may_pose_as_mesh();
     if (!options_.material_independent)
-      liggghts_pkg::check_wall_material(*modify, atom_type_wall_, structure_.material(), options_.file);
+      liggghts_pkg::check_wall_material(*modify, atom_type_wall_, structure_.materials(), options_.file);
     if (structure_.solid_below(0))
       model_.read_constants(lmp, liggghts_pkg::model_of(options_.model_words).normal, atom_type_wall_);
     if (observer_) observer_->begin_run(style);

@@ -88,11 +88,20 @@ void check_run_style(const LAMMPS_NS::Update& update) {
 }
 
 void check_wall_material(LAMMPS_NS::Modify& modify, int wall_type,
-                         const std::optional<coupling::SurfaceMaterial>& material, const std::string& file) {
-  if (!material) return;
+                         const std::vector<coupling::SurfaceMaterial>& materials, const std::string& file) {
+  if (materials.size() > 1)
+    throw std::invalid_argument(fmt::format(
+        "the surface lies on {} materials in '{}' (Young's moduli {:.6g}, {:.6g}, Poisson's ratios {:.6g}, "
+        "{:.6g}), and contact laws have one of the wall: use a wall for each, or write 'material "
+        "independent' "
+        "to have the deck's for all",
+        materials.size(), file, materials[0].youngs_modulus, materials[1].youngs_modulus,
+        materials[0].poissons_ratio, materials[1].poissons_ratio));
   constexpr double kRoundOff = 1e-9;  // of the mean of an anisotropic law
-  check_property(modify, "youngsModulus", wall_type, material->youngs_modulus, 0.0, file);
-  check_property(modify, "poissonsRatio", wall_type, material->poissons_ratio, kRoundOff, file);
+  for (const coupling::SurfaceMaterial& material : materials) {
+    check_property(modify, "youngsModulus", wall_type, material.youngs_modulus, 0.0, file);
+    check_property(modify, "poissonsRatio", wall_type, material.poissons_ratio, kRoundOff, file);
+  }
 }
 
 namespace {

@@ -5,7 +5,6 @@
 
 #include <mpi.h>
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,10 +25,10 @@ void check_other_walls(const LAMMPS_NS::Modify& modify, MPI_Comm world, const Wa
 /// Velocity Verlet only: minimisation and respa do not call the fix as its time step needs.
 void check_run_style(const LAMMPS_NS::Update& update);
 
-/// The deck's Young's modulus and Poisson's ratio of the wall's type are those of the solid, within 1e-6,
-/// where the deck defines them and there is a solid.
+/// The deck's Young's modulus and Poisson's ratio of the wall's type are those of the solid below the
+/// surface, which then is of one material, within 1e-6, where the deck defines them and there is a solid.
 void check_wall_material(LAMMPS_NS::Modify& modify, int wall_type,
-                         const std::optional<coupling::SurfaceMaterial>& material, const std::string& file);
+                         const std::vector<coupling::SurfaceMaterial>& materials, const std::string& file);
 
 /// Gives the solid the sum of the deck's gravities, if its file says so.  In setup, before its first forces.
 /// Throws std::invalid_argument if one of them varies.

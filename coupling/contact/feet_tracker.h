@@ -88,33 +88,29 @@ class FeetTracker {
     return kOfReach * query.touch_reach;
   }
   /// Where images of the wall lie on each other, or meet: of `feet` those of all images together stay, once.
-  /// An edge of one image has a foot if no other goes on there, nearer to the centre; of the nearest of all
-  /// nobody needs to ask.  `goes_on(foot, at)`: whether that image does.
+  /// A foot on an edge of one is none if another image goes on there and has its foot elsewhere, nearer; so
+  /// the nearest of all is one.  `goes_on(foot, at)`: whether that image does.
   template <class Foot, class GoesOn>
   void keep_feet_of_all_images(const Query& query, std::vector<Foot>& feet, GoesOn goes_on) const {
     if (feet.size() < 2) return;
     const Candidate& candidate = candidates_.candidates()[query.candidate];
     const ImageElements* const images = candidates_.image_elements(candidate);
     const double same2 = same_place(query) * same_place(query);
-    const auto is_inside = [](const Foot& foot) { return foot.status == search::FootStatus::interior; };
-    const double nearest = std::min_element(feet.begin(), feet.end(), [](const Foot& a, const Foot& b) {
-                             return a.distance < b.distance;
-                           })->distance;
+    double nearest = query.list_reach;
+    for (const Foot& foot : feet) nearest = std::min(nearest, foot.distance);
     auto end = feet.begin();
     for (auto foot = feet.begin(); foot != feet.end(); ++foot) {
       const auto is_there = [&](const Foot& other) {
         return other.image != foot->image && (other.point - foot->point).squaredNorm() <= same2;
       };
-      const auto ends_on = [&](const ImageElements& at) {
+      const auto leads_away = [&](const ImageElements& at) {
         const nurbs::Vector3& image = candidates_.images()[at.image];
-        if (image == foot->image) return false;
-        const auto other = std::find_if(
-            foot + 1, feet.end(), [&](const Foot& later) { return later.image == image && is_there(later); });
-        if (other != feet.end()) return is_inside(*other);
-        return foot->distance > nearest && goes_on(*foot, at);
+        const auto is_its_foot = [&](const Foot& other) { return other.image == image && is_there(other); };
+        return image != foot->image && std::none_of(foot + 1, feet.end(), is_its_foot) && goes_on(*foot, at);
       };
-      if (std::none_of(feet.begin(), end, is_there) &&
-          (is_inside(*foot) || std::none_of(images, images + candidate.image_count, ends_on)))
+      if (std::any_of(feet.begin(), end, is_there)) continue;
+      if (foot->status == search::FootStatus::interior || foot->distance == nearest ||
+          std::none_of(images, images + candidate.image_count, leads_away))
         *end++ = *foot;
     }
     feet.erase(end, feet.end());

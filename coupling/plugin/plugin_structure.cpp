@@ -17,9 +17,9 @@ namespace coupling {
 
 namespace {
 
-std::optional<SurfaceMaterial> material_of(const StructurePluginDescription& is) {
-  if (is.youngs_modulus == 0.0) return std::nullopt;
-  return SurfaceMaterial{is.youngs_modulus, is.poissons_ratio};
+std::vector<SurfaceMaterial> materials_of(const StructurePluginDescription& is) {
+  if (is.youngs_modulus == 0.0) return {};
+  return {{is.youngs_modulus, is.poissons_ratio}};
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ PluginStructure::PluginStructure(MPI_Comm comm, std::unique_ptr<PluginBody> body
       in_parts_(description.in_parts != 0),
       surface_name_(std::move(surface)),
       identity_(description.identity ? description.identity : ""),
-      material_(material_of(description)),
+      materials_(materials_of(description)),
       x_(NodalVectors::Zero(3, static_cast<Eigen::Index>(skin_.own.size()))),
       v_(x_),
       F_(x_),

@@ -51,7 +51,7 @@ class PluginStructure final : public StructureSolver {
   double truncation() const override;
   Vector3 linear_momentum() const override { return Vector3::Map(totals().linear_momentum); }
   Vector3 angular_momentum(const Vector3& about) const override;
-  std::optional<SurfaceMaterial> material() const override { return material_; }
+  std::vector<SurfaceMaterial> materials() const override { return materials_; }
   bool takes_gravity_of_deck() const override { return body_->functions().set_gravity != nullptr; }
   void set_gravity(const Vector3& g) override;
   /// Its loads are its own business.
@@ -74,7 +74,7 @@ class PluginStructure final : public StructureSolver {
   PluginSkin skin_;
   bool in_parts_;
   std::string surface_name_, identity_;
-  std::optional<SurfaceMaterial> material_;
+  std::vector<SurfaceMaterial> materials_;
   NodalVectors x_, v_;
   NodalVectors x_before_, v_mean_;  // where a step of several began, and how fast it is on the mean
   bool is_within_step_ = false;     // of particles, which begins and ends

@@ -56,7 +56,7 @@ class RigidSurface final : public StructureSolver {
   double strain_energy() const override { return 0.0; }
   Vector3 linear_momentum() const override { return Vector3::Zero(); }
   Vector3 angular_momentum(const Vector3&) const override { return Vector3::Zero(); }
-  std::optional<SurfaceMaterial> material() const override { return std::nullopt; }
+  std::vector<SurfaceMaterial> materials() const override { return {}; }
   /// Of a wall with a servo: how far its `com` has moved.
   std::vector<Probe> probes() const override;
 

@@ -113,6 +113,10 @@ YamlMap::YamlMap(std::shared_ptr<const YamlTree> tree, const YamlNode& node, std
   if (node.kind != NodeKind::map)
     fail_at(node, fmt::format("{} is {}, expected a mapping (key: value)", where_.empty() ? "file" : where_,
                               described(node)));
+  if (find("<<"))
+    fail("<<",
+         "'<<' merges mappings in YAML 1.1 alone, expected the keys themselves, or an alias of a whole "
+         "mapping");
 }
 
 const YamlNode* YamlMap::find(const std::string& key) const {

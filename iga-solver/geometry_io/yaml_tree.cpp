@@ -29,6 +29,18 @@ std::string hint_of_tabs(const std::string& text, int line) {
                                                            : "";
 }
 
+/// yaml-cpp takes a text without its second quote for one that ends with the file.
+bool is_open_quote(const std::string& text, std::size_t begin) {
+  if (begin >= text.size() || !(text[begin] == '"' || text[begin] == '\'')) return false;
+  const char quote = text[begin], escape = quote == '"' ? '\\' : '\'';
+  for (std::size_t at = begin + 1; at < text.size(); ++at) {
+    const bool is_escaped = text[at] == escape && (quote == '"' || text.compare(at + 1, 1, "'") == 0);
+    if (!is_escaped && text[at] == quote) return false;
+    at += is_escaped ? 1 : 0;
+  }
+  return true;
+}
+
 }  // namespace
 
 // What yaml-cpp calls while it reads: one document after the other, each from its root down.
@@ -50,6 +62,8 @@ class YamlTree::Builder : public YAML::EventHandler {
   }
   void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                 const std::string& value) override {
+    if (is_open_quote(text_, static_cast<std::size_t>(std::max(mark.pos, 0))))
+      fail_at_line(file_, line_of(mark), "broken YAML: a quoted text begins here and does not end");
     append(mark, anchor, YamlNode::Kind::scalar).scalar = value;
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override {

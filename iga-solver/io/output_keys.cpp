@@ -55,7 +55,14 @@ FieldOutput read_fields(const YamlMap& output, const geometry_io::GeometryFile& 
     fields.every = interval(map, without_time);
   else
     fields.steps = map.integer("steps", 1, 1000000000);
-  if (map.has("on")) fields.on = words_of(map, "on", field_places(geometry));
+  if (!map.has("on")) return fields;
+  fields.on = words_of(map, "on", field_places(geometry));
+  for (const std::string& place : fields.on)
+    if ((place == kVolumePlace || place == kSkinPlace) && geometry.surfaces.count(place) > 0)
+      map.fail("on",
+               fmt::format("on has '{}', which is {}, and a surface of this model: expected another name "
+                           "of the surface",
+                           place, place == kSkinPlace ? "the whole skin" : "the whole solid"));
   return fields;
 }
 

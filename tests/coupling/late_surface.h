@@ -53,7 +53,7 @@ class LateSurface final : public coupling::StructureSolver {
   coupling::Vector3 angular_momentum(const coupling::Vector3& about) const override {
     return solver_->angular_momentum(about);
   }
-  std::optional<coupling::SurfaceMaterial> material() const override { return solver_->material(); }
+  std::vector<coupling::SurfaceMaterial> materials() const override { return solver_->materials(); }
   std::optional<coupling::Vector3> gravity() const override { return solver_->gravity(); }
   std::vector<coupling::Probe> probes() const override { return solver_->probes(); }
   std::vector<double> save() const override { return solver_->save(); }

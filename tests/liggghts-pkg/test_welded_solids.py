@@ -64,14 +64,17 @@ class WeldedSolids(unittest.TestCase):
         self.assert_close({k: v[early] for k, v in self.welded.items()}, {k: v[early] for k, v in slit.items()}, 1e-6)
         self.assertGreater(np.abs(self.welded["plate16"] - slit["plate16"]).max(), 1e-3 * slit["plate16"].max(), "later it opens")
 
-    def test_a_surface_of_two_materials_is_refused(self):
+    def test_a_surface_of_two_materials_needs_to_be_told(self):
         other = "material: [{patches: [0, 1, 2], law: linear_elastic, youngs_modulus: 5e9, poissons_ratio: 0.3, density: 1000}, " \
                 "{patches: [3], law: linear_elastic, youngs_modulus: 6e9, poissons_ratio: 0.3, density: 1000}]"
         lines = [other if line.startswith("material:") else line for line in quarters().splitlines()]
-        deck = bob.prelude() + bob.wall(rest="structure tube.yaml surface outside") + "run 1\n"
-        run = decks.run(deck, files={"tube.yaml": "\n".join(lines) + "\n"})
+        files = {"tube.yaml": "\n".join(lines) + "\n"}
+        wall = "structure tube.yaml surface outside"
+        run = decks.run(bob.prelude() + bob.wall(rest=wall) + "run 1\n", files=files)
         self.assertNotEqual(run.code, 0)
-        self.assertIn("surface 'outside' lies on patches of two materials (0 and 3)", " ".join(run.errors))
+        self.assertIn("the surface lies on 2 materials in 'tube.yaml' (Young's moduli 5e+09, 6e+09", " ".join(run.errors))
+        run = decks.run(bob.prelude() + bob.wall(rest=f"{wall} material independent") + "run 1\n", files=files)
+        self.assertEqual(run.code, 0, run.text)
 
     def test_a_surface_inside_the_body_is_refused(self):
         deck = bob.prelude() + bob.wall(rest="structure tube.yaml surface outside") + "run 1\n"

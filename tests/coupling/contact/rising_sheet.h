@@ -4,7 +4,6 @@
 
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <vector>
 
 #include "coupling/structure_solver.h"
@@ -45,7 +44,7 @@ class RisingSheet final : public coupling::StructureSolver {
   double strain_energy() const override { return 0.0; }
   Vector3 linear_momentum() const override { return Vector3::Zero(); }
   Vector3 angular_momentum(const Vector3&) const override { return Vector3::Zero(); }
-  std::optional<coupling::SurfaceMaterial> material() const override { return std::nullopt; }
+  std::vector<coupling::SurfaceMaterial> materials() const override { return {}; }
   std::vector<coupling::Probe> probes() const override { return {}; }
   std::vector<double> save() const override { return {}; }
   void load(const std::vector<double>&) override {}

@@ -146,6 +146,15 @@ TEST(YamlMap, SaysWhatWasGivenAndWhatWasExpected) {
        "f.yaml:1: a is 3, expected a mapping: {b: 3}"},
       {"a: {c: 1}\n\tb: 2\n", nothing,
        "f.yaml:2: broken YAML: end of map not found; the line begins with a tab, expected spaces"},
+      {"# don't\na: 3  # \"\nb: {c: \"it's,\n  d: 3}\n", nothing,
+       "f.yaml:3: broken YAML: a quoted text begins here and does not end"},
+      {"a: it's\nb: \"\\\"\"\nc: 'x''\n", nothing,
+       "f.yaml:3: broken YAML: a quoted text begins here and does not end"},
+      {"a: it's\nb: 'it''s'\nc: [\n", nothing, "f.yaml:4: broken YAML: end of sequence flow not found"},
+      {"a: &a {b: 1}\nc:\n  <<: *a\n", [](const YamlMap& m) { m.map("c"); },
+       "f.yaml:3: '<<' merges mappings in YAML 1.1 alone, expected the keys themselves, or an alias of a "
+       "whole "
+       "mapping"},
       {"a:\n  b: 3\n", [](const YamlMap& m) { m.map("a").map("b"); },
        "f.yaml:2: a.b is 3, expected a mapping (key: value)"},
       {"a:\n  b: 3\n", [](const YamlMap& m) { m.map("a").allow_only({"c"}); },

@@ -183,6 +183,13 @@ TEST(ModelFile, RefusesBadInputInOneLineThatNamesFileLineGivenAndExpected) {
       {"every: 1.0e-7", "fields: {of: [stress], steps: 0}, every: 1", 12, {"steps", "0"}},
       {"every: 1.0e-7", "fields: {of: [stress], evry: 1}, every: 1", 12, {"evry", "'every'"}},
       {"every: 1.0e-7", "fields: {of: [stress], steps: 1, on: [tpo]}, every: 1", 12, {"tpo", "volume, skin"}},
+      {"surfaces: {top: zeta+}\nprobes:\n  corner: {face: zeta+, at: [1, 1]}\n  below: {face: zeta-, at: "
+       "[0.5, 0.25]}\n"
+       "output: {every: 1.0e-7, file: plate}",
+       "surfaces: {skin: zeta+}\n\n\n\noutput: {every: 1, file: a, fields: {of: [stress], steps: 1, on: "
+       "[skin]}}",
+       12,
+       {"'skin', which is the whole skin, and a surface"}},
       {"{fix: [z],", "{nam: a, fix: [z],", 7, {"nam", "did you mean 'name'"}},
       {"{fix: [x, y, z], faces: [xi-, xi+]}\n  - {fix: [z],",
        "{name: a, fix: [x], faces: [xi-]}\n  - {name: a, fix: [z],",
