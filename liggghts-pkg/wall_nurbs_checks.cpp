@@ -93,8 +93,7 @@ void check_wall_material(LAMMPS_NS::Modify& modify, int wall_type,
     throw std::invalid_argument(fmt::format(
         "the surface lies on {} materials in '{}' (Young's moduli {:.6g}, {:.6g}, Poisson's ratios {:.6g}, "
         "{:.6g}), and contact laws have one of the wall: use a wall for each, or write 'material "
-        "independent' "
-        "to have the deck's for all",
+        "independent' to have the deck's for all",
         materials.size(), file, materials[0].youngs_modulus, materials[1].youngs_modulus,
         materials[0].poissons_ratio, materials[1].poissons_ratio));
   constexpr double kRoundOff = 1e-9;  // of the mean of an anisotropic law

@@ -29,8 +29,12 @@ std::string hint_of_tabs(const std::string& text, int line) {
                                                            : "";
 }
 
-/// yaml-cpp takes a text without its second quote for one that ends with the file.
+/// yaml-cpp takes a text without its second quote for one that ends with the file.  `begin`: as it counts,
+/// without a mark of byte order, of the scalar with its anchor and tag.
 bool is_open_quote(const std::string& text, std::size_t begin) {
+  if (text.compare(0, 3, "\xEF\xBB\xBF") == 0) begin += 3;
+  while (begin < text.size() && (text[begin] == '&' || text[begin] == '!'))
+    begin = text.find_first_not_of(" \t\r\n", text.find_first_of(" \t\r\n", begin));
   if (begin >= text.size() || !(text[begin] == '"' || text[begin] == '\'')) return false;
   const char quote = text[begin], escape = quote == '"' ? '\\' : '\'';
   for (std::size_t at = begin + 1; at < text.size(); ++at) {

@@ -150,6 +150,9 @@ TEST(YamlMap, SaysWhatWasGivenAndWhatWasExpected) {
        "f.yaml:3: broken YAML: a quoted text begins here and does not end"},
       {"a: it's\nb: \"\\\"\"\nc: 'x''\n", nothing,
        "f.yaml:3: broken YAML: a quoted text begins here and does not end"},
+      {"\xEF\xBB\xBF"
+       "a: 1\nb: &f !!str 'x\n",
+       nothing, "f.yaml:2: broken YAML: a quoted text begins here and does not end"},
       {"a: it's\nb: 'it''s'\nc: [\n", nothing, "f.yaml:4: broken YAML: end of sequence flow not found"},
       {"a: &a {b: 1}\nc:\n  <<: *a\n", [](const YamlMap& m) { m.map("c"); },
        "f.yaml:3: '<<' merges mappings in YAML 1.1 alone, expected the keys themselves, or an alias of a "
