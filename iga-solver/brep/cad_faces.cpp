@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kExact = 1e-9;      // of the size: how far apart borders are that meet
 constexpr double kConstant = 1e-10;  // of conormals along an edge: those of one place are those of all
-constexpr int kLooks = 9;            // at an edge, to see what it is like along its way
+constexpr int kLooksAlong = 9;       // at an edge, to see what it is like along its way
 constexpr double kMostTurn = 0.25;   // of a chunk of a spline [rad]
 
 // How a curve turns at most: the sum of the angles of its polygon.
@@ -249,8 +249,8 @@ class FromCad {
     const Uses sorted = local_uses(surface_, edge, middle, axes(edge, middle));
     const std::vector<EdgeUse> uses(sorted.begin(), sorted.end());
     const std::vector<int> numbers(sorted.numbers, sorted.numbers + sorted.count);
-    for (int k = 0; k < kLooks && !edge.varies; ++k) {
-      const EdgePoint at = at_part(surface_, edge, (k + 0.5) / kLooks);
+    for (int k = 0; k < kLooksAlong && !edge.varies; ++k) {
+      const EdgePoint at = at_part(surface_, edge, (k + 0.5) / kLooksAlong);
       const Uses here = local_uses(surface_, edge, at, axes(edge, at));
       for (int i = 0; i < here.count; ++i) {
         const double* m = here.with_number(numbers[i]).conormal;
@@ -275,8 +275,8 @@ class FromCad {
     DisjointSets sets(surface_.sheet_count);
     for (const Edge& edge : surface_.edges) {
       if (!edge.varies) continue;
-      for (int k = 0; k < kLooks; ++k) {
-        const EdgePoint at = at_part(surface_, edge, (k + 0.5) / kLooks);
+      for (int k = 0; k < kLooksAlong; ++k) {
+        const EdgePoint at = at_part(surface_, edge, (k + 0.5) / kLooksAlong);
         const Uses uses = local_uses(surface_, edge, at, axes(edge, at));
         for (const EdgeUse& use : uses)
           if (joins(use.wedge))

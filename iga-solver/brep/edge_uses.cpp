@@ -6,7 +6,7 @@
 namespace brep {
 namespace {
 
-constexpr double kFlat = 1e-9;  // [rad]
+constexpr double kFlatAngle = 1e-9;  // [rad]
 
 // Straight between the two guides around it.
 Parameter<2> guess(const std::array<Parameter<2>, Surface::kGuides>& guides, double part) {
@@ -49,7 +49,7 @@ Meeting meeting(const Side& side, const Across& across, int face, int edge) {
 Wedge wedge_of(double angle, double edge_angle) {
   if (angle > nurbs::kPi + edge_angle) return Wedge::convex;
   if (angle < nurbs::kPi - edge_angle) return Wedge::concave;
-  return angle < nurbs::kPi - kFlat ? Wedge::smooth_concave : Wedge::smooth;
+  return angle < nurbs::kPi - kFlatAngle ? Wedge::smooth_concave : Wedge::smooth;
 }
 
 EdgePoint at_part(const Surface& surface, const Edge& edge, double part) {

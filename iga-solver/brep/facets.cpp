@@ -17,7 +17,7 @@ namespace {
 
 using Segment = TrimDomain::Segment;
 constexpr int kMostSteps = 1024;
-constexpr double kFlat = 1e-12;  // of the range of xi1: no band
+constexpr double kNoBand = 1e-12;  // of the range of xi1: no band
 
 class FaceFacets {
  public:
@@ -40,7 +40,7 @@ class FaceFacets {
       levels.insert(levels.end(), {segment.first[1], segment.second[1]});
     std::sort(levels.begin(), levels.end());
     for (size_t k = 0; k + 1 < levels.size(); ++k)
-      if (levels[k + 1] - levels[k] > kFlat * (high_[1] - low_[1])) add_band(levels[k], levels[k + 1]);
+      if (levels[k + 1] - levels[k] > kNoBand * (high_[1] - low_[1])) add_band(levels[k], levels[k + 1]);
   }
 
  private:
@@ -102,7 +102,7 @@ class FaceFacets {
     };
     std::vector<Crossing> crossings;
     for (const auto& [a, b] : segments_) {
-      const double tolerance = 0.5 * kFlat * (high_[1] - low_[1]);
+      const double tolerance = 0.5 * kNoBand * (high_[1] - low_[1]);
       if (std::min(a[1], b[1]) > begin + tolerance || std::max(a[1], b[1]) < end - tolerance || a[1] == b[1])
         continue;
       const auto crossed_at = [&, &a = a, &b = b](double v) {

@@ -92,9 +92,9 @@ int number_shells(const Surface& surface, std::vector<int>& of_face) {
   return sets.number(of_face);
 }
 
-struct Corners {
+struct SeenTriangle {
   const Vector3 &a, &b, &c;
-  Corners(const Surface& surface, const Piece& piece)
+  SeenTriangle(const Surface& surface, const Piece& piece)
       : a(surface.vertices[piece.vertex[0]].point),
         b(surface.vertices[piece.vertex[1]].point),
         c(surface.vertices[piece.vertex[2]].point) {}
@@ -103,7 +103,7 @@ struct Corners {
 
 // Of a triangle, as seen from a point.  Source: van Oosterom & Strackee (1983), IEEE Trans. Biomed. Eng. 30,
 // 125-126.
-double solid_angle(const Corners& triangle, const Vector3& from) {
+double solid_angle(const SeenTriangle& triangle, const Vector3& from) {
   const Vector3 a = triangle.a - from, b = triangle.b - from, c = triangle.c - from;
   const double la = a.norm(), lb = b.norm(), lc = c.norm();
   return 2.0 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
@@ -116,7 +116,7 @@ struct ShellPieces {
   bool encloses(const Surface& surface, const Vector3& point) const {
     if ((point.array() < shell.low.array()).any() || (point.array() > shell.high.array()).any()) return false;
     double angle = 0.0;
-    for (const Piece* piece : pieces) angle += solid_angle(Corners(surface, *piece), point);
+    for (const Piece* piece : pieces) angle += solid_angle(SeenTriangle(surface, *piece), point);
     return std::abs(angle) > 2.0 * nurbs::kPi;
   }
 };
@@ -138,7 +138,7 @@ std::vector<Shell> shells_of(const Surface& surface) {
   for (const ShellPieces& own : all) {
     Shell shell = own.shell;
     for (const Piece* piece : own.pieces) shell.volume += content_of(surface, *piece, shell.low).flux;
-    const Vector3 point = Corners(surface, *own.pieces.front()).middle();
+    const Vector3 point = SeenTriangle(surface, *own.pieces.front()).middle();
     const auto around = std::count_if(all.begin(), all.end(), [&](const ShellPieces& other) {
       return &other != &own && other.encloses(surface, point);
     });

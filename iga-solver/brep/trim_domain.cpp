@@ -9,10 +9,10 @@
 namespace brep {
 namespace {
 
-constexpr int kDeepest = 48;     // halvings of a curve until it rises or falls all the way
-constexpr int kBisections = 60;  // to the last bit
-constexpr int kBoxHalvings = 6;  // of a curve that may meet a box
-constexpr double kFlat = 1e-14;  // of the loops' extent: nothing rises or falls there
+constexpr int kDeepest = 48;      // halvings of a curve until it rises or falls all the way
+constexpr int kBisections = 60;   // to the last bit
+constexpr int kBoxHalvings = 6;   // of a curve that may meet a box
+constexpr double kLevel = 1e-14;  // of the loops' extent: nothing rises or falls there
 constexpr double kWider = 1.0 + 1e-9;
 
 using Box2 = std::pair<Parameter<2>, Parameter<2>>;
@@ -98,7 +98,7 @@ void TrimDomain::add_curve(const BezierCurve<2>& curve, int depth) {
   if (p == 1) return add_line(curve.point(0), curve.point(1));
   const Box2 box = box_of(curve);
   const int bends = turns(curve);
-  if (bends == 0 || depth == kDeepest || box.second[1] - box.first[1] <= kFlat * (high_[1] - low_[1]))
+  if (bends == 0 || depth == kDeepest || box.second[1] - box.first[1] <= kLevel * (high_[1] - low_[1]))
     return add_small_parts(curve, 0);
   const auto [before, behind] = curve.parts(bends == 1 ? turning_point(curve) : 0.5);
   if (bends == 1) {

@@ -97,7 +97,7 @@ constexpr const char* kStlFile =
     "file in YAML takes them by 'geometry: {file: NAME}'";
 
 // In the order in which they are asked.
-const KnownKind kKinds[] = {
+const KnownKind kKnownKinds[] = {
     {FileKind::hdf5,
      "an HDF5 file",
      is_hdf5,
@@ -125,10 +125,10 @@ std::string extension_of(const std::string& path) {
 }  // namespace
 
 FileKind kind_of_file(const std::string& path, const std::string& bytes) {
-  for (const KnownKind& kind : kKinds)
+  for (const KnownKind& kind : kKnownKinds)
     if (kind.is(bytes)) return kind.kind;
   const std::string extension = extension_of(path);
-  for (const KnownKind& kind : kKinds)
+  for (const KnownKind& kind : kKnownKinds)
     for (const char* one : kind.extensions)
       if (extension == one) return kind.kind;
   return FileKind::text;
@@ -139,7 +139,7 @@ bool is_binary_stl(string_view bytes) {
 }
 
 void refuse_kind(FileKind given, const std::string& path) {
-  for (const KnownKind& kind : kKinds)
+  for (const KnownKind& kind : kKnownKinds)
     if (kind.kind == given) throw InputError(path + ": is " + kind.name + ", " + kind.way_out);
   throw InputError(path + ": is text");
 }

@@ -13,7 +13,7 @@
 namespace nurbs::judge {
 namespace {
 
-constexpr double kQuarter = M_PI / 2;
+constexpr double kQuarterTurn = M_PI / 2;
 constexpr double kTolerance = 1e-10;
 
 void expect_distance(const Surface& surface, const Vector3& d, double expected) {
@@ -27,7 +27,7 @@ void expect_distance(const Surface& surface, const Vector3& d, double expected) 
   EXPECT_GE(bound.nearest(d, truth, kTolerance).distance, expected * (1.0 - kTolerance));
 }
 
-Surface refined(Surface surface) {
+Surface refined_unevenly(Surface surface) {
   surface = elevate_degree(elevate_degree(surface, 0), 1);
   for (const double knot : {.1, .3, .4, .85})
     surface = insert_knot(insert_knot(surface, 0, knot), 1, knot, knot == .3 ? 2 : 1);
@@ -35,8 +35,8 @@ Surface refined(Surface surface) {
 }
 
 TEST(DistanceBound, CylinderInsideOutsideAndBeyondItsEdges) {
-  const Surface cylinder = shapes::revolve(shapes::line(10.0, 20.0), kQuarter);
-  for (const Surface& surface : {cylinder, refined(cylinder)}) {
+  const Surface cylinder = shapes::revolve(shapes::line(10.0, 20.0), kQuarterTurn);
+  for (const Surface& surface : {cylinder, refined_unevenly(cylinder)}) {
     expect_distance(surface, {9, 7, 5}, std::hypot(9, 7) - 10);
     expect_distance(surface, {2, 1, 4}, 10 - std::hypot(2, 1));
     expect_distance(surface, {12, -1, 3}, std::hypot(2, 1));
@@ -47,11 +47,11 @@ TEST(DistanceBound, CylinderInsideOutsideAndBeyondItsEdges) {
 }
 
 TEST(DistanceBound, SphereWithPoleAndTorus) {
-  const Surface octant = refined(shapes::revolve(shapes::quarter_arc(0.0, 5.0), kQuarter));
+  const Surface octant = refined_unevenly(shapes::revolve(shapes::quarter_arc(0.0, 5.0), kQuarterTurn));
   expect_distance(octant, {3, 4, 2}, std::sqrt(29.0) - 5);
   expect_distance(octant, {0, 0, 7}, 2.0);
   expect_distance(octant, {.3, .4, 5.2}, std::hypot(.5, 5.2) - 5);
-  const Surface torus = refined(shapes::revolve(shapes::quarter_arc(10.0, 3.0), kQuarter));
+  const Surface torus = refined_unevenly(shapes::revolve(shapes::quarter_arc(10.0, 3.0), kQuarterTurn));
   expect_distance(torus, {9, 9, 2}, std::abs(std::hypot(std::hypot(9, 9) - 10, 2) - 3));
 }
 
@@ -86,7 +86,7 @@ TEST(DistanceBound, ConditionsOnBordersLookInsideOnly) {
 
 // On a pole all directions count: at the tip of an octant only points on the axis have their foot.
 TEST(DistanceBound, ConditionsOnAPole) {
-  const DistanceBound bound(shapes::revolve(shapes::quarter_arc(0.0, 5.0), kQuarter));
+  const DistanceBound bound(shapes::revolve(shapes::quarter_arc(0.0, 5.0), kQuarterTurn));
   for (const double xi : {0.0, 0.5, 1.0}) {
     EXPECT_NEAR(bound.conditions({0, 0, 7}, {xi, 1.0}).slope, 0.0, 1e-14);
     EXPECT_NEAR(bound.conditions({0.5, 0.0, 7}, {xi, 1.0}).slope, 0.5 * (std::sqrt(2.0) - 2.0), 1e-14);

@@ -31,14 +31,14 @@ std::shared_ptr<const Material> neo_hooke() {
   throw std::logic_error("no such law");
 }
 
-nurbs::Volume cubes(int finer = 1) {
+nurbs::Volume block_of_cubes(int finer = 1) {
   return models::block({kCubes, kCubes, kLayers}, {finer * kCubes, finer * kCubes, finer * kLayers}, 2);
 }
 ReferenceBody hyperelastic(const nurbs::Volume& patch, const std::shared_ptr<const Material>& law) {
   return {{patch}, {law}, structure::without_welds({patch}), structure::Quadrature::full};
 }
 const ReferenceBody& soft_block() {
-  static const ReferenceBody body = hyperelastic(cubes(), neo_hooke());
+  static const ReferenceBody body = hyperelastic(block_of_cubes(), neo_hooke());
   return body;
 }
 NodalVectors moved(const Matrix3& F, const NodalVectors& X) { return models::linear_field(F, X); }
@@ -107,7 +107,8 @@ TEST(StrainedCompliance, IsWhatMeshesOfTheStrainedBodyDifferBy) {
   const Parameter<2> corner = {3.0 / kCubes, 3.0 / kCubes};
   for (const auto& [x, y] : {std::pair(1.2, 1.2), std::pair(1.2, 1.0), std::pair(0.9, 1.0)}) {
     const Matrix3 F = stretch(x, y, free_stretch(x, y));
-    const double c = 0.5 * (give_when_strained(cubes(3), F, corner) - give_when_strained(cubes(), F, corner));
+    const double c = 0.5 * (give_when_strained(block_of_cubes(3), F, corner) -
+                            give_when_strained(block_of_cubes(), F, corner));
     ComplianceTables tables(soft_block(), point_force::kTop);
     const double before = kSkin.table(tables, corner);
     EXPECT_GT(std::abs(before / c - 1.0), 0.04) << x << ' ' << y;
@@ -198,8 +199,8 @@ TEST(StrainedCompliance, IsSavedWithItsStates) {
 
 TEST(StrainedCompliance, IsForLawsOfLargeStrain) {
   EXPECT_TRUE(ComplianceTables(soft_block(), point_force::kTop).follows_strain());
-  EXPECT_FALSE(
-      ComplianceTables(hyperelastic(cubes(), models::elastic()), point_force::kTop).follows_strain());
+  EXPECT_FALSE(ComplianceTables(hyperelastic(block_of_cubes(), models::elastic()), point_force::kTop)
+                   .follows_strain());
 }
 
 }  // namespace
