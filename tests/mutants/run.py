@@ -71,9 +71,9 @@ def configure() -> None:
 
 
 def build(targets) -> str:
-    """Builds the targets; returns the compiler's words if that fails."""
+    """Builds the targets; returns what the compiler or ninja says if that fails."""
     done = subprocess.run(["ninja", "-C", BUILD, *targets], env=environment(), capture_output=True, text=True, check=False)
-    return "" if done.returncode == 0 else done.stdout[-3000:]
+    return "" if done.returncode == 0 else done.stdout[-3000:] + done.stderr
 
 
 class Test:
