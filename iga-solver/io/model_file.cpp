@@ -8,6 +8,7 @@
 
 #include "geometry_io/file_kind.h"
 #include "io/damping_keys.h"
+#include "io/integration_keys.h"
 #include "io/material_keys.h"
 #include "nurbs/memory.h"
 #include "structure/weld.h"
@@ -35,27 +36,6 @@ structure::Probe read_probe(const YamlMap& probes, const std::string& name, cons
   } catch (const std::invalid_argument&) {
     map.fail("at", fmt::format("at is [{}, {}], expected 2 numbers from 0 to 1", at[0], at[1]));
   }
-}
-
-/// A word, by the reader that knows all of them.
-template <class Value>
-Value read_word(const YamlMap& map, const std::string& key, Value (*from_name)(const std::string&)) {
-  try {
-    return from_name(map.word(key));
-  } catch (const std::invalid_argument& error) {
-    map.fail(key, error.what());
-  }
-}
-
-structure::Integration read_integration(const YamlMap& map) {
-  map.allow_only({"quadrature", "method", "mass"});
-  structure::Integration integration;
-  if (map.has("quadrature"))
-    integration.quadrature = read_word(map, "quadrature", structure::quadrature_from_name);
-  if (map.has("method"))
-    integration.method = read_word(map, "method", structure::integration_method_from_name);
-  if (map.has("mass")) integration.mass = read_word(map, "mass", structure::time_mass_from_name);
-  return integration;
 }
 
 bool wants_welds(const YamlMap& document) {
@@ -107,8 +87,11 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   ModelFile model = read_required(document, read_and_note);
   if (is_saved(document)) model.settings = settings_of(document, model.materials);
   if (document.has("surfaces")) model.surfaces = document.map("surfaces").keys();
-  if (document.has("integration"))
-    model.integration = read_integration(document.map("integration", "{quadrature: full}"));
+  if (document.has("integration")) {
+    const YamlMap integration = document.map("integration", "{quadrature: full}");
+    model.integration = read_integration(integration);
+    correct_shear(integration, model.geometry, model.nodes, model.materials);
+  }
   if (document.has("boundary"))
     model.boundary = read_boundary(document.list_of_maps("boundary"), model.geometry, model.nodes);
   if (document.has("probes")) {

@@ -60,16 +60,22 @@ class Mesh(NamedTuple):
     layers: int
     degree: int = 2  # through the thickness; in the plane 2
     mass: str = "lumped"  # or corrected
+    shear: str = "plain"  # or corrected
 
     @property
     def is_single_quadratic(self) -> bool:
-        """It shears too little, as the independent program says (README.md): one cubic layer, or two, are needed."""
         return self.layers == 1 and self.degree == 2
+
+    @property
+    def shears_too_little(self) -> bool:
+        """As the independent program says (README.md): one cubic layer, two, or corrected shear are needed."""
+        return self.is_single_quadratic and self.shear == "plain"
 
     def of(self, plate: Plate, place: str) -> MeshedPlate:
         h, side = self.ratio * plate.thickness, 2.0 * plate.half
+        factor = 5.0 / (6.0 - plate.constants[1]) if self.shear == "corrected" else 1.0
         return MeshedPlate(*plate.constants, plate.thickness, h, self.layers, place, side, degree_through=self.degree,
-                           mass=self.mass)  # fmt: skip
+                           mass=self.mass, shear_factor=factor)  # fmt: skip
 
 
 QUADRATIC = tuple(Mesh(*mesh) for mesh in ((1.0, 1), (0.5, 2), (0.25, 4)))
@@ -78,8 +84,10 @@ CUBIC = (Mesh(1.0, 1, 3), Mesh(0.5, 1, 3))
 FURTHER = tuple(Mesh(*mesh) for mesh in ((1.0, 2), (1.0, 4), (0.5, 1), (0.5, 4), (0.25, 1), (0.25, 1, 3), (0.25, 2), (0.125, 2), (0.125, 4)))
 ALL_MESHES = (*QUADRATIC, *CUBIC, *FURTHER)
 CORRECTED_MASS = tuple(mesh._replace(mass="corrected") for mesh in ALL_MESHES)
+CORRECTED_SHEAR = tuple(mesh._replace(shear="corrected") for mesh in (*ALL_MESHES, *CORRECTED_MASS) if mesh.is_single_quadratic)
 LARGE = ("Z3", Mesh(0.25, 4))  # half a minute: on request, too
 MASS_ALWAYS = (("Z2", (1.0, 1, 2)), ("Z3", (1.0, 1, 2)))  # which miss gates with row sums
+SHEAR_ALWAYS = (("Z2", Mesh(0.5, 1, shear="corrected")),)
 PLATE_PLACES = ("corner", "centre")
 # Absolute of the restitution, relative of the force: for elements as large as the plate is thick, and for smaller ones.
 PLATE_TOLERANCES = {True: (0.005, 0.01), False: (0.002, 0.004)}
@@ -87,7 +95,7 @@ PLATE_TOLERANCES = {True: (0.005, 0.01), False: (0.002, 0.004)}
 MISSED_FORCE = (("Z2", 1.0, "corner"), ("Z3", 1.0, "corner"), ("Z3", 1.0, "centre"))
 SOFT = ("Z2", "Z3")  # beside their balls: likewise with corrected mass
 MISSED_RESTITUTION = (("Z3", 1.0, "corner"), ("Z3", 0.5, "corner"))
-# Beside the independent program, of equal elements; of other meshes than single quadratic layers among each other.
+# Beside the independent program, of equal elements; of all meshes that shear as they should among each other.
 SAME_MESH_TOLERANCES = {"lumped": (3e-4, 5e-4), "corrected": (4e-4, 7e-4)}  # by the mass: c ends with its patch, which shows more
 SPREAD_TOLERANCES = (0.002, 0.003)
 SPREAD_OF_FINE = ("Z3",)  # without elements as large as the plate is thick: the longer the contact the more their waves count
@@ -115,7 +123,7 @@ def plate_rows(name: str, mesh: Mesh, place: str, gated: bool, result: Result) -
     plate, ratio = PLATES[name], mesh.ratio
     e_tolerance, F_tolerance = PLATE_TOLERANCES[ratio == 1.0]
     e, F = (plate.restitution, e_tolerance / plate.restitution), (plate.peak, F_tolerance)
-    if mesh.is_single_quadratic:
+    if mesh.shears_too_little:
         by_row_sums = mesh.mass == "lumped"
         if ratio < 1.0 and (by_row_sums or name in SOFT) or by_row_sums and (name, ratio, place) in MISSED_FORCE:
             F = ()
@@ -131,8 +139,9 @@ def plate_case(name: str, mesh: Mesh, place: str, compliance: str = "corrected")
     plate = PLATES[name]
     h = mesh.ratio * plate.thickness
     block = GradedBlock(h, place, plate.half, plate.thickness, max(h, 0.5 * plate.thickness), layers=mesh.layers,
-                        degree_through=mesh.degree, mass=mesh.mass)  # fmt: skip
-    kind = ("_cubic" if mesh.degree == 3 else "") + ("_mass" if mesh.mass == "corrected" else "")
+                        degree_through=mesh.degree, mass=mesh.mass, shear=mesh.shear)  # fmt: skip
+    kind = "".join(f"_{word}" for word, holds in (("cubic", mesh.degree == 3), ("mass", mesh.mass == "corrected"),
+                                                  ("shear", mesh.shear == "corrected")) if holds)  # fmt: skip
     case = f"{name}_{1e3 * h:g}mm_{mesh.layers}{kind}_{place}"
     if compliance == "none":
         case = f"none_{case}"
@@ -141,6 +150,7 @@ def plate_case(name: str, mesh: Mesh, place: str, compliance: str = "corrected")
     variables = {**plate.ball, "block": file, "compliance": compliance, "E_wall": E, "nu_wall": nu}
     of = partial(plate_rows, name, mesh, place, compliance == "corrected")
     on_request = mesh in FURTHER or mesh in CORRECTED_MASS and (name, mesh[:3]) not in MASS_ALWAYS or (name, mesh) == LARGE
+    on_request = on_request or mesh.shear == "corrected" and (name, mesh) not in SHEAR_ALWAYS
     return Case(case, DECK, of, variables, partial(steps, 1.6),
                 lambda _: {file: block.model_file(plate.material)}, on_request=on_request)  # fmt: skip
 
@@ -168,9 +178,11 @@ def plate_cases(name: str, meshes: Sequence[Mesh]) -> list[Case]:
 
 
 def spread(name: str, mass: str) -> Comparison:
-    """Half of what restitution and force differ by among meshes that are no single quadratic layers."""
+    """Half of what restitution and force differ by among all meshes, the shear of single quadratic layers corrected."""
     coarsest = 0.5 if name in SPREAD_OF_FINE and mass == "lumped" else 1.0
-    meshes = [mesh._replace(mass=mass) for mesh in ALL_MESHES if not mesh.is_single_quadratic and mesh.ratio <= coarsest]
+    sheared = [mesh._replace(mass=mass, shear="corrected" if mesh.is_single_quadratic else "plain") for mesh in ALL_MESHES]
+    misses = name in SOFT and mass == "lumped"  # single layers as wide as they are thick: their waves
+    meshes = [mesh for mesh in sheared if mesh.ratio <= (0.5 if misses and mesh.is_single_quadratic else coarsest)]
     cases = [case.name for case in plate_cases(name, meshes)]
 
     def rows_of(results: Mapping[str, Result]) -> list[Row]:
@@ -195,9 +207,10 @@ def draw(path: Path, results: Mapping[str, Result]) -> None:
         return 100.0 * (F / plate.peak - 1.0)
 
     kinds = {(1, 2): "1 layer", (1, 3): "1 layer, cubic", (2, 2): "2 layers", (4, 2): "4 layers"}
-    of_mass = {(*kind, "lumped"): words for kind, words in kinds.items()} | {(2, 2, "corrected"): "2 layers, mass corrected"}
-    for (kind, words), colour, marker in zip(of_mass.items(), COLOURS, MARKERS):
-        meshes = sorted(mesh for mesh in (*ALL_MESHES, *CORRECTED_MASS) if mesh[1:] == kind)
+    shown = {(*kind, "lumped", "plain"): words for kind, words in kinds.items()}
+    shown |= {(1, 2, "lumped", "corrected"): "1 layer, shear corrected", (2, 2, "corrected", "plain"): "2 layers, mass corrected"}
+    for (kind, words), colour, marker in zip(shown.items(), COLOURS, MARKERS):
+        meshes = sorted(mesh for mesh in (*ALL_MESHES, *CORRECTED_MASS, *CORRECTED_SHEAR) if mesh[1:] == kind)
         ratios = [mesh.ratio for mesh in meshes]
         found = [results[plate_case("Z1", mesh, "corner").name] for mesh in meshes]
         expected = [mesh.of(plate, "corner").impact(impact(of.values), of.values["dt"])[1] for mesh, of in zip(meshes, found)]
@@ -219,7 +232,7 @@ def draw(path: Path, results: Mapping[str, Result]) -> None:
 
 
 CASES = [
-    *(case for plate in PLATES for case in plate_cases(plate, (*ALL_MESHES, *CORRECTED_MASS))),
+    *(case for plate in PLATES for case in plate_cases(plate, (*ALL_MESHES, *CORRECTED_MASS, *CORRECTED_SHEAR))),
     *(plate_case("Z1", mesh, "corner", "none") for mesh in QUADRATIC),
     *(damped_case(plate, e, "corner") for plate in DAMPED_PLATES for e in DAMPED),
 ]

@@ -28,6 +28,19 @@ def frequency(h: float, reference: float, clamped: bool, elements: Sequence[int]
     )  # fmt: skip
 
 
+def single_layer(h: float, reference: float) -> Benchmark:
+    """The same of a supported plate one quadratic element thick, its shear corrected; without that 1.0 % and 0.3 % too high."""
+    E, nu, elements = 1.0, 0.3, [12, 12, 1]
+    D = E * h**3 / (12 * (1 - nu**2))
+    geometry, boundary = quarter(h, False, elements)
+    return one_row(
+        f"supported plate, h/a = {h:g}, shear corrected", mesh_of(elements, [3, 3, 2]), "omega a^2 sqrt(rho h/D)",
+        model(geometry, ("linear_elastic", E, nu, 1.0), boundary, {"kind": "modes", "count": 1, "mass": "consistent"},
+              integration={"shear": "corrected"}),
+        lambda solved: 2 * math.pi * solved.frequencies()[0] * math.sqrt(h / D), reference, 5e-4,
+    )  # fmt: skip
+
+
 def table_2_plate() -> Benchmark:
     """The plate of the paper's Table 2, a quarter of it, four sides fixed."""
     elements = [20, 20, 4]
@@ -81,6 +94,8 @@ def roof(elements: int, degree: int, reference: float, tolerance: float = 3e-3) 
 BENCHMARKS = [
     frequency(0.2, 17.52602, False, [20, 20, 6], 5e-3),
     frequency(0.1, 19.09005, False, [16, 16, 4], 5e-3),
+    single_layer(0.2, 17.52602),
+    single_layer(0.1, 19.09005),
     frequency(0.02, 19.71164, False, [16, 16, 1], 5e-3),
     frequency(0.01, 19.73229, False, [16, 16, 1], 5e-3),
     frequency(0.05, 35.11, True, [20, 20, 2], 1e-2),

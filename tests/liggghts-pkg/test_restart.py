@@ -124,6 +124,16 @@ class Restart(unittest.TestCase):
             with self.subTest(ranks=ranks):
                 self.check_continues(self.read(reader(), restart, ranks, block=block), whole)
 
+    def test_a_plate_whose_shear_is_corrected_goes_on_and_is_another_one(self):
+        plain = bob.block(size=(4e-3, 4e-3, 4e-4), elements=(4, 4, 1), fixed=("xi-", "xi+"))
+        block = plain + "integration: {shear: corrected}\n"
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "contact"
+            whole = decks.good(writer().replace("write_restart contact", f"write_restart {path}"), files={"block.yaml": block})
+            restart = path.read_bytes()
+        self.check_continues(self.read(reader(), restart, block=block), whole)
+        self.check_refused(self.read(reader(), restart, block=plain), "'block.yaml'", "law.*linear_elastic, shear corrected then, linear_elastic now")
+
     def test_corrected_mass_goes_on(self):
         block = BLOCK + "integration: {mass: corrected}\ndamping: {mass: 1e4}\n"
         with tempfile.TemporaryDirectory() as folder:

@@ -4,7 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
+
+#include "structure/material/plate_material.h"
+#include "structure/material/plate_shear.h"
+#include "structure/solid/plate_patch.h"
 
 namespace structure {
 
@@ -42,12 +47,38 @@ void LocalProblem::assemble(GradientProducts& gradients) {
   K_.reset(3 * free, 3 * farthest + 2);
   block_.assign(static_cast<std::size_t>(held) * free, -1);
   gradients.begin_patch();
-  for (std::size_t i = 0; i < places.size(); ++i) add(gradients.of(patch_.elements()[i]), places[i]);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const BodyElement& element = patch_.elements()[i];
+    add(element, gradients.of(element), places[i]);
+  }
 }
 
+namespace {
+
+/// Normal of the plate, if the element is one of those that material/plate_shear.h is for: of the body as it
+/// is now.
+std::optional<Vector3> plate_normal_at(const ReferenceBody& body, const BodyElement& element) {
+  if (!has_plate_shear(*body.materials[element.patch])) return std::nullopt;
+  const nurbs::Volume& patch = body.patches[element.patch];
+  return layer_normal(patch, thickness_direction(patch.space), patch.space.element_centre(element.element));
+}
+
+/// Integral of gamma_Ai . gamma_Bj, shear strain across a plate by displacements of A along e_i and of B
+/// along e_j: gamma = T ((dR.n) I + dR n^T), T = I - n n^T.
+Matrix3 shear_products(const Matrix3& D, const Vector3& n) {
+  const Matrix3 T = Matrix3::Identity() - n * n.transpose();
+  const double across = n.dot(D * n);
+  return across * T + T * D.transpose() * n * n.transpose() + n * (T * D * n).transpose() +
+         (D.trace() - across) * n * n.transpose();
+}
+
+}  // namespace
+
 // K_AB = integral of lambda dR_A (x) dR_B + mu (dR_B (x) dR_A + dR_A . dR_B I)
-void LocalProblem::add(const Eigen::MatrixXd& products, const std::vector<int>& places) {
+void LocalProblem::add(const BodyElement& element, const Eigen::MatrixXd& products,
+                       const std::vector<int>& places) {
   const double mu = 0.5 * E_ / (1.0 + nu_), lambda = 2.0 * mu * nu_ / (1.0 - 2.0 * nu_);
+  const std::optional<Vector3> normal = plate_normal_at(patch_.body(), element);
   const int n = static_cast<int>(places.size()), free = patch_.free_count();
   for (int b = 0; b < n; ++b)
     for (int a = 0; a < n; ++a) {
@@ -57,6 +88,7 @@ void LocalProblem::add(const Eigen::MatrixXd& products, const std::vector<int>& 
         for (int i = 0; i < 3; ++i) D(i, j) = products(i * n + a, j * n + b);
       K = lambda * D + mu * D.transpose();
       K.diagonal().array() += mu * D.trace();
+      if (normal) K -= (1.0 - plate_shear_factor(nu_)) * mu * shear_products(D, *normal);
       if (places[b] >= free)
         block(places[a], places[b]) += K;
       else

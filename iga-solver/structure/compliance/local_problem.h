@@ -31,7 +31,7 @@ class LocalProblem {
 
  private:
   void assemble(GradientProducts& gradients);
-  void add(const Eigen::MatrixXd& products, const std::vector<int>& places);
+  void add(const BodyElement& element, const Eigen::MatrixXd& products, const std::vector<int>& places);
   Matrix3& block(int free_place, int held_place);
   void hold_by_springs();
   Eigen::MatrixXd prescribed(const std::vector<SkinPoint>& feet,

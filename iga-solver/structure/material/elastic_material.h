@@ -5,6 +5,7 @@
 #include "structure/material/dual.h"
 #include "structure/material/isotropic_elastic.h"
 #include "structure/material/orthotropic_constants.h"
+#include "structure/material/plate_constants.h"
 #include "structure/material/tensor.h"
 
 namespace structure {

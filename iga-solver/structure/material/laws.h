@@ -74,7 +74,7 @@ std::vector<MaterialLaw> elastic_laws(LawList<Laws...>) {
 }
 
 inline const std::vector<MaterialLaw>& material_laws() {
-  static const std::vector<MaterialLaw> kLaws = elastic_laws(ElasticLaws{});
+  static const std::vector<MaterialLaw> kLaws = elastic_laws(NamedLaws{});
   return kLaws;
 }
 

@@ -11,12 +11,21 @@ namespace structure {
 struct LinearElasticLaw : LameConstants {
   using LameConstants::LameConstants;
   using Constants = IsotropicElastic;
-  static constexpr const char* kWord = "linear_elastic";
+  static constexpr const char *kWord = "linear_elastic", *kPlateWord = "linear_elastic, shear corrected";
   static constexpr bool kSmallStrain = true;
 
   template <class Number>
+  [[gnu::always_inline]] static Tensor<Number> twice_strain(const Tensor<Number>& H) {
+    return plus_transposed(H);
+  }
+  /// P of a symmetric stress.
+  template <class Number>
+  [[gnu::always_inline]] static Tensor<Number> piola(const Tensor<Number>& /*H*/, const Tensor<Number>& S) {
+    return S;
+  }
+  template <class Number>
   [[gnu::always_inline]] Tensor<Number> unit_stress(const Tensor<Number>& H) const {
-    return hooke(lambda_per_mu, plus_transposed(H));
+    return hooke(lambda_per_mu, twice_strain(H));
   }
   template <class Number>
   [[gnu::always_inline]] Number unit_energy(const Tensor<Number>& H) const {

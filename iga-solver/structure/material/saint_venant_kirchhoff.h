@@ -13,16 +13,26 @@ namespace structure {
 struct SaintVenantKirchhoffLaw : LameConstants {
   using LameConstants::LameConstants;
   using Constants = IsotropicElastic;
-  static constexpr const char* kWord = "saint_venant_kirchhoff";
+  static constexpr const char *kWord = "saint_venant_kirchhoff",
+                              *kPlateWord = "saint_venant_kirchhoff, shear corrected";
   static constexpr bool kSmallStrain = false;
 
   template <class Number>
+  [[gnu::always_inline]] static Tensor<Number> twice_strain(const Tensor<Number>& H) {
+    return twice_green_lagrange(H);
+  }
+  /// P of a symmetric stress S.
+  template <class Number>
+  [[gnu::always_inline]] static Tensor<Number> piola(const Tensor<Number>& H, const Tensor<Number>& S) {
+    return first_piola(H, S);
+  }
+  template <class Number>
   [[gnu::always_inline]] Tensor<Number> unit_stress(const Tensor<Number>& H) const {
-    return first_piola(H, hooke(lambda_per_mu, twice_green_lagrange(H)));
+    return piola(H, hooke(lambda_per_mu, twice_strain(H)));
   }
   template <class Number>
   [[gnu::always_inline]] Number unit_energy(const Tensor<Number>& H) const {
-    const Tensor<Number> twice_E = twice_green_lagrange(H);
+    const Tensor<Number> twice_E = twice_strain(H);
     return 0.25 * double_dot(hooke(lambda_per_mu, twice_E), twice_E);
   }
 };

@@ -51,6 +51,7 @@ class GradedBlock:
     layers: int = 0  # equal ones, through the thickness of a plate; 0: graded, too
     degree_through: int | None = None  # of the thickness; None: as the others
     mass: str = "lumped"  # or corrected
+    shear: str = "plain"  # or corrected
 
     def breaks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
         x, y = (across(self.h, self.half, self.largest, self.place in places)
@@ -71,6 +72,6 @@ class GradedBlock:
             f"    - degrees: {degrees}\n"
             f"      knots: {[k.tolist() for k in knots]}\n"
             "      control_points:\n        [" + ",\n        ".join(points) + "]\n"
-            f"material: {{{constants}}}\nintegration: {{mass: {self.mass}}}\n"
+            f"material: {{{constants}}}\nintegration: {{mass: {self.mass}, shear: {self.shear}}}\n"
             "surfaces: {top: zeta+}\nprobes:\n  under_ball: {face: zeta+, at: [0.5, 0.5]}\n"
         )

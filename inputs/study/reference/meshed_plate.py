@@ -55,6 +55,7 @@ class MeshedPlate:
     degree: int = 2
     degree_through: int | None = None  # of the thickness; None: the same
     mass: str = "lumped"  # or corrected
+    shear_factor: float = 1.0  # of the stiffness that shear strain across the plate meets
 
     @property
     def shift(self) -> float:
@@ -89,11 +90,16 @@ class MeshedPlate:
                 matrix = z.slope_value.T if j == 2 else z.values
             return factor[:, None, None] * matrix
 
-        K, same = np.zeros((len(x), 3 * n, 3 * n), complex), mu * sum(product(k, k) for k in range(3))
+        K, along = np.zeros((len(x), 3 * n, 3 * n), complex), [slice(i * n, (i + 1) * n) for i in range(3)]
         for i in range(3):
-            for j in range(3):
-                K[:, i * n : (i + 1) * n, j * n : (j + 1) * n] = lame * product(i, j) + mu * product(j, i)
-            K[:, i * n : (i + 1) * n, i * n : (i + 1) * n] += same
+            for j in range(3):  # of stretches, and of shear between i and j
+                K[:, along[i], along[j]] += lame * product(i, j) + (2.0 * mu if i == j else 0.0) * product(i, i)
+                if i < j:
+                    factor = mu * (self.shear_factor if j == 2 else 1.0)
+                    K[:, along[i], along[i]] += factor * product(j, j)
+                    K[:, along[j], along[j]] += factor * product(i, i)
+                    K[:, along[i], along[j]] += factor * product(j, i)
+                    K[:, along[j], along[i]] += factor * product(i, j)
         return K
 
     def root_of_inverse_mass(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:

@@ -16,8 +16,8 @@ from matplotlib.lines import Line2D
 Force = Callable[[np.ndarray], np.ndarray]
 
 # Okabe and Ito's colours, told apart by all kinds of eyes and in grey.
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00")
-MARKERS = ("o", "s", "^", "D", "v")
+COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9")
+MARKERS = ("o", "s", "^", "D", "v", "P")
 
 
 @dataclass(frozen=True)

@@ -33,6 +33,12 @@ class Check(Sessions):
         self.assertNotIn("WARNING", printed)
         self.assertEqual(sorted(path.name for path in self.folder.glob("*")), ["plate.yaml"])
 
+    def test_plates_whose_shear_is_corrected_are_told(self):
+        plate = PLATE.replace("LAW", "linear_elastic").replace("damping: {", "damping: {stiffness: 1e-9, ")
+        corrected = self.solve(plate + "integration: {shear: corrected}\n", "--check")
+        self.assertRegex(corrected, "material     .*linear_elastic, shear corrected")
+        self.assertNotIn("shear", self.solve(plate + "integration: {shear: plain}\n", "--check"))
+
     def test_is_the_same_on_ranks(self):
         def lines(text):
             return [line for line in text.splitlines() if not re.search("memory|run time", line)]

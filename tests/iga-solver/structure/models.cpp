@@ -8,6 +8,7 @@
 
 #include "nurbs/primitives.h"
 #include "nurbs/refinement.h"
+#include "structure/material/plate_material.h"
 #include "structure/time/explicit_solver.h"
 
 template Eigen::EigenSolver<Eigen::MatrixXd>& Eigen::EigenSolver<Eigen::MatrixXd>::compute(
@@ -34,6 +35,7 @@ std::vector<std::shared_ptr<const structure::Material>> large_strain_laws(double
   std::vector<std::shared_ptr<const structure::Material>> laws;
   for (const structure::MaterialLaw& law : structure::material_laws())
     if (law.word != std::string("linear_elastic")) laws.push_back(make_law(law, E));
+  laws.push_back(structure::with_plate_shear(structure::SaintVenantKirchhoff(E, 0.3, 1.0), {1, 2, 3}));
   return laws;
 }
 

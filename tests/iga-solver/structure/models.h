@@ -33,7 +33,7 @@ std::shared_ptr<const structure::Material> elastic(double E = 1.0, double nu = 0
 /// The constants of an isotropic law; of an orthotropic one others of that size, in axes of their own.
 std::shared_ptr<const structure::Material> make_law(const structure::MaterialLaw& law, double E = 1.0,
                                                     double nu = 0.3, double density = 1.0);
-/// All that model files may name but the small-strain one.
+/// All that model files may name but the small-strain one, and one in a plate.
 std::vector<std::shared_ptr<const structure::Material>> large_strain_laws(double E = 1.0);
 
 /// Axis-parallel block with its lowest corner at the origin.

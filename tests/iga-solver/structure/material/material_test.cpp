@@ -12,6 +12,7 @@
 #include "models.h"
 #include "standard_linear_solid.h"
 #include "structure/material/laws.h"
+#include "structure/material/plate_material.h"
 
 namespace {
 
@@ -29,6 +30,10 @@ std::shared_ptr<const Material> isotropic_orthotropic() {
   const double G = kE / (2.0 * (1.0 + kNu));
   return std::make_shared<structure::OrthotropicSolid>(structure::OrthotropicConstants{
       {kE, kE, kE}, {kNu, kNu, kNu}, {G, G, G}, kDensity, {1, 2, 3}, {0, 1, -1}});
+}
+
+std::shared_ptr<const Material> plate(const Material& law) {
+  return structure::with_plate_shear(law, Eigen::Vector3d::UnitZ());
 }
 
 class EveryLaw : public testing::TestWithParam<std::shared_ptr<const Material>> {
@@ -96,7 +101,8 @@ INSTANTIATE_TEST_SUITE_P(kLaws, EveryLaw,
                          testing::Values(std::make_shared<LinearElastic>(kE, kNu, kDensity),
                                          std::make_shared<SaintVenantKirchhoff>(kE, kNu, kDensity),
                                          std::make_shared<NeoHooke>(kE, kNu, kDensity),
-                                         isotropic_orthotropic(),
+                                         isotropic_orthotropic(), plate(LinearElastic(kE, kNu, kDensity)),
+                                         plate(SaintVenantKirchhoff(kE, kNu, kDensity)),
                                          std::make_shared<StandardLinearSolid>(kE, kNu, kDensity, 0.3, 2.0)));
 
 class EveryLargeStrainLaw : public EveryLaw {};

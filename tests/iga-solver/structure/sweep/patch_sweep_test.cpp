@@ -13,6 +13,7 @@
 #include "nurbs/refinement.h"
 #include "standard_linear_solid.h"
 #include "structure/material/laws.h"
+#include "structure/material/plate_material.h"
 #include "structure/solid/element_loop.h"
 
 namespace {
@@ -39,6 +40,7 @@ std::vector<std::shared_ptr<const Material>> laws() {
       std::make_shared<test::StandardLinearSolid>(2.0, 0.3, 1.0, 0.3, 2.0)};
   for (const structure::MaterialLaw& law : structure::material_laws())
     made.push_back(models::make_law(law, 2.0));
+  for (const int k : {1, 2}) made.push_back(structure::with_plate_shear(*made[k], {1, 2, 3}));
   return made;
 }
 

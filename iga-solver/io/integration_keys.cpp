@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "io/integration_keys.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "io/inner_faces.h"
+#include "structure/material/plate_material.h"
+#include "structure/solid/plate_patch.h"
+
+namespace io {
+
+using geometry_io::YamlMap;
+
+namespace {
+
+/// A word, by the reader that knows all of them.
+template <class Value>
+Value read_word(const YamlMap& map, const std::string& key, Value (*from_name)(const std::string&)) {
+  try {
+    return from_name(map.word(key));
+  } catch (const std::invalid_argument& error) {
+    map.fail(key, error.what());
+  }
+}
+
+/// Direction through the thickness of a plate whose sides are not welded to anything, else -1.
+int free_plate(const nurbs::Volume& volume, int patch, const InnerFaces& inner) {
+  const int d = structure::thickness_direction(volume.space);
+  for (int side = 0; d >= 0 && side < 2; ++side)
+    if (!inner.told({patch, static_cast<nurbs::Face>(2 * d + side)}).empty()) return -1;
+  return d;
+}
+
+}  // namespace
+
+structure::Integration read_integration(const YamlMap& map) {
+  map.allow_only({"quadrature", "method", "mass", "shear"});
+  structure::Integration integration;
+  if (map.has("quadrature"))
+    integration.quadrature = read_word(map, "quadrature", structure::quadrature_from_name);
+  if (map.has("method"))
+    integration.method = read_word(map, "method", structure::integration_method_from_name);
+  if (map.has("mass")) integration.mass = read_word(map, "mass", structure::time_mass_from_name);
+  return integration;
+}
+
+void correct_shear(const YamlMap& map, const geometry_io::GeometryFile& geometry,
+                   const structure::NodeNumbering& nodes,
+                   std::vector<std::shared_ptr<const structure::Material>>& materials) {
+  if (!map.has("shear") || map.word_of("shear", {"plain", "corrected"}) == "plain") return;
+  using Key = std::pair<const structure::Material*, std::array<double, 3>>;
+  std::map<Key, std::shared_ptr<const structure::Material>> made;  // those that were one stay one
+  const std::vector<std::shared_ptr<const structure::Material>> given = materials;
+  const InnerFaces inner(geometry, nodes);
+  for (int p = 0; p < static_cast<int>(materials.size()); ++p) {
+    const auto& volume = std::get<nurbs::Volume>(geometry.patches[p]);
+    const int direction = free_plate(volume, p, inner);
+    if (direction < 0) continue;
+    try {
+      const nurbs::Vector3 n = structure::plate_normal(volume, direction);
+      auto& material = made[{given[p].get(), {n[0], n[1], n[2]}}];
+      if (!material) material = structure::with_plate_shear(*given[p], n);
+      materials[p] = material;
+    } catch (const std::invalid_argument& problem) {
+      map.fail("shear", fmt::format("shear is 'corrected', but patch {} {}", p, problem.what()));
+    }
+  }
+  if (made.empty())
+    map.fail("shear",
+             "shear is 'corrected', but no patch is a single quadratic element thick in just one direction, "
+             "with both sides free: two layers, or degree 3, need no correction");
+}
+
+}  // namespace io
