@@ -74,7 +74,8 @@ Matrix3 shear_products(const Matrix3& D, const Vector3& n) {
 
 }  // namespace
 
-// K_AB = integral of lambda dR_A (x) dR_B + mu (dR_B (x) dR_A + dR_A . dR_B I)
+// K_AB = integral of lambda dR_A (x) dR_B + mu (dR_B (x) dR_A + dR_A . dR_B I), in plates less a part of the
+// shear across them
 void LocalProblem::add(const BodyElement& element, const Eigen::MatrixXd& products,
                        const std::vector<int>& places) {
   const double mu = 0.5 * E_ / (1.0 + nu_), lambda = 2.0 * mu * nu_ / (1.0 - 2.0 * nu_);
