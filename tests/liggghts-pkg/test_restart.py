@@ -79,12 +79,12 @@ class Restart(unittest.TestCase):
         cls.of_floor, cls.floor = cls.written(RIGID)
 
     @staticmethod
-    def written(words: str, ranks: int = 1, **settings: str) -> tuple[bytes, decks.Run]:
+    def written(words: str = STRUCTURE, ranks: int = 1, block: str = BLOCK, **settings: str) -> tuple[bytes, decks.Run]:
         """A restart file, and the run that wrote it, with settings of the environment."""
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "contact"
             deck = writer(words).replace("write_restart contact", f"write_restart {path}")
-            run = decks.good(deck, files={"block.yaml": BLOCK, "floor.yaml": FLOOR}, ranks=ranks, environment=settings)
+            run = decks.good(deck, files={"block.yaml": block, "floor.yaml": FLOOR}, ranks=ranks, environment=settings)
             return path.read_bytes(), run
 
     def read(self, deck: str, restart: bytes, ranks: int = 1, **files: str) -> decks.Run:
@@ -115,11 +115,7 @@ class Restart(unittest.TestCase):
 
     def test_a_solid_in_parts_continues_on_any_number_of_ranks(self):
         block = ball_on_block_of_boxes()
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "contact"
-            deck = writer().replace("write_restart contact", f"write_restart {path}")
-            whole = decks.good(deck, files={"block.yaml": block}, ranks=2)
-            restart = path.read_bytes()
+        restart, whole = self.written(ranks=2, block=block)
         for ranks in (1, 2, 4):
             with self.subTest(ranks=ranks):
                 self.check_continues(self.read(reader(), restart, ranks, block=block), whole)
@@ -127,19 +123,13 @@ class Restart(unittest.TestCase):
     def test_a_plate_whose_shear_is_corrected_goes_on_and_is_another_one(self):
         plain = bob.block(size=(4e-3, 4e-3, 4e-4), elements=(4, 4, 1), fixed=("xi-", "xi+"))
         block = plain + "integration: {shear: corrected}\n"
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "contact"
-            whole = decks.good(writer().replace("write_restart contact", f"write_restart {path}"), files={"block.yaml": block})
-            restart = path.read_bytes()
+        restart, whole = self.written(block=block)
         self.check_continues(self.read(reader(), restart, block=block), whole)
         self.check_refused(self.read(reader(), restart, block=plain), "'block.yaml'", "law.*linear_elastic, shear corrected then, linear_elastic now")
 
     def test_corrected_mass_goes_on(self):
         block = BLOCK + "integration: {mass: corrected}\ndamping: {mass: 1e4}\n"
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "contact"
-            whole = decks.good(writer().replace("write_restart contact", f"write_restart {path}"), files={"block.yaml": block})
-            restart = path.read_bytes()
+        restart, whole = self.written(block=block)
         self.check_continues(self.read(reader(), restart, block=block), whole)
 
     def test_supports_and_loads_go_on_in_time(self):
