@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <stdexcept>
@@ -29,12 +30,13 @@ Value read_word(const YamlMap& map, const std::string& key, Value (*from_name)(c
   }
 }
 
-/// Direction through the thickness of a plate whose sides are not welded to anything, else -1.
-int free_plate(const nurbs::Volume& volume, int patch, const InnerFaces& inner) {
-  const int d = structure::thickness_direction(volume.space);
-  for (int side = 0; d >= 0 && side < 2; ++side)
-    if (!inner.told({patch, static_cast<nurbs::Face>(2 * d + side)}).empty()) return -1;
-  return d;
+/// Nodes that are held or moved in some direction, rising; springs leave them free.
+structure::NodeSet held_nodes(const std::vector<BoundaryEntry>& boundary) {
+  structure::NodeSet held;
+  for (const BoundaryEntry& entry : boundary)
+    if (!entry.spring) held.insert(held.end(), entry.nodes.begin(), entry.nodes.end());
+  std::sort(held.begin(), held.end());
+  return held;
 }
 
 }  // namespace
@@ -51,17 +53,25 @@ structure::Integration read_integration(const YamlMap& map) {
 }
 
 void correct_shear(const YamlMap& map, const geometry_io::GeometryFile& geometry,
-                   const structure::NodeNumbering& nodes,
+                   const structure::NodeNumbering& nodes, const std::vector<BoundaryEntry>& boundary,
                    std::vector<std::shared_ptr<const structure::Material>>& materials) {
   if (!map.has("shear") || map.word_of("shear", {"plain", "corrected"}) == "plain") return;
   using Key = std::pair<const structure::Material*, std::array<double, 3>>;
   std::map<Key, std::shared_ptr<const structure::Material>> made;  // those that were one stay one
   const std::vector<std::shared_ptr<const structure::Material>> given = materials;
   const InnerFaces inner(geometry, nodes);
+  const structure::NodeSet held = held_nodes(boundary);
+  const auto is_free = [&](int patch, nurbs::Face side) {
+    structure::NodeSet on_side = nodes_of({{patch}, {side}}, geometry, nodes);
+    return inner.told({patch, side}).empty() &&
+           !std::includes(held.begin(), held.end(), on_side.begin(), on_side.end());
+  };
   for (int p = 0; p < static_cast<int>(materials.size()); ++p) {
     const auto& volume = std::get<nurbs::Volume>(geometry.patches[p]);
-    const int direction = free_plate(volume, p, inner);
-    if (direction < 0) continue;
+    const int direction = structure::thickness_direction(volume.space);
+    if (direction < 0 || !is_free(p, static_cast<nurbs::Face>(2 * direction)) ||
+        !is_free(p, static_cast<nurbs::Face>(2 * direction + 1)))
+      continue;
     try {
       const nurbs::Vector3 n = structure::plate_normal(volume, direction);
       auto& material = made[{given[p].get(), {n[0], n[1], n[2]}}];
@@ -74,7 +84,7 @@ void correct_shear(const YamlMap& map, const geometry_io::GeometryFile& geometry
   if (made.empty())
     map.fail("shear",
              "shear is 'corrected', but no patch is a single quadratic element thick in just one direction, "
-             "with both sides free: two layers, or degree 3, need no correction");
+             "with neither side welded or held: two layers, or degree 3, need no correction");
 }
 
 }  // namespace io

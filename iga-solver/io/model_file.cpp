@@ -87,13 +87,13 @@ ModelFile parse_model_file(const std::string& text, const std::string& file,
   ModelFile model = read_required(document, read_and_note);
   if (is_saved(document)) model.settings = settings_of(document, model.materials);
   if (document.has("surfaces")) model.surfaces = document.map("surfaces").keys();
+  if (document.has("boundary"))
+    model.boundary = read_boundary(document.list_of_maps("boundary"), model.geometry, model.nodes);
   if (document.has("integration")) {
     const YamlMap integration = document.map("integration", "{quadrature: full}");
     model.integration = read_integration(integration);
-    correct_shear(integration, model.geometry, model.nodes, model.materials);
+    correct_shear(integration, model.geometry, model.nodes, model.boundary, model.materials);
   }
-  if (document.has("boundary"))
-    model.boundary = read_boundary(document.list_of_maps("boundary"), model.geometry, model.nodes);
   if (document.has("probes")) {
     const YamlMap probes = document.map("probes", "{NAME: {face: zeta+, at: [0.5, 0.5]}}");
     for (const std::string& name : probes.keys()) model.probes.push_back(read_probe(probes, name, model));

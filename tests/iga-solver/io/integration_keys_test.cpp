@@ -16,12 +16,12 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 ModelFile model_of(const std::string& geometry, const std::string& law = "linear_elastic",
-                   const std::string& shear = "corrected") {
+                   const std::string& shear = "corrected", const std::string& boundary = "") {
   return io::parse_model_file(
       fmt::format(
           "units: si\ngeometry: {{{}}}\nmaterial: {{law: {}, youngs_modulus: 1e9, poissons_ratio: 0.3, "
-          "density: 1000}}\nintegration: {{shear: {}}}\n",
-          geometry, law, shear),
+          "density: 1000}}\nintegration: {{shear: {}}}\n{}",
+          geometry, law, shear, boundary),
       "plate.yaml");
 }
 
@@ -54,6 +54,23 @@ TEST(CorrectedShear, LeavesOtherPatchesAsTheyAre) {
   EXPECT_TRUE(is_plate(apart) && !is_plate(apart, 1));
   EXPECT_THAT([&] { shapes(box("[0, 0, 0.1]", "[3, 3, 1]")); },
               ThrowsMessage<geometry_io::InputError>(HasSubstr("no patch is a single quadratic element")));
+}
+
+// What lies on a floor shears evenly in truth; a rim or a bed of springs leaves the plate what it is.
+TEST(CorrectedShear, LeavesLayersWhoseSideIsHeld) {
+  const auto held = [](const std::string& entry) {
+    return model_of(kSingleLayer, "linear_elastic", "corrected", "boundary: [{" + entry + "}]\n");
+  };
+  for (const char* entry : {"fix: [x, y, z], faces: [xi-, xi+, eta-, eta+]",
+                            "name: bed, spring: {stiffness: 1e9, per: area}, faces: [zeta-]",
+                            "fix: [z], box: [[0, 0, 0], [0.5, 1, 0]]"})
+    EXPECT_TRUE(is_plate(held(entry))) << entry;
+  for (const char* entry : {"fix: [x, y, z], faces: [zeta-]", "symmetry: zeta+",
+                            "name: base, move: {z: 1e-3}, faces: [zeta-], time: {sine: {frequency: 50}}",
+                            "fix: [z], box: [[0, 0, 0], [1, 1, 0]]"})
+    EXPECT_THAT([&] { held(entry); },
+                ThrowsMessage<geometry_io::InputError>(HasSubstr("with neither side welded or held")))
+        << entry;
 }
 
 TEST(CorrectedShear, SaysWhyItCannotBe) {
