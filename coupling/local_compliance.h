@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What the surface's mesh gives way under a contact beyond what the body does: a contact law that holds the
-// give of a half-space counts it twice (iga-solver/structure/compliance has the derivation).
+// give of a half-space counts it twice (iga-solver/structure/compliance has the derivation); and what it
+// gives way too much under a contact by the forces of others beside it.
 #pragma once
 
 #include <array>
 #include <vector>
 
+#include "coupling/contact_surface.h"
 #include "nurbs/multi_patch.h"
 
 namespace coupling {
@@ -23,7 +25,17 @@ class LocalCompliance {
   struct Value {
     Component normal;                ///< along the normal, by a force along it
     std::array<Component, 3> along;  ///< along the surface, by forces along it: 11, 22, 12; 0: not asked for
+    double taken;                    ///< of the normal's, by links(); not in `normal` [length/force]
   };
+  /// Between two nodes that are control points of the surface, by ids: what is taken off the mesh's
+  /// displacement under contact forces f, give (f_first - f_second) at the first, the opposite at the other
+  /// (structure/compliance/cross_compliance.h).
+  struct Link {
+    NodeId first, second;
+    double give;  ///< [length/force]
+  };
+  /// Each pair once, rising, the same on every rank.
+  virtual std::vector<Link> links() const { return {}; }
   /// `element`: of the patch, that the foot is on (KnotVector::element_at).  On one that was not asked for
   /// before this takes some time.  Throws std::invalid_argument, with the place, where it is not known.
   virtual void find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,

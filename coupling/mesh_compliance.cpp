@@ -20,7 +20,13 @@ std::vector<nurbs::Space<2>> spaces_of(const structure::ReferenceBody& body,
 }  // namespace
 
 MeshCompliance::MeshCompliance(structure::ReferenceBody body, const std::vector<structure::SkinPiece>& skin)
-    : spaces_(spaces_of(body, skin)), tables_(std::move(body), skin) {}
+    : spaces_(spaces_of(body, skin)), tables_(std::move(body), skin, true) {}
+
+std::vector<LocalCompliance::Link> MeshCompliance::links() const {
+  std::vector<Link> links;
+  for (const auto& [first, second, give] : tables_.links()->links()) links.push_back({first, second, give});
+  return links;
+}
 
 void MeshCompliance::find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,
                           Value& value) {
@@ -32,11 +38,13 @@ void MeshCompliance::find(const nurbs::SurfacePoint& foot, const nurbs::Indices<
   }
   using Table = structure::ComplianceTable;
   const Table& table = tables_.of(foot.patch, space.element_index(element));
+  const double taken = table.taken(low, high, foot.xi);
   if (!with_shear) {
     const Table::Value normal = table.at(Table::normal, low, high, foot.xi);
-    value = {{normal.c, normal.change}, {}};
+    value = {{normal.c, normal.change}, {}, taken};
     return;
   }
+  value.taken = taken;
   Component* const components[] = {&value.normal, &value.along[0], &value.along[1], &value.along[2]};
   static_assert(Table::normal == 0 && Table::first == 1 && Table::second == 2 && Table::first_second == 3);
   table.together(low, high, foot.xi, [&](int component, const Table::Value& found) {

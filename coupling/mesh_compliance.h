@@ -20,6 +20,7 @@ class MeshCompliance final : public LocalCompliance {
 
   void find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,
             Value& value) override;
+  std::vector<Link> links() const override;
   bool follows_strain() const override { return places_ && tables_.follows_strain(); }
   void follow_strain(const std::vector<nurbs::SurfacePoint>& feet) override;
   /// Where all of the body's nodes are, 3 x node count, asked for on all ranks at the same time.

@@ -85,10 +85,19 @@ SurfaceExchange::SurfaceExchange(MPI_Comm comm, StructureSolver& solver)
   surface_forces_.setZero(3, control_points);
   nodal_forces_.values.setZero(3, map_.node_count());
   is_touched_.resize(control_points, false);
+  stiffness_.resize(control_points, 0.0);
   positions_.setZero(3, control_points);
   velocities_.setZero(3, control_points);
+  find_links();
   import_masses();
   import_surface();
+}
+
+void SurfaceExchange::find_links() {
+  const LocalCompliance* const compliance = solver_.local_compliance();
+  const std::vector<LocalCompliance::Link> links =
+      compliance ? compliance->links() : std::vector<LocalCompliance::Link>();
+  if (!links.empty()) shift_ = std::make_unique<CrossShift>(solver_.surface().map, links);
 }
 
 void SurfaceExchange::import_masses() {
@@ -104,6 +113,8 @@ void SurfaceExchange::import_masses() {
 void SurfaceExchange::import_own(const std::vector<int>& control_points) {
   map_.to_surface(control_points, solver_.positions(), positions_);
   map_.to_surface(control_points, solver_.velocities(), velocities_);
+  if (!shift_) return;
+  for (const int c : control_points) positions_.col(c) += shift_->at(c);
 }
 
 void SurfaceExchange::import_surface() {
@@ -118,6 +129,7 @@ void SurfaceExchange::import_followed() {
 
 void SurfaceExchange::follow(const std::vector<int>& elements) {
   followed_ = control_points_around(elements, solver_.surface().topology);
+  if (owners_ && shift_) follow_linked();
   brought_.clear();
   std::copy_if(followed_.begin(), followed_.end(), std::back_inserter(brought_),
                [this](int c) { return map_.hangs(c); });
@@ -129,6 +141,15 @@ void SurfaceExchange::follow(const std::vector<int>& elements) {
   }
   own_places_.resize(3, static_cast<Eigen::Index>(own_.size()));
   for (std::size_t k = 0; k < own_.size(); ++k) own_places_.col(k) = map_.at(own_[k], solver_.positions());
+}
+
+// Forces on an element are wanted by the owners of what it is linked to, who may be beyond a weld.
+void SurfaceExchange::follow_linked() {
+  std::vector<int> linked = followed_;
+  for (const int c : followed_) shift_->for_each_linked(c, [&](int other) { linked.push_back(other); });
+  std::sort(linked.begin(), linked.end());
+  linked.erase(std::unique(linked.begin(), linked.end()), linked.end());
+  followed_ = std::move(linked);
 }
 
 double SurfaceExchange::largest_motion() const {
@@ -162,11 +183,27 @@ std::vector<double> SurfaceExchange::all(const std::vector<double>& here) const 
 }
 
 template <class Basis>
-void SurfaceExchange::touch(const Basis& foot) {
+void SurfaceExchange::touch(const Basis& foot, double stiffness) {
   foot.for_each_control_point([&](int c) {
     if (!is_touched_[c]) touched_.push_back(c);
     is_touched_[c] = true;
+    stiffness_[c] += stiffness;
   });
+}
+
+void SurfaceExchange::expect_to_stay() const {
+  constexpr double kMost = 0.8, kFunctions = 9.0;  // at least, that each contact is spread to
+  for (const int c : touched_) {
+    const double feedback = shift_->feedback(c, stiffness_[c] / kFunctions);
+    if (!(feedback > kMost)) continue;
+    const Vector3 x = positions_.col(c);
+    throw FailedOnThisRank(
+        "contacts at (" + std::to_string(x[0]) + ", " + std::to_string(x[1]) + ", " + std::to_string(x[2]) +
+        ") are too many on an element for 'compliance corrected', or too stiff: what they feel of each other "
+        "would grow by itself (" +
+        std::to_string(feedback) + ", expected at most " + std::to_string(kMost) +
+        "); use smaller elements there, or 'compliance none'");
+  }
 }
 
 void SurfaceExchange::spread(const ContactForce& contact) {
@@ -181,14 +218,14 @@ void SurfaceExchange::spread(const ContactForce& contact) {
   if (contact.has_couple) {
     const FootSlopes foot = {surface.topology, foot_of(contact)};
     foot.distribute(F, nurbs::Tangents::Map(contact.couple[0]), surface_forces_);
-    return touch(foot);
+    return touch(foot, contact.stiffness);
   }
   const FootBasis foot = {surface.topology, foot_of(contact)};
   foot.distribute(F, surface_forces_);
-  touch(foot);
+  touch(foot, contact.stiffness);
 }
 
-const NodalForces& SurfaceExchange::export_add(const std::vector<ContactForce>& local) {
+const NodalForces& SurfaceExchange::export_add(const std::vector<ContactForce>& local, bool is_setup) {
   forget_forces();
   contacts_.clear();
   if (owners_)
@@ -205,7 +242,22 @@ const NodalForces& SurfaceExchange::export_add(const std::vector<ContactForce>& 
   std::sort(touched_.begin(), touched_.end());
   map_.nodes_of(touched_, nodal_forces_.touched);
   map_.add_to_nodes(touched_, surface_forces_, nodal_forces_.values);
+  if (shift_) expect_to_stay();
+  if (shift_ && !is_setup) shift_->remember(touched_, surface_forces_);
   return nodal_forces_;
+}
+
+std::vector<double> SurfaceExchange::save() const {
+  if (!shift_) return {};
+  std::vector<double> state = shift_->save(own_);
+  return owners_ ? owners_->sum(state) : state;
+}
+
+void SurfaceExchange::load(const std::vector<double>& state) {
+  if (shift_)
+    shift_->load(state);
+  else if (!state.empty())
+    fail_as_damaged();
 }
 
 void SurfaceExchange::forget_forces() {
@@ -213,6 +265,7 @@ void SurfaceExchange::forget_forces() {
   for (const int c : touched_) {
     surface_forces_.col(c).setZero();
     is_touched_[c] = false;
+    stiffness_[c] = 0.0;
   }
   touched_.clear();
 }
@@ -224,9 +277,13 @@ void SurfaceExchange::send_to_owners(const std::vector<ContactForce>& local) {
   for (const ContactForce& contact : local) {
     std::vector<int>& owners = owners_of_contact_;
     owners.clear();
-    FootBasis(solver_.surface().topology, foot_of(contact)).for_each_control_point([&](int c) {
+    const auto take = [&](int c) {
       const int owner = owners_->owner(c);
       if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
+    };
+    FootBasis(solver_.surface().topology, foot_of(contact)).for_each_control_point([&](int c) {
+      take(c);
+      if (shift_) shift_->for_each_linked(c, take);
     });
     for (const int owner : owners) (owner == me ? contacts_ : to_rank_[owner]).push_back(contact);
   }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // All transfer between the ranks of the particles and the ranks of the structure.  Place and velocity come
 // for the elements that particles are near.  Where every rank holds the whole structure, that is a local copy
-// and contacts go to all ranks; of a structure in parts, contacts go to the owners of their element.
+// and contacts go to all ranks; of a structure in parts, contacts go to the owners of their element.  Places
+// are those that contacts meet (cross_shift.h).
 #pragma once
 
 #include <mpi.h>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "coupling/contact_force.h"
+#include "coupling/cross_shift.h"
 #include "coupling/structure_solver.h"
 #include "coupling/surface_owners.h"
 
@@ -21,6 +23,11 @@ class SurfaceExchange {
   /// The solver must outlive the exchange.  Collective, as everything here is.
   SurfaceExchange(MPI_Comm comm, StructureSolver& solver);
 
+  /// Begins a step of the solver; its surface is then to be brought.
+  void begin_step() {
+    solver_.begin_step();
+    if (shift_) shift_->begin_step();
+  }
   /// Brings positions and velocities of all of the surface's control points to this rank: when lists of
   /// candidates are built, and for output.
   void import_surface();
@@ -47,18 +54,30 @@ class SurfaceExchange {
 
   /// Returns the forces on the nodes that this rank owns, zero for others: each contact is spread to its
   /// control points (eq. 34) in the order of (tag, branch), so the sums do not depend on how many ranks there
-  /// are.  Takes as long as there are contacts.  Throws std::runtime_error on every rank if there are more
-  /// contacts than MPI counts.
-  const NodalForces& export_add(const std::vector<ContactForce>& local);
+  /// are.  Takes as long as there are contacts.  `is_setup`: nothing has moved, the same contacts were there
+  /// already.  Throws FailedOnThisRank, with the place, where contacts are so stiff together that forces
+  /// between them (cross_shift.h) would grow by themselves; std::runtime_error on every rank if there are
+  /// more contacts than MPI counts.
+  const NodalForces& export_add(const std::vector<ContactForce>& local, bool is_setup = false);
+
+  /// What is known of forces of former steps as numbers, for restart files: whatever the ranks are, complete
+  /// on every rank, none where contacts do not need that.  load throws std::invalid_argument if the size does
+  /// not fit.
+  std::vector<double> save() const;
+  void load(const std::vector<double>& state);
+  std::size_t state_size() const { return shift_ ? shift_->state_size() : 0; }
 
  private:
   void import_own(const std::vector<int>& control_points);
+  void find_links();
+  void follow_linked();
   void import_masses();
   void gather(const std::vector<ContactForce>& local);
   void send_to_owners(const std::vector<ContactForce>& local);
   void spread(const ContactForce& contact);
   template <class Basis>
-  void touch(const Basis& foot);
+  void touch(const Basis& foot, double stiffness = 0.0);
+  void expect_to_stay() const;
   void forget_forces();
 
   MPI_Comm comm_;
@@ -66,6 +85,7 @@ class SurfaceExchange {
   SurfaceMap map_;  ///< from the columns of this rank's nodal arrays, of the control points that it owns
   std::vector<int> own_;                   ///< these control points
   std::unique_ptr<SurfaceOwners> owners_;  ///< of a structure in parts
+  std::unique_ptr<CrossShift> shift_;      ///< of a body whose mesh gives way beside contacts
   std::vector<int> followed_;
   std::vector<int> brought_;  ///< of own_, those that this rank or another follows
   NodalVectors own_places_;   ///< of own_, at the last follow()
@@ -74,6 +94,7 @@ class SurfaceExchange {
   NodalForces nodal_forces_;
   std::vector<int> touched_;  ///< control points with forces, rising
   std::vector<bool> is_touched_;
+  std::vector<double> stiffness_;       ///< of contacts at control points; 0 without links
   std::vector<ContactForce> contacts_;  ///< of all ranks, with what this one owns
   std::vector<std::vector<ContactForce>> to_rank_;
   std::vector<int> owners_of_contact_;

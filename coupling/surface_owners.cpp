@@ -156,6 +156,14 @@ void SurfaceOwners::exchange(const std::vector<std::vector<ContactForce>>& there
   MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
 }
 
+std::vector<double> SurfaceOwners::sum(std::vector<double> numbers) const {
+  constexpr std::size_t kMost = std::size_t(1) << 30;  // an int for MPI
+  for (std::size_t first = 0; first < numbers.size(); first += kMost)
+    MPI_Allreduce(MPI_IN_PLACE, numbers.data() + first,
+                  static_cast<int>(std::min(kMost, numbers.size() - first)), MPI_DOUBLE, MPI_SUM, comm_);
+  return numbers;
+}
+
 double SurfaceOwners::largest(double value) const {
   const bool is_none = std::isnan(value);
   double both[2] = {is_none ? -std::numeric_limits<double>::infinity() : value, is_none ? 1.0 : 0.0};

@@ -39,6 +39,8 @@ class SurfaceOwners {
   /// message to each owner of what is wanted, with contacts or without.  Throws std::logic_error for contacts
   /// with an owner of whom nothing is wanted.
   void exchange(const std::vector<std::vector<ContactForce>>& there, std::vector<ContactForce>& here) const;
+  /// Of all ranks, number by number.
+  std::vector<double> sum(std::vector<double> numbers) const;
   /// Of all ranks; not a number if one is none.
   double largest(double value) const;
 

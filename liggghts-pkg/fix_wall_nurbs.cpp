@@ -48,7 +48,7 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
           options_.curvature_radius),
       memory_(*modify, id, options_.slots, store_force_),
       columns_(structure_, loop_, model_.springs(), world),
-      restart_(lmp, id, options_.file, structure_),
+      restart_(lmp, id, options_.file, structure_, exchange_),
       no_forces_(coupling::NodalVectors::Zero(3, structure_.nodes().size())) {
   delete primitiveWall_;
   primitiveWall_ = nullptr;
@@ -235,7 +235,7 @@ void FixWallNurbs::initial_integrate(int) {
   if (update->ntimestep == update->firststep + 1) begin_first_step();
   if (!structure_.moves()) return;
   in_step([&] {
-    structure_.begin_step();
+    exchange_.begin_step();
     columns_.structure_is_new();
     loop_.wall().import();
     // The list is good until the wall has moved half a skin; it is then rebuilt before this step's forces.
@@ -277,7 +277,7 @@ void FixWallNurbs::post_force(int vflag) {
   if (structure_.needs_forces())
     in_step([&] {
       try {
-        nodal_forces_ = &exchange_.export_add(loop_.forces_on_body());
+        nodal_forces_ = &exchange_.export_add(loop_.forces_on_body(), update->setupflag != 0);
       } catch (const std::logic_error& problem) {
         messages_.fail_on_this_rank(problem.what());
       }

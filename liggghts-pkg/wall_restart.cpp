@@ -15,12 +15,14 @@ std::vector<double> WallRestart::fields(const WallOutput* output) const {
 
 void WallRestart::reserve(const WallState::Origin& origin, const WallOutput* output) {
   constexpr std::size_t kMayGrowBy = 1000;  // motions that `fix_modify` adds to a rigid wall
-  const std::size_t now = structure_.state_size() + pack({{}, fields(output), origin}).size();
+  const std::size_t now =
+      structure_.state_size() + exchange_.state_size() + pack({{}, fields(output), {}, origin}).size();
   blocks_.reserve(2 * now + kMayGrowBy);  // within an outer step a solid saves 18 for 9 numbers
 }
 
 void WallRestart::write(std::FILE* file, const WallState::Origin& origin, const WallOutput* output) {
-  write_block(lmp_->world, file, blocks_.split(pack({structure_.save(), fields(output), origin})));
+  write_block(lmp_->world, file,
+              blocks_.split(pack({structure_.save(), fields(output), exchange_.save(), origin})));
 }
 
 void WallRestart::read(const char* buffer, const WallState::Origin& origin, WallOutput* output) {
@@ -36,6 +38,7 @@ void WallRestart::read(const char* buffer, const WallState::Origin& origin, Wall
                     "geometry, mesh, material and supports of '{}', nor to these contact models",
                     file_));
   structure_.load(state.structure);
+  if (!state.contacts.empty()) exchange_.load(state.contacts);
   if (output && !state.fields.empty()) output->load(state.fields, lmp_->update->ntimestep);
   if (!output && !state.fields.empty())
     messages_.warn("wear and fields in the restart file are not taken: the fix has no 'output'");

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "coupling/structure_solver.h"
+#include "coupling/surface_exchange.h"
 #include "lammps.h"
 #include "state_blocks.h"
 #include "wall_messages.h"
@@ -21,11 +22,12 @@ class WallRestart {
  public:
   /// `file`: of the wall, for messages.
   WallRestart(LAMMPS_NS::LAMMPS* lmp, const std::string& id, const std::string& file,
-              coupling::StructureSolver& structure)
+              coupling::StructureSolver& structure, coupling::SurfaceExchange& exchange)
       : lmp_(lmp),
         id_(id),
         file_(file),
         structure_(structure),
+        exchange_(exchange),
         messages_(lmp, id),
         blocks_(*lmp->modify, id) {}
 
@@ -48,6 +50,7 @@ class WallRestart {
   LAMMPS_NS::LAMMPS* lmp_;
   std::string id_, file_;
   coupling::StructureSolver& structure_;
+  coupling::SurfaceExchange& exchange_;
   WallMessages messages_;
   StateBlocks blocks_;
   bool taken_ = false;

@@ -14,7 +14,7 @@ namespace liggghts_pkg {
 
 namespace {
 
-constexpr double kVersion = 2.0;
+constexpr double kVersion = 4.0;  // 3 stands where a state is in blocks (state_blocks.cpp)
 
 class PartReader {
  public:
@@ -52,7 +52,8 @@ std::vector<double> pack(const WallState& state) {
   const std::vector<double> memory = {static_cast<double>(origin.contacts),
                                       static_cast<double>(origin.history)};
   const std::vector<double> fingerprint = coupling::to_numbers(origin.fingerprint);
-  const std::vector<double>* const parts[] = {&state.structure, &state.fields, &fingerprint, &memory};
+  const std::vector<double>* const parts[] = {&state.structure, &state.fields, &fingerprint, &memory,
+                                              &state.contacts};
   std::size_t numbers = 1;
   for (const std::vector<double>* part : parts) numbers += 1 + part->size();
   std::vector<double> all{-kVersion};
@@ -83,6 +84,7 @@ WallState unpack_wall_state(const char* bytes, std::size_t numbers) {
     return static_cast<int>(coupling::saved_size(number, std::numeric_limits<int>::max()));
   };
   state.origin = {fingerprint, count(memory[0]), count(memory[1])};
+  if (version > 3.0) state.contacts = reader.part();
   return state;
 }
 

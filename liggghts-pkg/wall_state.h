@@ -21,6 +21,7 @@ constexpr std::size_t kMostInOneBlock = 0x7fffffff / sizeof(double);
 struct WallState {
   std::vector<double> structure;  ///< StructureSolver::save
   std::vector<double> fields;     ///< WallOutput::save; empty without output
+  std::vector<double> contacts;   ///< SurfaceExchange::save; empty in files of older versions
   /// Nothing in files of older versions.
   struct Origin {
     coupling::Fingerprint fingerprint;  ///< of the structure, with its units

@@ -49,23 +49,26 @@ double* memory_of(const ParticleView& particles, const Contact& contact) {
   if (kept < 0)
     throw std::logic_error(
         fmt::format("slots of contacts have room for {} numbers, expected {} more than the contact model "
-                    "keeps, for those that are corrected and damped or have a spring along the surface",
+                    "keeps, for those that are corrected",
                     particles.memory.history_count, ComplianceCorrection::kMemory));
   return contact.history + kept;
 }
 
+double* approach_memory_of(const ParticleView& particles, const Contact& contact) {
+  return memory_of(particles, contact) + ComplianceCorrection::kForces;
+}
 double* shear_memory_of(const ParticleView& particles, const Contact& contact) {
-  return memory_of(particles, contact) + ComplianceCorrection::kApproach;
+  return approach_memory_of(particles, contact) + ComplianceCorrection::kApproach;
 }
 
 /// u, as a vector in space, so that it does not depend on who looks, and how the normal turns.
 Eigen::Map<Vector3> body_speed(double* memory) { return Eigen::Map<Vector3>(memory + ApproachBlock::kU); }
 
-/// A contact without damping keeps nothing: it is asked what it gives way now.
-void forget(const ParticleView& particles, const Contact& contact) {
-  const int kept = particles.memory.history_count - ComplianceCorrection::kMemory;
-  if (kept >= 0 && contact.history[kept] != 0.0)
-    std::fill_n(contact.history + kept, ComplianceCorrection::kApproach, 0.0);
+/// A contact without damping keeps nothing of its approach: it is asked what it gives way now.
+void forget_approach(const ParticleView& particles, const Contact& contact) {
+  if (particles.memory.history_count < ComplianceCorrection::kMemory) return;
+  double* const memory = approach_memory_of(particles, contact);
+  if (memory[ApproachBlock::kX] != 0.0) std::fill_n(memory, ComplianceCorrection::kApproach, 0.0);
 }
 
 /// Vectors to and from a lane.
@@ -84,6 +87,7 @@ ComplianceCorrection::ComplianceCorrection(coupling::LocalCompliance& compliance
     : compliance_(compliance),
       wall_(wall),
       mesh_(mesh),
+      has_links_(!compliance.links().empty()),
       approach_kernel_(approach_kernel(nurbs::simd_level())),
       shear_kernel_(shear_kernel(nurbs::simd_level())) {}
 
@@ -92,7 +96,7 @@ double ComplianceCorrection::held_gap(const ParticleSlots& slots, int history_co
   if (history_count < kMemory) return gap;
   for (int s = 0; s < slots.used(); ++s)
     if (ContactSlot slot = slots.slot(s); !slot.empty())
-      gap = std::max(gap, held_gap(slot.history() + history_count - kMemory));
+      gap = std::max(gap, held_gap(slot.history()[history_count - kMemory + kForces + ApproachBlock::kX]));
   return gap;
 }
 
@@ -111,7 +115,7 @@ void ComplianceCorrection::before(const ParticleView& particles, const Time& now
                                   Contact* contacts, int count) {
   NURBS_ASSERT(count <= kCapacity, count);
   elastic_count_ = damped_count_ = shear_count_ = 0;
-  for (int k = 0; k < count; ++k) enter(particles, model, contacts[k], before_[k]);
+  for (int k = 0; k < count; ++k) enter(particles, now, model, contacts[k], before_[k]);
   const ApproachStep step = {kLargest, now.dt, now.is_setup ? 0.0 : now.dt};
   if (elastic_count_ > 0) approach_kernel_.elastic(elastic_, step);
   if (damped_count_ > 0) approach_kernel_.damped(damped_, step);
@@ -127,7 +131,7 @@ void ComplianceCorrection::before(const ParticleView& particles, const Time& now
     if (before_[k].shear_lane >= 0) see_slip(particles, now, contacts[k], before_[k]);
 }
 
-void ComplianceCorrection::enter(const ParticleView& particles, const ContactModel& model,
+void ComplianceCorrection::enter(const ParticleView& particles, const Time& now, const ContactModel& model,
                                  const Contact& contact, Before& before) {
   const int i = contact.particle;
   before.overlap = contact.overlap, before.distance = contact.distance, before.touches = contact.touches;
@@ -135,8 +139,8 @@ void ComplianceCorrection::enter(const ParticleView& particles, const ContactMod
   before.block = nullptr, before.shear_lane = -1, before.is_light = false;
   const double damping = model.hertz_damping(i);
   const bool is_damped = damping > 0.0;
-  double* const memory = is_damped ? memory_of(particles, contact) : nullptr;
-  if (!(contact.overlap > 0.0) && !(is_damped && held_gap(memory) > 0.0)) return;
+  double* const memory = is_damped ? approach_memory_of(particles, contact) : nullptr;
+  if (!(contact.overlap > 0.0) && !(is_damped && held_gap(memory[ApproachBlock::kX]) > 0.0)) return;
   before.has_shear = model.shear_constant(i) > 0.0;
   before.directions.find(wall_, contact.foot, contact.delta);
   const nurbs::Indices<2>& element = before.directions.element;
@@ -148,12 +152,12 @@ void ComplianceCorrection::enter(const ParticleView& particles, const ContactMod
   ApproachBlock& block = is_damped ? damped_ : elastic_;
   const int lane = is_damped ? damped_count_++ : elastic_count_++;
   before.block = &block, before.lane = lane;
-  block.overlap[lane] = contact.overlap;
+  block.overlap[lane] = has_links_ ? overlap_of_others(particles, now, contact, before) : contact.overlap;
   block.of_particle[lane] = of_particle, block.of_surface[lane] = of_surface;
   block.radius[lane] = contact.effective_radius;
   block.constant[lane] = model.hertz_constant(i);
-  block.give[lane] = before.give.normal.c;
-  if (!is_damped) return forget(particles, contact);
+  block.give[lane] = before.give.normal.c + before.give.taken;
+  if (!is_damped) return forget_approach(particles, contact);
   block.damping[lane] = damping;
   block.inertia[lane] = mass_of(particles, i);
   block.delay[lane] = mesh_ ? mesh_->delay(contact.foot.patch, element) : 0.0;
@@ -162,6 +166,27 @@ void ComplianceCorrection::enter(const ParticleView& particles, const ContactMod
   before.is_light = is_new ? block.credit[lane] == 0.0 : memory[kLight] > 0.0;
   for (int m = 0; m < ApproachBlock::kU; ++m) block.memory[m][lane] = memory[m];
   block.memory[ApproachBlock::kU][lane] = before.n.dot(body_speed(memory));
+}
+
+// The surface is where it was expected, by links, for this contact's own force, too.
+double ComplianceCorrection::overlap_of_others(const ParticleView& particles, const Time& now,
+                                               const Contact& contact, Before& before) const {
+  const double* const forces = memory_of(particles, contact);
+  before.expected = now.is_setup ? forces[kExpected] : 2.0 * forces[kLast] - forces[kBefore];
+  const double overlap = contact.overlap - before.give.taken * before.expected;
+  return before.block == &damped_ ? overlap : std::max(overlap, 0.0);
+}
+
+void ComplianceCorrection::remember(const ParticleView& particles, const Contact& contact,
+                                    const Before& before) {
+  double* const forces = memory_of(particles, contact);
+  if (!before.block) {
+    std::fill_n(forces, kForces, 0.0);
+    return;
+  }
+  forces[kExpected] = before.expected;
+  forces[kBefore] = forces[kLast];
+  forces[kLast] = contact.force.dot(before.n);
 }
 
 // The energy of the impact, from bodies that weigh a dozen times as much, none from those that weigh thrice
@@ -181,7 +206,7 @@ void ComplianceCorrection::see_overlap(const ParticleView& particles, const Time
   const int lane = before.lane;
   if (&block == &damped_) {
     if (!now.is_setup) {
-      double* const memory = memory_of(particles, contact);
+      double* const memory = approach_memory_of(particles, contact);
       for (int m = 0; m < ApproachBlock::kU; ++m) memory[m] = block.memory[m][lane];
       memory[kLight] = before.is_light ? 1.0 : 0.0;
       body_speed(memory) =
@@ -250,10 +275,12 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
     contact.touches = before.touches;
     contact.delta = before.delta;
     contact.wall_velocity = before.wall_velocity;
+    if (has_links_ && !now.is_setup) remember(particles, contact, before);
     if (!before.block) {
       contact.correction = nullptr;
       continue;
     }
+    // Of c without what links take: that tilts the surface where it is met.
     const double F = before.block->force[before.lane];
     Eigen::Vector2d along = -0.5 * F * F * before.directions.gradient(before.give.normal.change);
     ContactCorrection& by = *contact.correction;

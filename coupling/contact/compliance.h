@@ -8,7 +8,9 @@
 // 2/5 K x^(5/2) - 1/2 c F^2, changes with the foot, too: a force -1/2 F^2 grad c along the surface belongs to
 // it, without which a contact that slides over elements is not conservative.  A law with damping keeps x from
 // step to step, too (approach_kernel.h), springs along the surface what the mesh gives way there
-// (shear_kernel.h).  What they solve is a chain of roots and quotients, so contacts take it side by side.
+// (shear_kernel.h).  The surface is met beside where the mesh has it, by what forces of contacts let the mesh
+// give way too much near them (coupling/cross_shift.h); what a contact's own force of the last steps has done
+// there is no overlap.  What they solve is a chain of roots and quotients, so contacts take it side by side.
 #pragma once
 
 #include <array>
@@ -36,10 +38,12 @@ class ComplianceCorrection {
   /// Keeps references to all.  `mesh`: null if nothing is known of it, which then gives way at once.
   ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall, const MeshEstimate* mesh);
 
-  /// Numbers that a contact keeps behind those of the model, in each slot of the particles' memory: of its
-  /// approach, with u as a vector, and whether the body is light; of its spring along the surface.
+  /// Numbers that a contact keeps behind those of the model, in each slot of the particles' memory: its force
+  /// as it was expected in the last step, as it was then, and before; of its approach, with u as a vector,
+  /// and whether the body is light; of its spring along the surface.
+  enum Forces { kExpected, kLast, kBefore, kForces };
   static constexpr int kLight = ApproachBlock::kU + 3, kApproach = kLight + 1;
-  static constexpr int kMemory = kApproach + ShearBlock::kMemory;
+  static constexpr int kMemory = kForces + kApproach + ShearBlock::kMemory;
   struct Time {
     long step;
     double dt;      ///< [time]
@@ -58,10 +62,10 @@ class ComplianceCorrection {
   /// now.  Collective.
   bool follows_strain() const { return compliance_.follows_strain(); }
   void follow_strain(const std::vector<nurbs::SurfacePoint>& feet);
-  /// How far the surfaces may be apart while a damped contact that keeps this goes on [length].
-  static double held_gap(const double* memory) {
+  /// How far the surfaces may be apart while a damped contact with this x goes on [length].
+  static double held_gap(double x) {
     constexpr double kDent = 10.0;
-    return memory[ApproachBlock::kX] > 0.0 ? kDent * memory[ApproachBlock::kX] : 0.0;
+    return x > 0.0 ? kDent * x : 0.0;
   }
   /// The same of any contact in these slots.
   static double held_gap(const ParticleSlots& slots, int history_count);
@@ -78,14 +82,18 @@ class ComplianceCorrection {
     bool is_light;               // the body, and the contact damped
     Vector3 n;
     double approach;  // [length/time]
+    double expected;  // its own force, as the surface has it [force]
     SurfaceDirections directions;
     coupling::LocalCompliance::Value give;
   };
   /// Of a contact that begins [energy] (approach_kernel.h).
   double credit(const ParticleView& particles, const ContactModel& model, const Contact& contact,
                 const Before& before) const;
-  void enter(const ParticleView& particles, const ContactModel& model, const Contact& contact,
-             Before& before);
+  void enter(const ParticleView& particles, const Time& now, const ContactModel& model,
+             const Contact& contact, Before& before);
+  double overlap_of_others(const ParticleView& particles, const Time& now, const Contact& contact,
+                           Before& before) const;
+  static void remember(const ParticleView& particles, const Contact& contact, const Before& before);
   void see_overlap(const ParticleView& particles, const Time& now, Contact& contact, Before& before);
   void enter_shear(const ParticleView& particles, const ContactModel& model, const Contact& contact,
                    Before& before);
@@ -94,6 +102,7 @@ class ComplianceCorrection {
   coupling::LocalCompliance& compliance_;
   const Wall& wall_;
   const MeshEstimate* mesh_;
+  bool has_links_;
   ApproachKernel approach_kernel_;
   ShearKernel shear_kernel_;
   std::array<Before, kCapacity> before_;

@@ -15,6 +15,7 @@ using coupling::SubstepOptions;
 using coupling::Substeps;
 using coupling::Vector3;
 using test::forces_on;
+using test::Ground;
 using test::options;
 using test::run;
 using test::small_block;

@@ -32,9 +32,10 @@ std::string refusal(const WallState::Origin& saved, const WallState::Origin& now
 
 TEST(WallState, SurvivesPacking) {
   const WallState back =
-      liggghts_pkg::unpack_wall_state(bytes(liggghts_pkg::pack({{1.0, 2.0}, {}, origin()})));
+      liggghts_pkg::unpack_wall_state(bytes(liggghts_pkg::pack({{1.0, 2.0}, {}, {3.0}, origin()})));
   EXPECT_EQ(back.structure, (std::vector<double>{1.0, 2.0}));
   EXPECT_TRUE(back.fields.empty());
+  EXPECT_EQ(back.contacts, std::vector<double>{3.0});
   ASSERT_TRUE(back.origin);
   EXPECT_EQ(back.origin->contacts, 4);
   EXPECT_EQ(back.origin->history, 3);
@@ -51,7 +52,7 @@ TEST(WallState, OfAnOlderVersionHasNoOrigin) {
 }
 
 TEST(WallState, OfANewerVersionIsRefused) {
-  EXPECT_THROW(liggghts_pkg::unpack_wall_state(bytes({-3.0, 0.0, 0.0})), std::invalid_argument);
+  EXPECT_THROW(liggghts_pkg::unpack_wall_state(bytes({-5.0, 0.0, 0.0})), std::invalid_argument);
 }
 
 TEST(WallState, ThatIsDamagedIsRefused) {

@@ -49,7 +49,8 @@ Eigen::MatrixXd to_powers(int count) {
 }  // namespace
 
 ComplianceTable::ComplianceTable(const std::array<int, 2>& counts,
-                                 const std::vector<std::vector<double>>& values)
+                                 const std::vector<std::vector<double>>& values,
+                                 const std::vector<double>& taken)
     : kernel_(table_kernel(nurbs::simd_level())),
       counts_(counts),
       largest_normal_(*std::max_element(values[normal].begin(), values[normal].end())) {
@@ -59,6 +60,12 @@ ComplianceTable::ComplianceTable(const std::array<int, 2>& counts,
     const Eigen::MatrixXd powers =
         of_s * Eigen::MatrixXd::Map(component.data(), counts[0], counts[1]) * of_t.transpose();
     next = std::copy_n(powers.data(), powers.size(), next);
+  }
+  if (!taken.empty()) {
+    const Eigen::MatrixXd powers =
+        of_s * Eigen::MatrixXd::Map(taken.data(), counts[0], counts[1]) * of_t.transpose();
+    std::transform(powers.data(), powers.data() + powers.size(), taken_.begin(),
+                   [](double power) { return static_cast<float>(power); });
   }
   const int count = counts[0] * counts[1];
   for (int k = 0; k < count; ++k)

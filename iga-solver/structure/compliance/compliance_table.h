@@ -24,8 +24,10 @@ class ComplianceTable {
     std::array<double, 2> change;
   };
 
-  /// From values at table_points(): [component][point].
-  ComplianceTable(const std::array<int, 2>& counts, const std::vector<std::vector<double>>& values);
+  /// From values at table_points(): [component][point]; `taken`: what links take off along the normal
+  /// (cross_compliance.h), which is no part of the values, or nothing.
+  ComplianceTable(const std::array<int, 2>& counts, const std::vector<std::vector<double>>& values,
+                  const std::vector<double>& taken = {});
 
   /// On the element [low, high] of the parameters.
   Value at(Component component, const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high,
@@ -43,6 +45,12 @@ class ComplianceTable {
   }
   /// Largest value at its points [length/force].
   double largest_normal() const { return largest_normal_; }
+  /// What links take off, to seven digits [length/force].
+  double taken(const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high,
+               const nurbs::Parameter<2>& xi) const {
+    const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
+    return counts_[0] == 5 ? taken<5>(s.value, t.value) : taken<7>(s.value, t.value);
+  }
 
  private:
   // An element's own parameter, from -1 to 1, and its change with that of the patch.
@@ -53,11 +61,22 @@ class ComplianceTable {
   };
   static constexpr int kMost = 7 * 7;  // values of a component: of degree 3
 
+  template <int count>
+  double taken(double s, double t) const {
+    std::array<double, count> row{};
+    for (int j = counts_[1] - 1; j >= 0; --j)
+      for (int i = 0; i < count; ++i) row[i] = row[i] * t + taken_[j * count + i];
+    double value = 0.0;
+    for (int i = count - 1; i >= 0; --i) value = value * s + row[i];
+    return value;
+  }
+
   // In one piece, as it comes from memory.
   TableKernel kernel_;
   std::array<int, 2> counts_;
   double largest_normal_;
   std::array<double, kTogether * kMost> together_;  // [of t][of s][component] in s, t from -1 to 1
+  std::array<float, kMost> taken_{};                // [of t][of s]; few, as they come for each contact
   std::array<double, kComponents * kMost> powers_;  // [component][of t][of s], the same
 };
 

@@ -90,8 +90,9 @@ NodalVectors places_of(const ReferenceBody& body) {
 
 }  // namespace
 
-ComplianceTables::ComplianceTables(ReferenceBody body, std::vector<SkinPiece> skin)
+ComplianceTables::ComplianceTables(ReferenceBody body, std::vector<SkinPiece> skin, bool beside_links)
     : skin_(std::move(skin)), undeformed_(std::make_shared<ElementCompliances>(std::move(body), skin_)) {
+  if (beside_links) links_ = std::make_unique<CrossCompliance>(undeformed_->body(), skin_);
   for (std::size_t piece = 0; piece < skin_.size(); ++piece) {
     const int count = undeformed_->surface(static_cast<int>(piece)).space().element_count();
     state_of_.emplace_back(count, undeformed_);
@@ -110,6 +111,27 @@ Matrix3 ComplianceTables::tensor(const TablePoint& point, const ElementComplianc
   };
   const Matrix3 turn = frame_in(state) * frame_in(own).transpose();
   return turn * tensor * turn.transpose();
+}
+
+/// Of the first of the elements that are alike where links are, too, to the last bit; and whose it is.
+std::pair<std::vector<double>, int> ComplianceTables::taken_off(int piece, int element, int alike) const {
+  if (!links_) return {{}, alike};
+  constexpr double kSame = 1e-9;
+  std::vector<double> first = linked(piece, alike), own = linked(piece, element);
+  const bool same = std::equal(own.begin(), own.end(), first.begin(),
+                               [](double a, double b) { return std::abs(a - b) <= kSame * std::abs(b); });
+  return same ? std::pair{std::move(first), alike} : std::pair{std::move(own), element};
+}
+
+/// What links take at the points of an element.
+std::vector<double> ComplianceTables::linked(int piece, int element) const {
+  std::vector<double> values;
+  const FaceSurface& surface = undeformed_->surface(piece);
+  for (const nurbs::Parameter<2>& xi : table_points(surface.space(), element)) {
+    const SkinPoint foot = surface.at(element, xi);
+    values.push_back(links_->between(foot, foot));
+  }
+  return values;
 }
 
 const ComplianceTable& ComplianceTables::find(int piece, int element) {
@@ -140,12 +162,14 @@ const ComplianceTable& ComplianceTables::find(int piece, int element) {
     origin.emplace_back(nullptr, 0);
     means.push_back(sum / count);
   }
+  const auto [taken, first] = taken_off(piece, element, state.first_alike(piece, element));
+  origin.emplace_back(nullptr, first);
   std::unique_ptr<ComplianceTable>& made = tables_[origin];
   if (!made) {
     Tensors change = means;
     for (std::size_t k = 0; k < change.size(); ++k) change[k] -= own.tensors[k];
     blend(table_counts(state.surface(piece).space()), change, means);
-    made = state.table(piece, element, means);
+    made = state.table(piece, element, means, taken);
   }
   if (asked_ && asked_.get() != &state) asked_->rest();
   asked_ = state_of_[piece][element];

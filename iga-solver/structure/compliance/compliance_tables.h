@@ -3,6 +3,8 @@
 // that take part are others on the two sides of a border; there tables have the mean, so that a foot that
 // crosses it changes no force.  Where strain has changed the elements themselves, tables are made anew while
 // nobody touches them: a few states of the body are known at a time, and each element belongs to one.
+// Whoever moves the surface by what cross_compliance.h takes off has that of a foot's own force there
+// already.
 #pragma once
 
 #include <map>
@@ -10,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "structure/compliance/cross_compliance.h"
 #include "structure/compliance/element_compliances.h"
 
 namespace structure {
@@ -21,8 +24,9 @@ struct SkinElement {
 
 class ComplianceTables {
  public:
-  /// As the body is undeformed; throws as ElementCompliances does.
-  ComplianceTables(ReferenceBody body, std::vector<SkinPiece> skin);
+  /// As the body is undeformed; throws as ElementCompliances does.  `beside_links`: along the normal without
+  /// CrossCompliance::between a foot and itself.
+  ComplianceTables(ReferenceBody body, std::vector<SkinPiece> skin, bool beside_links = false);
   ComplianceTables(const ComplianceTables&) = delete;
   ComplianceTables& operator=(const ComplianceTables&) = delete;
 
@@ -32,6 +36,8 @@ class ComplianceTables {
     const ComplianceTable* const known = known_[piece][element];
     return known ? *known : find(piece, element);
   }
+  /// Of the undeformed body; null unless tables are beside them.
+  const CrossCompliance* links() const { return links_.get(); }
   /// What the elements about one have at any point of it, without a table or a mean: the tensor in space, of
   /// its state.
   Matrix3 direct(int piece, int element, const nurbs::Parameter<2>& xi) const {
@@ -64,8 +70,12 @@ class ComplianceTables {
   void for_each_neighbour(const SkinElement& of, Function f) const;
   void forget_unused();
 
+  std::pair<std::vector<double>, int> taken_off(int piece, int element, int alike) const;
+  std::vector<double> linked(int piece, int element) const;
+
   std::vector<SkinPiece> skin_;
-  State undeformed_, asked_;                  // asked_: last, for a table
+  State undeformed_, asked_;  // asked_: last, for a table
+  std::unique_ptr<CrossCompliance> links_;
   std::vector<std::vector<State>> state_of_;  // [piece][element]
   std::map<Origin, std::unique_ptr<ComplianceTable>> tables_;
   std::vector<std::vector<const ComplianceTable*>> known_;  // [piece][element]; null: not asked for before

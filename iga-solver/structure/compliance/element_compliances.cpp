@@ -96,8 +96,8 @@ Matrix3 ElementCompliances::direct(int piece, int element, const nurbs::Paramete
   return at(hit(piece, element), {xi}).front();
 }
 
-std::unique_ptr<ComplianceTable> ElementCompliances::table(int piece, int element,
-                                                           const Tensors& tensors) const {
+std::unique_ptr<ComplianceTable> ElementCompliances::table(int piece, int element, const Tensors& tensors,
+                                                           const std::vector<double>& taken) const {
   const int same = first_alike(piece, element);
   const HitElement hit = this->hit(piece, same);
   const nurbs::Space<2>& space = surfaces_[piece].space();
@@ -113,7 +113,9 @@ std::unique_ptr<ComplianceTable> ElementCompliances::table(int piece, int elemen
                                  0.5 * (c(1, 2) + c(2, 1))};
     for (int k = 0; k < ComplianceTable::kComponents; ++k) values[k].push_back(components[k]);
   }
-  return std::make_unique<ComplianceTable>(table_counts(space), values);
+  for (std::size_t point = 0; point < taken.size(); ++point)
+    values[ComplianceTable::normal][point] -= taken[point];
+  return std::make_unique<ComplianceTable>(table_counts(space), values, taken);
 }
 
 }  // namespace structure

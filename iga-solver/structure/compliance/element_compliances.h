@@ -41,16 +41,19 @@ class ElementCompliances {
   /// Of an element of a piece's surface; those that see the same share one.
   const Solved& solved(int piece, int element);
   int solved_count() const { return solved_; }
+  /// Of those that see the same.
+  int first_alike(int piece, int element) const;
   /// Others are asked from here on: keeps what it has solved, and nothing that would help to solve more.
   void rest() { gradients_.forget(); }
   /// At any point of it.
   Matrix3 direct(int piece, int element, const nurbs::Parameter<2>& xi) const;
   /// Of tensors at its points, as the first of the elements that are alike: to the last bit, whoever asks.
-  std::unique_ptr<ComplianceTable> table(int piece, int element, const Tensors& tensors) const;
+  /// `taken`: what is taken off along the normal there, or nothing [length/force].
+  std::unique_ptr<ComplianceTable> table(int piece, int element, const Tensors& tensors,
+                                         const std::vector<double>& taken = {}) const;
 
  private:
   Tensors at(const HitElement& hit, const std::vector<nurbs::Parameter<2>>& points) const;
-  int first_alike(int piece, int element) const;
 
   ReferenceBody body_;
   NearElements near_;

@@ -101,8 +101,7 @@ class DampedContact {
     block_.credit[kLane] = credit;
   }
   double step(double overlap, double of_particle, double of_surface, double dt) {
-    double memory[ApproachBlock::kMemory] = {number(ApproachBlock::kX)};
-    if (overlap <= -contact::ComplianceCorrection::held_gap(memory)) {
+    if (overlap <= -contact::ComplianceCorrection::held_gap(x())) {
       for (int m = 0; m < ApproachBlock::kMemory; ++m) number(m) = 0.0;
       return 0.0;
     }
@@ -111,7 +110,7 @@ class DampedContact {
     kApproachKernel.damped(block_, {0.99, dt, dt});
     return block_.x[kLane] > 0.0 ? block_.force[kLane] : 0.0;
   }
-  double x() { return number(ApproachBlock::kX); }
+  double x() const { return block_.memory[ApproachBlock::kX][kLane]; }
 
  private:
   static constexpr int kLane = 3;

@@ -109,7 +109,7 @@ class BallsOnWall {
   void step(bool lists = false) {
     ++step_;
     for (size_t k = 0; k < balls.x.size(); ++k) balls.x[k] += dt_ * (balls.v[k] += 0.5 * dt_ * balls.f[k]);
-    structure_.begin_step();
+    exchange_.begin_step();
     loop.wall().import();
     if (loop.wall_motion() > 0.5 * kSkin || lists) build_list();
     evaluate();

@@ -34,7 +34,8 @@ class Ripples final : public coupling::LocalCompliance {
     value = {
         {c0_ * (1.0 + ripple_ * std::sin(x) * std::cos(y)),
          {c0_ * ripple_ * k * std::cos(x) * std::cos(y), -c0_ * ripple_ * k * std::sin(x) * std::sin(y)}},
-        along};
+        along,
+        0.0};
   }
   std::array<Component, 3> along = {};
 
@@ -348,7 +349,7 @@ TEST(ComplianceCorrection, DampedContactsNeedRoomInTheMemory) {
   scene.balls.add({0.3, 0.2, kRadius - 0.01}, kRadius);
   scene.model.damping = 1.0;
   EXPECT_THAT([&] { scene.begin(); },
-              ThrowsMessage<std::logic_error>(HasSubstr("room for 0 numbers, expected 15 more")));
+              ThrowsMessage<std::logic_error>(HasSubstr("room for 0 numbers, expected 18 more")));
 }
 
 TEST(ComplianceCorrection, SaysWhereElementsAreTooSmall) {
