@@ -67,7 +67,8 @@ class TimeOrder(unittest.TestCase):
         self.assertLessEqual(orders.max(), 2.3)
 
     def test_corrected_contacts_are_second_order(self):
-        orders, _ = self.measure(late=0, corrected=True)
+        # Of z at the second time little is of second order, so that the third shows on the coarsest steps.
+        orders, _ = self.measure(late=0, refinements=(2, 4, 8, 16), corrected=True)
         print("orders [refinement][time][z, vz, momentum, displacement, vx]:\n", orders.round(3))
         self.assertGreaterEqual(orders.min(), 1.8)
         self.assertLessEqual(orders.max(), 2.3)
