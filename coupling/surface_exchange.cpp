@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/surface_exchange.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -197,12 +199,12 @@ void SurfaceExchange::expect_to_stay() const {
     const double feedback = shift_->feedback(c, stiffness_[c] / kFunctions);
     if (!(feedback > kMost)) continue;
     const Vector3 x = positions_.col(c);
-    throw FailedOnThisRank(
-        "contacts at (" + std::to_string(x[0]) + ", " + std::to_string(x[1]) + ", " + std::to_string(x[2]) +
-        ") are too many on an element for 'compliance corrected', or too stiff: what they feel of each other "
-        "would grow by itself (" +
-        std::to_string(feedback) + ", expected at most " + std::to_string(kMost) +
-        "); use smaller elements there, or 'compliance none'");
+    throw FailedOnThisRank(fmt::format(
+        "contacts at ({:.6g}, {:.6g}, {:.6g}) are too many on an element for 'compliance corrected', or too "
+        "stiff: what they feel of each other would grow by itself ({:.2g}, expected at most {:.2g}); use "
+        "smaller "
+        "elements there, or 'compliance none'",
+        x[0], x[1], x[2], feedback, kMost));
   }
 }
 

@@ -230,6 +230,14 @@ class Meshes(unittest.TestCase):
         self.assertLess(abs(fine - coarse), 0.004 * 0.2)
         self.assertGreater(abs(without - coarse), 0.01 * 0.2)
 
+    def test_too_many_contacts_on_an_element_stop_the_run(self):
+        row = np.arange(-4e-3, 4e-3, 2e-3 / 9)
+        balls = tuple((x, y, bob.RADIUS - 1e-5) for x in row for y in row)
+        deck = bob.prelude(**SETTINGS | dict(balls=balls)) + "neigh_modify exclude group all all\n" + bob.wall(MODELS, CORRECTED) + "run 10\n"
+        run = decks.run(deck, files={"block.yaml": glass((16e-3, 12e-3, 4e-3), (8, 6, 2))})
+        self.assertNotEqual(run.code, 0)
+        self.assertRegex(run.errors[0], "contacts at .* too many on an element .* expected at most 0.8.* or 'compliance none'")
+
     def test_elements_that_are_too_small_stop_the_run(self):
         deck = bob.prelude(**SETTINGS | dict(timestep=1e-9, velocity=(0, 0, -20))) + bob.wall(MODELS, CORRECTED) + bob.output(())
         run = decks.run(deck + "run 4000\n", files={"block.yaml": glass((1e-3, 1e-3, 0.5e-3), (12, 12, 6))})
