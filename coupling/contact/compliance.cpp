@@ -172,8 +172,9 @@ void ComplianceCorrection::enter(const ParticleView& particles, const Time& now,
 double ComplianceCorrection::overlap_of_others(const ParticleView& particles, const Time& now,
                                                const Contact& contact, Before& before) const {
   const double* const forces = memory_of(particles, contact);
-  before.expected = now.is_setup ? forces[kExpected] : 2.0 * forces[kLast] - forces[kBefore];
-  const double overlap = contact.overlap - before.give.taken * before.expected;
+  before.expected = Vector3::Map(forces + kExpected);
+  if (!now.is_setup) before.expected = 2.0 * Vector3::Map(forces + kLast) - Vector3::Map(forces + kBefore);
+  const double overlap = contact.overlap - before.give.taken * before.expected.dot(before.n);
   return before.block == &damped_ ? overlap : std::max(overlap, 0.0);
 }
 
@@ -184,9 +185,9 @@ void ComplianceCorrection::remember(const ParticleView& particles, const Contact
     std::fill_n(forces, kForces, 0.0);
     return;
   }
-  forces[kExpected] = before.expected;
-  forces[kBefore] = forces[kLast];
-  forces[kLast] = contact.force.dot(before.n);
+  Vector3::Map(forces + kExpected) = before.expected;
+  std::copy_n(forces + kLast, 3, forces + kBefore);
+  Vector3::Map(forces + kLast) = contact.force;
 }
 
 // The energy of the impact, from bodies that weigh a dozen times as much, none from those that weigh thrice
@@ -275,9 +276,9 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
     contact.touches = before.touches;
     contact.delta = before.delta;
     contact.wall_velocity = before.wall_velocity;
-    if (has_links_ && !now.is_setup) remember(particles, contact, before);
     if (!before.block) {
       contact.correction = nullptr;
+      if (has_links_ && !now.is_setup) remember(particles, contact, before);
       continue;
     }
     // Of c without what links take: that tilts the surface where it is met.
@@ -297,6 +298,8 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
     }
     by.follows = along;
     contact.force.noalias() += before.directions.tangents * along;
+    if (has_links_) by.shift = before.give.taken * before.expected;
+    if (has_links_ && !now.is_setup) remember(particles, contact, before);
   }
   model.hear_of_corrections(contacts, count);
 }

@@ -41,7 +41,7 @@ class ComplianceCorrection {
   /// Numbers that a contact keeps behind those of the model, in each slot of the particles' memory: its force
   /// as it was expected in the last step, as it was then, and before; of its approach, with u as a vector,
   /// and whether the body is light; of its spring along the surface.
-  enum Forces { kExpected, kLast, kBefore, kForces };
+  enum Forces { kExpected = 0, kLast = 3, kBefore = 6, kForces = 9 };  // vectors, on the particle
   static constexpr int kLight = ApproachBlock::kU + 3, kApproach = kLight + 1;
   static constexpr int kMemory = kForces + kApproach + ShearBlock::kMemory;
   struct Time {
@@ -81,8 +81,8 @@ class ComplianceCorrection {
     bool has_shear;              // it has one
     bool is_light;               // the body, and the contact damped
     Vector3 n;
-    double approach;  // [length/time]
-    double expected;  // its own force, as the surface has it [force]
+    double approach;   // [length/time]
+    Vector3 expected;  // its own force on the particle, as the surface has it [force]
     SurfaceDirections directions;
     coupling::LocalCompliance::Value give;
   };

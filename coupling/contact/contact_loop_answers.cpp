@@ -131,7 +131,9 @@ inline void ContactLoop::turn_body(const Contact& contact, coupling::ContactForc
         coupling::FootSlopes(wall_.surface(), contact.foot).tangents(wall_.control_points());
     first = S.col(0), second = S.col(1);
   }
-  const Vector3 couple = -wall_.to_frame_direction(contact.torque + contact.delta.cross(force));
+  Vector3 moment = contact.torque + contact.delta.cross(force);
+  if (by) moment += by->shift.cross(contact.force);  // the body's foot is where its nodes have it
+  const Vector3 couple = -wall_.to_frame_direction(moment);
   on_body.has_couple = true;
   const std::array<Vector3, 2> G = coupling::couple_forces(first, second, couple);
   const Vector3 delta = wall_.to_frame_direction(contact.delta);

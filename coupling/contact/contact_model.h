@@ -16,6 +16,8 @@ struct ContactCorrection {
   /// Of this step, beside that of the velocities; springs add it to their stretch [length].
   Vector3 further_slip = Vector3::Zero();
   nurbs::Tangents tangents = nurbs::Tangents::Zero();  ///< S_j of the patch, in space [length]
+  /// How far the contact's own force has moved where the surface is met, in space [length].
+  Vector3 shift = Vector3::Zero();
   /// Of the force what an energy has that changes with the foot: parts along the S_j [force/length].
   Eigen::Vector2d follows = Eigen::Vector2d::Zero();
   double tangent = 0.0;        ///< d(force)/d(overlap) [force/length]

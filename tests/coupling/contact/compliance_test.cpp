@@ -349,7 +349,7 @@ TEST(ComplianceCorrection, DampedContactsNeedRoomInTheMemory) {
   scene.balls.add({0.3, 0.2, kRadius - 0.01}, kRadius);
   scene.model.damping = 1.0;
   EXPECT_THAT([&] { scene.begin(); },
-              ThrowsMessage<std::logic_error>(HasSubstr("room for 0 numbers, expected 18 more")));
+              ThrowsMessage<std::logic_error>(HasSubstr("room for 0 numbers, expected 24 more")));
 }
 
 TEST(ComplianceCorrection, SaysWhereElementsAreTooSmall) {
