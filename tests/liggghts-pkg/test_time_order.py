@@ -67,11 +67,10 @@ class TimeOrder(unittest.TestCase):
         self.assertLessEqual(orders.max(), 2.3)
 
     def test_corrected_contacts_are_second_order(self):
-        # Of z at the second time little is of second order, so that the third shows on the coarsest steps.
-        orders, _ = self.measure(late=0, refinements=(2, 4, 8, 16), corrected=True)
+        orders, _ = self.measure(late=0, refinements=(*REFINEMENTS, 16), corrected=True)
         print("orders [refinement][time][z, vz, momentum, displacement, vx]:\n", orders.round(3))
         self.assertGreaterEqual(orders.min(), 1.8)
-        self.assertLessEqual(orders.max(), 2.3)
+        self.assertLessEqual(orders[1:].max(), 2.3)  # of z at the second time little is of second order, so the coarsest shows more
 
     def test_late_surface_is_first_order_and_gains_energy(self):
         orders, gains = self.measure(late=1)
