@@ -22,8 +22,9 @@ class CrossShift {
   void begin_step();
   /// Forces of this step, of these control points (out of 3 x n_control_points), rising.
   void remember(const std::vector<int>& control_points, const NodalVectors& forces);
-  /// How much of a change of contact forces links bring back in the next step, if contacts at a control point
-  /// are together so stiff [force/length], and as dense around it; from 1 on forces would grow by themselves.
+  /// How much of a change of contact forces links bring back in the next step, if contacts on an element with
+  /// this control point are together so stiff [force/length], and those around it; from 1 on forces would
+  /// grow by themselves.
   double feedback(int control_point, double stiffness) const;
   /// Of a control point, expected in this step [length]: right where all forces on it and what it is linked
   /// to were remembered.

@@ -50,6 +50,8 @@ class FootBasis {
   void for_each_control_point(Function f) const {
     for_each(values_, f);
   }
+  /// The first of them, by which elements differ.
+  int first_control_point() const { return values_.first; }
 
  private:
   nurbs::SurfaceValues values_;
@@ -73,6 +75,7 @@ class FootSlopes {
   void for_each_control_point(Function f) const {
     for_each(slopes_.values, f);
   }
+  int first_control_point() const { return slopes_.values.first; }
 
  private:
   nurbs::SurfaceSlopes slopes_;

@@ -185,18 +185,17 @@ std::vector<double> SurfaceExchange::all(const std::vector<double>& here) const 
 }
 
 template <class Basis>
-void SurfaceExchange::touch(const Basis& foot, double stiffness) {
+void SurfaceExchange::touch(const Basis& foot) {
   foot.for_each_control_point([&](int c) {
     if (!is_touched_[c]) touched_.push_back(c);
     is_touched_[c] = true;
-    stiffness_[c] += stiffness;
   });
 }
 
 void SurfaceExchange::expect_to_stay() const {
-  constexpr double kMost = 0.8, kFunctions = 9.0;  // at least, that each contact is spread to
+  constexpr double kMost = 0.8;
   for (const int c : touched_) {
-    const double feedback = shift_->feedback(c, stiffness_[c] / kFunctions);
+    const double feedback = shift_->feedback(c, stiffness_[c]);
     if (!(feedback > kMost)) continue;
     const Vector3 x = positions_.col(c);
     throw FailedOnThisRank(fmt::format(
@@ -220,11 +219,13 @@ void SurfaceExchange::spread(const ContactForce& contact) {
   if (contact.has_couple) {
     const FootSlopes foot = {surface.topology, foot_of(contact)};
     foot.distribute(F, nurbs::Tangents::Map(contact.couple[0]), surface_forces_);
-    return touch(foot, contact.stiffness);
+    stiffness_[foot.first_control_point()] += contact.stiffness;
+    return touch(foot);
   }
   const FootBasis foot = {surface.topology, foot_of(contact)};
   foot.distribute(F, surface_forces_);
-  touch(foot, contact.stiffness);
+  stiffness_[foot.first_control_point()] += contact.stiffness;
+  touch(foot);
 }
 
 const NodalForces& SurfaceExchange::export_add(const std::vector<ContactForce>& local, bool is_setup) {

@@ -76,7 +76,7 @@ class SurfaceExchange {
   void send_to_owners(const std::vector<ContactForce>& local);
   void spread(const ContactForce& contact);
   template <class Basis>
-  void touch(const Basis& foot, double stiffness = 0.0);
+  void touch(const Basis& foot);
   void expect_to_stay() const;
   void forget_forces();
 
@@ -94,7 +94,7 @@ class SurfaceExchange {
   NodalForces nodal_forces_;
   std::vector<int> touched_;  ///< control points with forces, rising
   std::vector<bool> is_touched_;
-  std::vector<double> stiffness_;       ///< of contacts at control points; 0 without links
+  std::vector<double> stiffness_;       ///< of contacts on the element that begins with a control point
   std::vector<ContactForce> contacts_;  ///< of all ranks, with what this one owns
   std::vector<std::vector<ContactForce>> to_rank_;
   std::vector<int> owners_of_contact_;

@@ -114,13 +114,16 @@ Matrix3 ComplianceTables::tensor(const TablePoint& point, const ElementComplianc
 }
 
 /// Of the first of the elements that are alike where links are, too, to the last bit; and whose it is.
-std::pair<std::vector<double>, int> ComplianceTables::taken_off(int piece, int element, int alike) const {
+std::pair<std::vector<double>, int> ComplianceTables::taken_off(int piece, int element, int alike) {
   if (!links_) return {{}, alike};
   constexpr double kSame = 1e-9;
-  std::vector<double> first = linked(piece, alike), own = linked(piece, element);
+  std::vector<double>& first = linked_[{piece, alike}];
+  if (first.empty()) first = linked(piece, alike);
+  if (element == alike) return {first, alike};
+  std::vector<double> own = linked(piece, element);
   const bool same = std::equal(own.begin(), own.end(), first.begin(),
                                [](double a, double b) { return std::abs(a - b) <= kSame * std::abs(b); });
-  return same ? std::pair{std::move(first), alike} : std::pair{std::move(own), element};
+  return same ? std::pair{first, alike} : std::pair{std::move(own), element};
 }
 
 /// What links take at the points of an element.

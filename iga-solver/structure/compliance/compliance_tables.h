@@ -70,13 +70,14 @@ class ComplianceTables {
   void for_each_neighbour(const SkinElement& of, Function f) const;
   void forget_unused();
 
-  std::pair<std::vector<double>, int> taken_off(int piece, int element, int alike) const;
+  std::pair<std::vector<double>, int> taken_off(int piece, int element, int alike);
   std::vector<double> linked(int piece, int element) const;
 
   std::vector<SkinPiece> skin_;
   State undeformed_, asked_;  // asked_: last, for a table
   std::unique_ptr<CrossCompliance> links_;
-  std::vector<std::vector<State>> state_of_;  // [piece][element]
+  std::map<std::pair<int, int>, std::vector<double>> linked_;  // of the first of those that are alike
+  std::vector<std::vector<State>> state_of_;                   // [piece][element]
   std::map<Origin, std::unique_ptr<ComplianceTable>> tables_;
   std::vector<std::vector<const ComplianceTable*>> known_;  // [piece][element]; null: not asked for before
 };
