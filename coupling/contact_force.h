@@ -10,7 +10,7 @@ struct ContactForce {
   int patch;     ///< of the foot
   double xi[2];  ///< foot on the patch
   double F[3];   ///< force on the surface [force]
-  /// Of a contact that is corrected by what the mesh gives way, how stiff it is along the normal
+  /// Of a contact that is corrected by what the mesh gives way, how stiff its law is along the normal
   /// [force/length].
   double stiffness = 0.0;
   /// And a couple: forces dR_A/dxi_j couple[j] on its control points, whose sum is zero [force].

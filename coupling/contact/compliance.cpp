@@ -286,6 +286,7 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
     Eigen::Vector2d along = -0.5 * F * F * before.directions.gradient(before.give.normal.change);
     ContactCorrection& by = *contact.correction;
     by.tangents = before.directions.tangents;
+    by.stiffness = before.block->stiffness[before.lane];
     by.tangent = before.block->tangent[before.lane];
     by.dashpot = before.block->dashpot[before.lane];
     if (const int lane = before.shear_lane; lane >= 0) {

@@ -111,7 +111,7 @@ void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step,
   force.patch = contact.foot.patch;
   for (int i = 0; i < 2; ++i) force.xi[i] = contact.foot.xi[i];
   Vector3::Map(force.F) = on_body;
-  if (contact.correction) force.stiffness = contact.correction->tangent;
+  if (contact.correction) force.stiffness = contact.correction->stiffness;
   if (wall_.deforms() && (contact.correction || !contact.torque.isZero(0.0))) turn_body(contact, force);
 }
 

@@ -20,6 +20,7 @@ struct ContactCorrection {
   Vector3 shift = Vector3::Zero();
   /// Of the force what an energy has that changes with the foot: parts along the S_j [force/length].
   Eigen::Vector2d follows = Eigen::Vector2d::Zero();
+  double stiffness = 0.0;      ///< of the law alone [force/length]
   double tangent = 0.0;        ///< d(force)/d(overlap) [force/length]
   double dashpot = 0.0;        ///< of damping, by the particle's speed alone [force time/length]
   double shear_tangent = 0.0;  ///< along the surface [force/length]
