@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "coupling/mesh_compliance.h"
 
+#include <fmt/format.h>
+
+#include <stdexcept>
 #include <utility>
 
 #include "nurbs/boundary.h"
@@ -28,6 +31,15 @@ std::vector<LocalCompliance::Link> MeshCompliance::links() const {
   return links;
 }
 
+const structure::ComplianceTable& MeshCompliance::table_of(int patch, int element) {
+  try {
+    return tables_.of(patch, element);
+  } catch (const std::invalid_argument& problem) {
+    throw std::invalid_argument(
+        fmt::format("{}; use elements of other sides there, or 'compliance none'", problem.what()));
+  }
+}
+
 void MeshCompliance::find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,
                           Value& value) {
   const nurbs::Space<2>& space = spaces_[foot.patch];
@@ -37,7 +49,7 @@ void MeshCompliance::find(const nurbs::SurfacePoint& foot, const nurbs::Indices<
     high[d] = space.knots(d).breaks()[element[d] + 1];
   }
   using Table = structure::ComplianceTable;
-  const Table& table = tables_.of(foot.patch, space.element_index(element));
+  const Table& table = table_of(foot.patch, space.element_index(element));
   const double taken = table.taken(low, high, foot.xi);
   if (!with_shear) {
     const Table::Value normal = table.at(Table::normal, low, high, foot.xi);

@@ -29,6 +29,8 @@ class MeshCompliance final : public LocalCompliance {
   structure::ComplianceTables& tables() { return tables_; }
 
  private:
+  const structure::ComplianceTable& table_of(int patch, int element);
+
   std::vector<nurbs::Space<2>> spaces_;  // of the patches
   structure::ComplianceTables tables_;
   std::function<nurbs::NodalVectors()> places_;

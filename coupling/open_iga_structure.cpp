@@ -15,6 +15,7 @@
 #include "io/model_file.h"
 #include "parallel/all_or_none.h"
 #include "parallel/session.h"
+#include "structure/compliance/flat_elements.h"
 
 namespace coupling {
 
@@ -45,20 +46,18 @@ std::optional<ModalDamping> expect_no_modal_damping(const io::ModelFile& model) 
                   model.file));
 }
 
-/// Copies the patches, which the solver takes out of the model.
+/// Copies the patches, which the solver takes out of the model.  Throws std::invalid_argument where it is not
+/// known; `everywhere`: on any element of the skin, in place of those that are hit.
 std::unique_ptr<MeshCompliance> compliance_of(const io::ModelFile& model,
-                                              const std::vector<structure::SkinPiece>& skin) {
+                                              const std::vector<structure::SkinPiece>& skin,
+                                              bool everywhere) {
   std::vector<nurbs::Volume> patches;
   for (int p = 0; p < model.patch_count(); ++p) patches.push_back(model.volume(p));
-  try {
-    return std::make_unique<MeshCompliance>(
-        structure::ReferenceBody{std::move(patches), model.materials, model.nodes,
-                                 model.integration.quadrature},
-        skin);
-  } catch (const std::invalid_argument& problem) {
-    throw geometry_io::InputError(
-        fmt::format("{}: {}; expected such a solid, or 'compliance none'", model.file, problem.what()));
-  }
+  structure::ReferenceBody body{std::move(patches), model.materials, model.nodes,
+                                model.integration.quadrature};
+  auto compliance = std::make_unique<MeshCompliance>(body, skin);
+  if (everywhere) structure::expect_no_flat_elements(body, skin);
+  return compliance;
 }
 
 OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const std::string& surface,
@@ -81,8 +80,17 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
   const io::Cut cut = parallel::cut_among(comm);
   std::optional<io::ModelFile> whole;
   if (damping && cut.parts > 1 && cut.part == 0) whole = model;
-  std::unique_ptr<MeshCompliance> compliance =
-      options.corrects_contacts ? compliance_of(model, skin) : nullptr;
+  std::unique_ptr<MeshCompliance> compliance;
+  std::string uncorrected;
+  try {
+    if (options.corrects_contacts.value_or(!damping))
+      compliance = compliance_of(model, skin, !options.corrects_contacts);
+  } catch (const std::invalid_argument& problem) {
+    if (options.corrects_contacts)
+      throw geometry_io::InputError(
+          fmt::format("{}: {}; expected such a solid, or 'compliance none'", model.file, problem.what()));
+    uncorrected = problem.what();
+  }
   structure::ExplicitSolver body = io::build_solver(model, cut);
   if (!damping) body.stable_time_step();  // kept; the most memory of a run, so before there is anything else
   auto solver = std::make_unique<IgaStructure>(std::move(body), std::move(skin), model.probes,
@@ -94,7 +102,7 @@ OpenedStructure read_iga_structure(MPI_Comm comm, const std::string& path, const
     solver->write_history(parallel::SharedHistory(comm, *model.output, model.geometry.units, model.probes,
                                                   model.named_supports()));
   if (fields) solver->write_fields(std::move(*fields));
-  if (!damping) return {std::move(solver), model.geometry.units, std::move(warnings)};
+  if (!damping) return {std::move(solver), model.geometry.units, std::move(warnings), std::move(uncorrected)};
   return {make_modal(comm, std::move(solver), std::move(whole), *options.modes, *damping),
           model.geometry.units, std::move(warnings)};
 }

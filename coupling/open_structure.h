@@ -23,6 +23,7 @@ struct OpenedStructure {
   std::unique_ptr<StructureSolver> solver;
   geometry_io::Units units;
   std::vector<std::string> warnings = {};  ///< of what is allowed and hardly meant, a sentence each
+  std::string uncorrected = {};  ///< why contacts are not corrected, if the options leave it to the solid
 };
 
 struct RigidOptions {

@@ -14,8 +14,9 @@ struct SolidOptions {
   std::string state = {};
   /// A modal body of so many modes (modal_structure.h); nothing: all degrees of freedom.
   std::optional<int> modes = {};
-  /// Whether contacts are corrected by what its mesh gives way under them (mesh_compliance.h).
-  bool corrects_contacts = false;
+  /// Whether contacts are corrected by what its mesh gives way under them (mesh_compliance.h); nothing: where
+  /// that is known.
+  std::optional<bool> corrects_contacts = {};
 };
 
 }  // namespace coupling

@@ -122,6 +122,10 @@ void SurfaceExchange::import_own(const std::vector<int>& control_points) {
 void SurfaceExchange::import_surface() {
   import_own(own_);
   if (owners_) owners_->bring_all(positions_, velocities_);
+  if (!shift_) return;
+  body_positions_.resizeLike(positions_);
+  map_.to_surface(own_, solver_.positions(), body_positions_);
+  if (owners_) owners_->bring_all(body_positions_, velocities_);
 }
 
 void SurfaceExchange::import_followed() {

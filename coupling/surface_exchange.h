@@ -37,7 +37,10 @@ class SurfaceExchange {
   /// The same as import_surface() for these elements and those around them; call after every change of the
   /// solver's state.  What is farther away stays as it was.
   void import_followed();
-  const NodalVectors& positions() const { return positions_; }    ///< 3 x n_control_points [length]
+  const NodalVectors& positions() const { return positions_; }  ///< 3 x n_control_points [length]
+  /// The same where the body has them, a little beside where corrected contacts meet them: for output, as of
+  /// the last import_surface().
+  const NodalVectors& body_positions() const { return shift_ ? body_positions_ : positions_; }
   const NodalVectors& velocities() const { return velocities_; }  ///< 3 x n_control_points [length/time]
   /// StructureSolver::inverse_node_mass of all control points (3 x n_control_points), or empty.
   const NodalVectors& inverse_masses() const { return inverse_masses_; }
@@ -89,7 +92,7 @@ class SurfaceExchange {
   std::vector<int> followed_;
   std::vector<int> brought_;  ///< of own_, those that this rank or another follows
   NodalVectors own_places_;   ///< of own_, at the last follow()
-  NodalVectors positions_, velocities_, inverse_masses_;
+  NodalVectors positions_, velocities_, inverse_masses_, body_positions_;
   NodalVectors surface_forces_;  ///< zero but where contacts are
   NodalForces nodal_forces_;
   std::vector<int> touched_;  ///< control points with forces, rising

@@ -46,7 +46,7 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
           *this, *impl, *atom,
           liggghts_pkg::TangentialSprings(liggghts_pkg::tangential_spring_place(lmp, options_.model_words)),
           options_.curvature_radius),
-      memory_(*modify, id, options_.slots, store_force_),
+      memory_(lmp, id, options_.slots, store_force_),
       columns_(structure_, loop_, model_.springs(), world),
       restart_(lmp, id, options_.file, structure_, exchange_),
       no_forces_(coupling::NodalVectors::Zero(3, structure_.nodes().size())) {
@@ -67,8 +67,7 @@ FixWallNurbs::FixWallNurbs(LAMMPS* lmp, int narg, char** arg)
   can_create_mesh_ = true;
   meshwall_ = may_pose_as_mesh();
   or_fail([&] { liggghts_pkg::check_other_walls(*modify, world, options_); });
-  for (const std::string& warning : opened_.warnings)
-    messages_.warn(fmt::format("'{}': {}", options_.file, warning));
+  report_opening(messages_);
   if (options_.verbose) describe();
   or_fail([&] { open_files(); });
 }
@@ -337,7 +336,8 @@ void FixWallNurbs::write_files(bool fields, bool triangles) {
   const long step = update->ntimestep;
   or_fail([&] {
     loop_.wall().import_all();
-    if (fields) output_->write(step, update->get_cur_time(), exchange_.positions(), loop_.wall().frame());
+    if (fields)
+      output_->write(step, update->get_cur_time(), exchange_.body_positions(), loop_.wall().frame());
     if (triangles) stl_->write(step);
   });
 }
@@ -348,7 +348,7 @@ void FixWallNurbs::post_run() {
   if (searches.not_converged() > 0)
     messages_.warn(fmt::format("{} closest-point projections did not converge", searches.not_converged()));
   for (const std::string& alarm : liggghts_pkg::alarms_of_run(loop_, dt_, world)) messages_.warn(alarm);
-  const std::string of_mesh = liggghts_pkg::alarm_of_mesh(loop_, world);
+  const std::string of_mesh = liggghts_pkg::alarm_of_mesh(loop_, options_.uncorrected.empty(), world);
   if (!of_mesh.empty() && !warned_of_mesh_) messages_.warn(of_mesh);
   warned_of_mesh_ |= !of_mesh.empty();
   show_local_rows();  // for write_dump
@@ -371,7 +371,7 @@ double FixWallNurbs::compute_vector(int column) {
 
 // Of the models, then of the correction of their contacts.
 int FixWallNurbs::history_count() const {
-  return dnum_ + (options_.solid.corrects_contacts ? contact::ComplianceCorrection::kMemory : 0);
+  return dnum_ + (structure_.local_compliance() ? contact::ComplianceCorrection::kMemory : 0);
 }
 
 liggghts_pkg::WallState::Origin FixWallNurbs::origin() const {

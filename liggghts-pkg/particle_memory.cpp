@@ -6,7 +6,9 @@
 #include <stdexcept>
 
 #include "fix_property_atom.h"
+#include "lammps.h"
 #include "modify.h"
+#include "setting.h"
 
 namespace liggghts_pkg {
 
@@ -14,10 +16,9 @@ using contact::ContactMemory;
 using contact::ContactSlot;
 using LAMMPS_NS::FixPropertyAtom;
 
-// One fix for each slot: LIGGGHTS warns of rows longer than 20.
-ParticleMemory::ParticleMemory(LAMMPS_NS::Modify& modify, const std::string& wall_id, int slot_count,
+ParticleMemory::ParticleMemory(LAMMPS_NS::LAMMPS* lmp, const std::string& wall_id, int slot_count,
                                bool stores_force)
-    : modify_(modify), wall_id_(wall_id) {
+    : lmp_(lmp), modify_(*lmp->modify), wall_id_(wall_id) {
   for (int s = 0; s < slot_count; ++s) slot_ids_.push_back(fmt::format("contact{}_{}", s + 1, wall_id));
   if (stores_force) force_id_ = fmt::format("force_{}", wall_id);
 }
@@ -37,6 +38,8 @@ void ParticleMemory::add(const std::string& name, const char* restart,
   words.insert(words.end(), initial.begin(), initial.end());
   std::vector<char*> arg;
   for (std::string& word : words) arg.push_back(word.data());
+  // LIGGGHTS asks on every rank whether rows longer than 20 are meant.
+  const Setting<FILE*> no_screen(lmp_->screen, nullptr), no_log(lmp_->logfile, nullptr);
   modify_.add_fix(static_cast<int>(arg.size()), arg.data());
 }
 

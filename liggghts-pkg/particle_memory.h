@@ -12,6 +12,7 @@
 
 namespace LAMMPS_NS {
 class FixPropertyAtom;
+class LAMMPS;
 class Modify;
 }  // namespace LAMMPS_NS
 
@@ -19,7 +20,7 @@ namespace liggghts_pkg {
 
 class ParticleMemory {
  public:
-  ParticleMemory(LAMMPS_NS::Modify& modify, const std::string& wall_id, int slot_count, bool stores_force);
+  ParticleMemory(LAMMPS_NS::LAMMPS* lmp, const std::string& wall_id, int slot_count, bool stores_force);
 
   /// Defines these fixes, for contact models with so many history values.
   void create(int history_count);
@@ -38,6 +39,7 @@ class ParticleMemory {
   void add(const std::string& name, const char* restart, const std::vector<std::string>& initial);
   LAMMPS_NS::FixPropertyAtom* found(const std::string& name) const;
 
+  LAMMPS_NS::LAMMPS* lmp_;
   LAMMPS_NS::Modify& modify_;
   std::string wall_id_, force_id_;  // no id: not stored
   std::vector<std::string> slot_ids_;

@@ -197,7 +197,7 @@ std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, double 
   return alarms;
 }
 
-std::string alarm_of_mesh(const contact::ContactLoop& loop, MPI_Comm world) {
+std::string alarm_of_mesh(const contact::ContactLoop& loop, bool can_be_corrected, MPI_Comm world) {
   const contact::MeshAlarm uncorrected = loop.uncorrected().of_all_ranks(world),
                            not_static = loop.not_static().of_all_ranks(world);
   constexpr double kMost = contact::ContactLoop::kMissing;
@@ -208,11 +208,10 @@ std::string alarm_of_mesh(const contact::ContactLoop& loop, MPI_Comm world) {
   if (uncorrected.count > 0)
     return fmt::format(
         "elements of size {:.3g} give way under {} by what its contact law has counted already: about {:.1f} "
-        "% "
-        "of the force is missing ({} contacts above {:g} % in this run); use 'compliance corrected', or "
-        "elements "
-        "of at least {:.3g} there",
+        "% of the force is missing ({} contacts above {:g} % in this run); use {}elements of at least {:.3g} "
+        "there",
         uncorrected.size, place(uncorrected), 100.0 * uncorrected.value, uncorrected.count, 100.0 * kMost,
+        can_be_corrected ? "'compliance corrected', or " : "",
         rounded_up(uncorrected.size * uncorrected.value / kMost));
   if (not_static.count > 0)
     return fmt::format(

@@ -45,7 +45,8 @@ std::string missing_gravity(const LAMMPS_NS::Modify& modify, const coupling::Str
 /// Collective.
 std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, double dt, MPI_Comm world);
 /// The same of contacts and the solid's mesh: its elements are too small for what is not corrected, or too
-/// large for a correction that is static.  Empty if all is well.
-std::string alarm_of_mesh(const contact::ContactLoop& loop, MPI_Comm world);
+/// large for a correction that is static.  Empty if all is well.  `can_be_corrected`: if the user asks for
+/// it.
+std::string alarm_of_mesh(const contact::ContactLoop& loop, bool can_be_corrected, MPI_Comm world);
 
 }  // namespace liggghts_pkg

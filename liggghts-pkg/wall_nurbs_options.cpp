@@ -190,30 +190,41 @@ void check_solid(const WallNurbsOptions& options) {
       fail(fmt::format("'{}' is for a solid of ours, given '{}', expected 'structure FILE'", words, given));
 }
 
-// Said at once: what is not shown to be right is refused.
-void check_compliance(const WallNurbsOptions& options) {
-  if (!options.solid.corrects_contacts) return;
+struct Refusal {
+  std::string given, expected;
+};
+
+// What is not shown to be right.
+std::optional<Refusal> why_not_corrected(const WallNurbsOptions& options) {
   const ModelChoice models = model_of(options.model_words);
   if (options.body != WallNurbsOptions::Body::iga)
-    fail(
-        fmt::format("'compliance corrected' is for a solid of ours, given '{}', expected 'structure FILE' or "
-                    "'compliance none'",
-                    options.body == WallNurbsOptions::Body::rigid ? "geometry" : "structure plugin"));
+    return Refusal{
+        fmt::format("is for a solid of ours, given '{}'",
+                    options.body == WallNurbsOptions::Body::rigid ? "geometry" : "structure plugin"),
+        "'structure FILE' or 'compliance none'"};
   if (!is_hertzian(models.normal))
-    fail(fmt::format(
-        "'compliance corrected' is for the laws hertz and penalty/hertz, given 'model {}', expected "
-        "one of them or 'compliance none'",
-        models.normal));
+    return Refusal{fmt::format("is for the laws hertz and penalty/hertz, given 'model {}'", models.normal),
+                   "one of them or 'compliance none'"};
   if (models.cohesion != "off")
-    fail(
-        fmt::format("'compliance corrected' is for contacts without cohesion, given 'cohesion {}', expected "
-                    "'compliance none'",
-                    models.cohesion));
+    return Refusal{fmt::format("is for contacts without cohesion, given 'cohesion {}'", models.cohesion),
+                   "'compliance none'"};
   if (options.solid.modes)
-    fail(
-        "'compliance corrected' is for a whole mesh, given 'body modal', whose modes hardly give way under a "
-        "contact, expected one of them");
-  if (options.substeps) fail("'compliance corrected' is not for 'substeps', expected one of them");
+    return Refusal{"is for a whole mesh, given 'body modal', whose modes hardly give way under a contact",
+                   "one of them"};
+  if (options.substeps) return Refusal{"is not for 'substeps'", "one of them"};
+  return std::nullopt;
+}
+
+// Refused where it is asked for; where nothing is said contacts are then as they are without it.
+void settle_compliance(WallNurbsOptions& options) {
+  std::optional<bool>& corrects = options.solid.corrects_contacts;
+  if (corrects == false) return;
+  const std::optional<Refusal> refusal = why_not_corrected(options);
+  if (!refusal) return;
+  const std::string words = "'compliance corrected' " + refusal->given;
+  if (corrects) fail(words + ", expected " + refusal->expected);
+  corrects = false;
+  if (options.body != WallNurbsOptions::Body::rigid) options.uncorrected = words;
 }
 
 void check_complete(const WallNurbsOptions& options) {
@@ -242,7 +253,6 @@ void check_complete(const WallNurbsOptions& options) {
         "take any timestep");
   check_kept(options);
   check_solid(options);
-  check_compliance(options);
   const std::string drive = drive_name(options.drive);
   if (!drive.empty() && options.body != WallNurbsOptions::Body::rigid)
     fail(fmt::format("'{}' drives a rigid wall, given 'structure', expected 'geometry FILE'", drive));
@@ -283,6 +293,7 @@ WallNurbsOptions parse_wall_nurbs(const std::vector<std::string>& words, const V
     }
   }
   check_complete(options);
+  settle_compliance(options);
   check_model_settings(options.setting_words);
   return options;
 }

@@ -29,6 +29,7 @@ struct WallNurbsOptions {
   std::string surface;                   ///< name of the surface in that file
   double edge_angle = brep::kEdgeAngle;  ///< below which edges of a rigid wall are smooth [rad]
   coupling::SolidOptions solid;          ///< of a deforming wall
+  std::string uncorrected;               ///< why its contacts are not corrected, if the deck does not say
   bool material_independent = false;     ///< the deck's E and nu may differ from the model file's
   bool store_force = false;
   contact::SearchMethod search = contact::SearchMethod::newton;

@@ -17,7 +17,6 @@
 #include "lammps.h"
 #include "motion_words.h"
 #include "update.h"
-#include "wall_messages.h"
 
 using namespace LAMMPS_NS;
 using liggghts_pkg::WallNurbsOptions;
@@ -163,6 +162,7 @@ WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
     check_type(options_.atom_type, lmp->atom->ntypes);
     check_units_of_cad(options_, lmp->update->unit_style);
     opened_ = open(lmp->world, options_, lmp->update->unit_style);
+    if (!opened_.uncorrected.empty()) options_.uncorrected = opened_.uncorrected;
     if (options_.substeps) {
       options_.substeps->heaviest_particle = [lmp] { return heaviest_particle(*lmp); };
       opened_.solver = coupling::with_substeps(std::move(opened_.solver), *options_.substeps);
@@ -173,4 +173,12 @@ WallNurbsSetup::WallNurbsSetup(LAMMPS* lmp, int narg, char** arg) {
   }
   stock_words_ = stock_command_line(arg, options_);
   for (std::string& word : stock_words_) stock_arg_.push_back(word.data());
+}
+
+void WallNurbsSetup::report_opening(const liggghts_pkg::WallMessages& messages) const {
+  for (const std::string& warning : opened_.warnings)
+    messages.warn(fmt::format("'{}': {}", options_.file, warning));
+  if (!options_.uncorrected.empty())
+    messages.print(
+        fmt::format("'{}': contacts are as with 'compliance none': {}", options_.file, options_.uncorrected));
 }

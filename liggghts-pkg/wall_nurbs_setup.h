@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "coupling/open_structure.h"
+#include "wall_messages.h"
 #include "wall_nurbs_options.h"
 
 namespace LAMMPS_NS {
@@ -21,6 +22,8 @@ class WallNurbsSetup {
 
  protected:
   WallNurbsSetup(class LAMMPS* lmp, int narg, char** arg);
+  /// What the user should know of it.
+  void report_opening(const liggghts_pkg::WallMessages& messages) const;
   /// That it is orthogonal where it is periodic, since images are found along the axes; the deck may change
   /// it between runs.  Throws std::invalid_argument.
   static void check_box(const class Domain& box);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "lammps.h"
 #include "modify.h"
 #include "update.h"
@@ -32,6 +34,10 @@ void WallRestart::read(const char* buffer, const WallState::Origin& origin, Wall
                      : unpack_wall_state(reinterpret_cast<const char*>(joined.data()), joined.size());
   if (state.origin)
     check_origin(*state.origin, origin, file_);
+  else if (structure_.local_compliance())
+    throw std::invalid_argument(
+        "an older version wrote the restart file, whose contacts are not corrected by what the mesh gives "
+        "way; use 'compliance none', or give the fix another ID, which starts the wall anew");
   else
     messages_.warn(
         fmt::format("an older version wrote the restart file, which does not tell whether it belongs to the "

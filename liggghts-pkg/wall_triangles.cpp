@@ -19,7 +19,7 @@ void WallTriangles::keep_within(double chord) {
   const coupling::ContactSurface& surface = structure_.surface();
   chord_ = chord;
   if (!surface.faces)
-    cells_ = nurbs::cells_within(nurbs::split(surface.topology, exchange_.positions()), chord);
+    cells_ = nurbs::cells_within(nurbs::split(surface.topology, exchange_.body_positions()), chord);
 }
 
 double WallTriangles::count() const {
@@ -38,8 +38,9 @@ std::string WallTriangles::of_what() const {
 
 nurbs::TriangleMesh WallTriangles::in_body() const {
   const coupling::ContactSurface& surface = structure_.surface();
-  return surface.faces ? brep::triangles_of(*surface.faces, chord_)
-                       : nurbs::tessellate(nurbs::split(surface.topology, exchange_.positions()), cells_);
+  return surface.faces
+             ? brep::triangles_of(*surface.faces, chord_)
+             : nurbs::tessellate(nurbs::split(surface.topology, exchange_.body_positions()), cells_);
 }
 
 nurbs::TriangleMesh WallTriangles::in_space() const {

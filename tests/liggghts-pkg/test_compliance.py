@@ -316,6 +316,50 @@ class Estimate(unittest.TestCase):
             self.assertEqual(len(found), expected, f"{name}: {found}")
 
 
+class Default(unittest.TestCase):
+    """A deck without the word."""
+
+    BLOCK = glass((4e-3, 4e-3, 2e-3), (8, 8, 4))
+
+    def bounce(self, words="", models=MODELS, block=BLOCK, more=""):
+        deck = bob.prelude(**SETTINGS | dict(models=models, friction=0.0)) + more
+        deck += bob.wall(models, f"structure block.yaml surface top {words}") + bob.output((3,)) + "run 150\n"
+        run = decks.good(deck, files={"block.yaml": block})
+        self.assertGreater(-run.table["plate3"].min(), 0.1)
+        told = re.findall(r"Fix wall/nurbs \(id plate\): 'block.yaml': contacts are as with 'compliance none': (.*)", run.text)
+        return run.table["plate3"], told, run.text
+
+    def test_contacts_are_corrected(self):
+        force, told, text = self.bounce()
+        self.assertEqual(told, [])
+        self.assertNotIn("WARNING: Vector length", text)
+        np.testing.assert_array_equal(force, self.bounce("compliance corrected")[0])
+        self.assertGreater(np.abs(force / self.bounce("compliance none")[0] - 1.0)[-1], 0.01)
+
+    def test_where_that_is_not_known_they_are_not_and_it_is_said(self):
+        speed = "fix speed all property/global characteristicVelocity scalar 1.0\n"
+        orthotropic = "law: orthotropic_elastic, " + ", ".join(
+            [f"E_{i}: 5e9" for i in (1, 2, 3)] + [f"nu_{i}: 0.3" for i in (12, 13, 23)] + [f"G_{i}: 2e9" for i in (12, 13, 23)])  # fmt: skip
+        of_wood = re.sub(r"law: .*poissons_ratio: [\d.]+", orthotropic, self.BLOCK)
+        for name, setting, expected in (
+            ("law", dict(models="model hooke tangential history", more=speed), "hertz and penalty/hertz, given 'model hooke'"),
+            ("modes", dict(words="body modal 12"), "given 'body modal'"),
+            ("sub-steps", dict(words="substeps structure 2"), "not for 'substeps'"),
+            ("material", dict(block=of_wood, words="material independent"), "given 'orthotropic_elastic'"),
+            ("quadrature", dict(block=self.BLOCK + "integration: {quadrature: zou}\n"), "given 'zou'"),
+            ("one element", dict(block=glass((4e-3, 4e-3, 2e-3), (1, 1, 1))), "given a single one"),
+            ("flat", dict(block=glass((4e-3, 4e-3, 2e-3), (28, 28, 1))), "not too flat, given those about .* expected at most 6000"),
+        ):
+            with self.subTest(name):
+                force, told, _ = self.bounce(**setting)
+                self.assertEqual(len(told), 1)
+                self.assertRegex(told[0], expected)
+                without = dict(setting, words=setting.get("words", "") + " compliance none")
+                uncorrected, told, _ = self.bounce(**without)
+                self.assertEqual(told, [])
+                np.testing.assert_array_equal(force, uncorrected)
+
+
 class Statics(unittest.TestCase):
     def test_a_contact_that_is_too_short_is_named(self):
         """Shorter than a shear wave takes through three elements: 2.87 (m^2/(r E*^2 V))^(1/5) (Johnson 1985, eq. 11.25)."""

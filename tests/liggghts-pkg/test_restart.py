@@ -182,15 +182,19 @@ damping: {mass: 1e4}
         self.check_refused(self.read(reader(), cut), "damaged")
 
     def test_a_file_of_an_older_version_is_read_with_a_warning(self):
-        for words, restart, whole in ((STRUCTURE, self.of_solid, self.solid), (RIGID, self.of_floor, self.floor)):
+        uncorrected = STRUCTURE + " compliance none"
+        for words, restart, whole in ((uncorrected, *self.written(uncorrected)), (RIGID, self.of_floor, self.floor)):
             run = self.read(reader(words), older(restart))
             self.check_continues(run, whole)
             self.assertEqual(len(self.warnings(run)), 1, run.text)
             self.assertIn("older version", self.warnings(run)[0])
+        run = self.read(reader(), older(self.of_solid))
+        self.check_refused(run, "older version", "not corrected", "'compliance none'", "another ID")
 
     def test_contact_memory_of_another_kind_is_refused(self):
         run = self.read(reader(models="model hertz tangential no_history"), self.of_solid)
-        self.check_refused(run, "history values", "keep 0", "another ID")
+        self.check_refused(run, "27 history values", "keep 24", "another ID")
+        self.check_refused(self.read(reader(STRUCTURE + " compliance none"), self.of_solid), "27 history values", "keep 3", "'compliance'")
         self.check_refused(self.read(reader(STRUCTURE + " contacts 3"), self.of_solid), "use 'contacts 4'")
         self.check_continues(self.read(reader(STRUCTURE + " contacts 6"), self.of_solid), self.solid)
 

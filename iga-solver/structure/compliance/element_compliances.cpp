@@ -37,9 +37,12 @@ void expect_quadrature(Quadrature quadrature) {
         "local compliances are known for quadratures 'full' and 'reduced', given 'zou'");
 }
 
-/// p + 1 layers of elements around the one that is hit.
-LocalExtent extent_for(const nurbs::Space<3>& space) {
-  return {std::max({space.degree(0), space.degree(1), space.degree(2)}) + 1};
+void expect_neighbours(const std::vector<nurbs::Volume>& patches) {
+  int elements = 0;
+  for (const nurbs::Volume& patch : patches) elements += patch.space.element_count();
+  if (elements < 2)
+    throw std::invalid_argument(
+        "local compliances are known of bodies with elements beside the one that is hit, given a single one");
 }
 
 }  // namespace
@@ -51,6 +54,7 @@ ElementCompliances::ElementCompliances(ReferenceBody body, const std::vector<Ski
       skin_(skin),
       shared_(body_, near_, skin_, surfaces_) {
   expect_quadrature(body_.quadrature);
+  expect_neighbours(body_.patches);
   for (const SkinPiece& piece : skin_) {
     const nurbs::Volume& patch = body_.patches[piece.patch];
     expect_law(*body_.materials[piece.patch]);

@@ -6,6 +6,10 @@
 
 namespace structure {
 
+LocalExtent extent_for(const nurbs::Space<3>& space) {
+  return {std::max({space.degree(0), space.degree(1), space.degree(2)}) + 1};
+}
+
 LocalPatch::LocalPatch(const ReferenceBody& body, const NearElements& near, const BodyElement& hit,
                        const LocalExtent& extent)
     : body_(body), hit_(hit), elements_(near.around(hit, extent.layers, extent.reach)) {

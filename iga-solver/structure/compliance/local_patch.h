@@ -16,6 +16,9 @@ struct LocalExtent {
   double reach = 0.7;
 };
 
+/// p + 1 layers of elements around the one that is hit.
+LocalExtent extent_for(const nurbs::Space<3>& space);
+
 class LocalPatch {
  public:
   /// Keeps a reference to the body.

@@ -16,6 +16,7 @@
 #include "nurbs/refinement.h"
 #include "point_force.h"
 #include "structure/compliance/compliance_tables.h"
+#include "structure/compliance/flat_elements.h"
 #include "structure/weld.h"
 #include "top.h"
 
@@ -259,9 +260,11 @@ TEST(Compliance, OfAFewElementsLeavesWhatAFinerMeshDoes) {
 }
 
 TEST(Compliance, OfASingleElementIsRefused) {
-  ComplianceTables tables(block_body({1, 1, 1}, {1, 1, 1}, 2), kTop);
-  EXPECT_THAT([&] { tables.of(0, 0); },
-              ThrowsMessage<std::invalid_argument>(HasSubstr("a body of 1 elements has too few")));
+  EXPECT_THAT(
+      [] {
+        ComplianceTables(block_body({1, 1, 1}, {1, 1, 1}, 2), kTop);
+      },
+      ThrowsMessage<std::invalid_argument>(HasSubstr("given a single one")));
 }
 
 TEST(Compliance, GoesAcrossWelds) {
@@ -324,8 +327,34 @@ TEST(Compliance, RefusesWhatItDoesNotKnow) {
               ThrowsMessage<std::invalid_argument>(HasSubstr("degrees 2 and 3, given 4, 4, 4")));
   EXPECT_THAT([&] { ComplianceTables(body_of(patch, 1.0, Quadrature::zou), kTop); },
               ThrowsMessage<std::invalid_argument>(HasSubstr("given 'zou'")));
-  ComplianceTables flat(block_body({40, 40, 2}, {9, 9, 170}, 2), kTop);
-  EXPECT_THAT([&] { flat.of(0, 4 + 9 * 4); }, ThrowsMessage<std::invalid_argument>(HasSubstr("too flat")));
+  const structure::ReferenceBody flat = block_body({40, 40, 2}, {9, 9, 170}, 2);
+  EXPECT_THAT([&] { ComplianceTables(flat, kTop).of(0, 4 + 9 * 4); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("too flat")));
+  EXPECT_THAT([&] { structure::expect_no_flat_elements(flat, kTop); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("too flat")));
+}
+
+// Which no table has to be asked for.
+TEST(Compliance, SaysBeforehandHowManyUnknownsTakePart) {
+  const Vector3 size(8.0, 6.0, 3.0);
+  for (const int degree : {2, 3})
+    for (const nurbs::Indices<3>& elements :
+         {nurbs::Indices<3>{8, 6, 3}, {16, 12, 1}, {32, 24, 1}, {12, 30, 2}, {4, 3, 12}, {9, 2, 1}}) {
+      const structure::ReferenceBody body = block_body(size, elements, degree);
+      const structure::NearElements near(body);
+      const nurbs::Space<3>& space = body.patches[0].space;
+      const structure::LocalExtent extent = structure::extent_for(space);
+      for (const nurbs::Indices<3>& at :
+           {nurbs::Indices<3>{elements[0] / 2, elements[1] / 2, elements[2] - 1},
+            {0, elements[1] / 3, elements[2] - 1}}) {
+        const int element = space.element_index(at);
+        const double there = 3.0 * structure::LocalPatch(body, near, {0, element}, extent).free_count();
+        const double about = structure::unknowns_about(body.patches[0], element, extent);
+        EXPECT_GT(about, 0.85 * there) << degree << " " << elements[0] << " " << elements[1];
+        EXPECT_LT(about, 1.4 * there) << degree << " " << elements[0] << " " << elements[1];
+      }
+    }
+  EXPECT_NO_THROW(structure::expect_no_flat_elements(block_body(size, {8, 6, 3}, 2), kTop));
 }
 
 }  // namespace
