@@ -217,10 +217,12 @@ std::string alarm_of_mesh(const contact::ContactLoop& loop, bool can_be_correcte
     return fmt::format(
         "the contact of {} is too short for 'compliance corrected', which is static: it lasts {:.2g} of what "
         "a "
-        "shear wave takes through three elements of size {:.3g} ({} contacts of this kind in this run); use "
-        "elements of at most {:.3g} there, or 'compliance none'",
+        "shear wave takes through three elements of size {:.3g} ({} contacts of this kind in this run), so "
+        "that "
+        "some of the {:.2g} % of its force that is corrected is not missing; use elements of at most {:.3g} "
+        "there, or 'compliance none'",
         place(not_static), 1.0 / not_static.value, not_static.size, not_static.count,
-        rounded_down(not_static.size / not_static.value));
+        100.0 * not_static.share, rounded_down(not_static.size / not_static.value));
   return "";
 }
 

@@ -86,8 +86,8 @@ void ContactLoop::look_at(const ParticleView& particles, const StepInfo& step, c
 inline void ContactLoop::look_at_mesh(const ParticleView& particles, const StepInfo& step,
                                       double hertz_constant, Contact& contact) {
   contact.missing = mesh_->missing(contact, hertz_constant);
-  const auto raise = [&](MeshAlarm& alarm, double value) {
-    alarm.raise(contact.tag, contact.centre - contact.delta, mesh_->size(contact.foot), value);
+  const auto raise = [&](MeshAlarm& alarm, double value, double corrected = 0.0) {
+    alarm.raise(contact.tag, contact.centre - contact.delta, mesh_->size(contact.foot), value, corrected);
   };
   if (!correction_) {
     if (contact.missing > kMissing) raise(uncorrected_, contact.missing);
@@ -97,8 +97,8 @@ inline void ContactLoop::look_at_mesh(const ParticleView& particles, const StepI
   const int i = contact.particle;
   const double approach = contact.normal().dot(contact.wall_velocity - particles.velocity(i));
   if (!particles.mass || !(kFirst * approach * step.dt > contact.overlap) || !(contact.overlap > 0.0)) return;
-  const double waves = mesh_->waves(contact, hertz_constant, particles.mass[i], approach);
-  if (waves > 1.0) raise(not_static_, waves);
+  const double mass = particles.mass[i], waves = mesh_->waves(contact, hertz_constant, mass, approach);
+  if (waves > 1.0) raise(not_static_, waves, mesh_->missing_at_peak(contact, hertz_constant, mass, approach));
 }
 
 void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step, const ContactModel& model,

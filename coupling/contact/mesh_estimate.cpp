@@ -52,16 +52,28 @@ MeshEstimate::MeshEstimate(const nurbs::MultiPatch& surface, std::vector<couplin
 }
 
 double MeshEstimate::missing(const Contact& contact, double hertz_constant) const {
+  return missing(contact, hertz_constant, contact.overlap);
+}
+
+double MeshEstimate::missing_at_peak(const Contact& contact, double hertz_constant, double mass,
+                                     double speed) const {
+  return missing(contact, hertz_constant, depth(contact, hertz_constant, mass, speed));
+}
+
+double MeshEstimate::missing(const Contact& contact, double hertz_constant, double overlap) const {
   constexpr double kCorner = 0.8;  // of quadratic elements
-  const double a = std::sqrt(contact.effective_radius * contact.overlap), E_star = 0.75 * hertz_constant;
+  const double a = std::sqrt(contact.effective_radius * overlap), E_star = 0.75 * hertz_constant;
   const double modulus = solids_[contact.foot.patch].plane_modulus;
   return std::max(0.0, kCorner * E_star * a / (modulus * size(contact.foot)));
 }
 
+double MeshEstimate::depth(const Contact& contact, double hertz_constant, double mass, double speed) {
+  return std::pow(1.25 * mass * speed * speed / (hertz_constant * std::sqrt(contact.effective_radius)), 0.4);
+}
+
 double MeshEstimate::duration(const Contact& contact, double hertz_constant, double mass, double speed) {
   constexpr double kDuration = 2.943;
-  const double K = hertz_constant * std::sqrt(contact.effective_radius);
-  return kDuration * std::pow(1.25 * mass * speed * speed / K, 0.4) / speed;
+  return kDuration * depth(contact, hertz_constant, mass, speed) / speed;
 }
 
 double MeshEstimate::waves(const Contact& contact, double hertz_constant, double mass, double speed) const {

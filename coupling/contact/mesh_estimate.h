@@ -21,8 +21,11 @@ class MeshEstimate {
   /// 0.8 (E*/E') a/h, a = (r* overlap)^(1/2): the share of the force that is missing [-].  `hertz_constant`:
   /// ContactModel's, 4/3 E*; 0 if that is not a number, and without overlap.
   double missing(const Contact& contact, double hertz_constant) const;
+  /// The same at the end of an impact's approach, overlap delta = (5 m V^2 / (4 K))^(2/5) (Johnson 1985, sec.
+  /// 11.4) [-].
+  double missing_at_peak(const Contact& contact, double hertz_constant, double mass, double speed) const;
   /// 3 h/c_s over the time that a sphere of this mass is in contact after an impact at a speed, 2.943 delta/V
-  /// with delta = (5 m V^2 / (4 K))^(2/5) (Johnson 1985, sec. 11.4) [-]; 0 if the constant is not a number.
+  /// [-]; 0 if the constant is not a number.
   double waves(const Contact& contact, double hertz_constant, double mass, double speed) const;
   /// Of the body, what waves reach and come back from while that sphere is in contact: pi rho a min(a, T)^2
   /// within a = c_s t/2 [mass]; T: its thickness, from volume and area of the surface.
@@ -38,11 +41,13 @@ class MeshEstimate {
  private:
   MeshEstimate(const nurbs::MultiPatch& surface, std::vector<coupling::MeshedSolid> solids,
                const nurbs::NodalVectors& control_points);
+  double missing(const Contact& contact, double hertz_constant, double overlap) const;
   int element(const nurbs::SurfacePoint& foot) const {
     return surface_.first_element(foot.patch) + surface_.patch(foot.patch).element_at(foot.xi);
   }
 
-  /// How long that sphere is in contact [time].
+  /// How deep that sphere comes [length], and how long it is in contact [time].
+  static double depth(const Contact& contact, double hertz_constant, double mass, double speed);
   static double duration(const Contact& contact, double hertz_constant, double mass, double speed);
 
   const nurbs::MultiPatch& surface_;

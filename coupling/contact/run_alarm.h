@@ -49,21 +49,23 @@ struct MeshAlarm {
   // Of the worst contact:
   double value = 0.0;  ///< [-]
   double size = 0.0;   ///< of the element [length]
+  double share = 0.0;  ///< of its force that is corrected [-]
   nurbs::Vector3 foot = nurbs::Vector3::Zero();
   long tag = 0;
 
-  void raise(long of_tag, const nurbs::Vector3& at, double of_size, double of_value) {
+  void raise(long of_tag, const nurbs::Vector3& at, double of_size, double of_value, double of_share = 0.0) {
     ++count;
-    if (of_value > value) value = of_value, size = of_size, foot = at, tag = of_tag;
+    if (of_value > value) value = of_value, size = of_size, share = of_share, foot = at, tag = of_tag;
   }
 
   /// Over all ranks (collective).
   MeshAlarm of_all_ranks(MPI_Comm world) const {
     const int worst = rank_of_largest(value, world);
     MeshAlarm all = *this;
-    double numbers[] = {value, size, foot[0], foot[1], foot[2]};
-    MPI_Bcast(numbers, 5, MPI_DOUBLE, worst, world);
-    all.value = numbers[0], all.size = numbers[1], all.foot = {numbers[2], numbers[3], numbers[4]};
+    double numbers[] = {value, size, share, foot[0], foot[1], foot[2]};
+    MPI_Bcast(numbers, 6, MPI_DOUBLE, worst, world);
+    all.value = numbers[0], all.size = numbers[1], all.share = numbers[2];
+    all.foot = {numbers[3], numbers[4], numbers[5]};
     MPI_Bcast(&all.tag, 1, MPI_LONG, worst, world);
     MPI_Allreduce(&count, &all.count, 1, MPI_LONG, MPI_SUM, world);
     return all;

@@ -376,9 +376,12 @@ class Statics(unittest.TestCase):
             deck = bob.prelude(**settings) + bob.wall(MODELS, CORRECTED.replace("corrected", words)) + bob.output((7,)) + "run 20\n"
             text = decks.good(deck, files={"block.yaml": block}).text
             found = re.findall(r"WARNING: .*the contact of particle 1 at \(.*\) is too short for 'compliance corrected', which is static: .* "
-                               r"three elements of size ([\d.e-]+) \(1 contacts.* elements of at most ([\d.e-]+) there", text)  # fmt: skip
+                               r"three elements of size ([\d.e-]+) \(1 contacts.* some of the ([\d.e-]+) % of its force .* elements of at most "
+                               r"([\d.e-]+) there", text)  # fmt: skip
             self.assertEqual(len(found), expected, f"{words} {ratio}")
-            for size, advised in found:
+            depth = (1.25 * mass * velocity**2 / (4.0 / 3.0 * E_star * np.sqrt(bob.RADIUS))) ** 0.4
+            for size, percent, advised in found:
+                self.assertAlmostEqual(float(percent), 100.0 * missing(depth, h), delta=0.05 * float(percent))
                 self.assertAlmostEqual(float(size), h, delta=0.01 * h)
                 self.assertAlmostEqual(float(advised), limit, delta=0.03 * limit)
 

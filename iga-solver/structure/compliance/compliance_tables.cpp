@@ -128,13 +128,11 @@ std::pair<std::vector<double>, int> ComplianceTables::taken_off(int piece, int e
 
 /// What links take at the points of an element.
 std::vector<double> ComplianceTables::linked(int piece, int element) const {
-  std::vector<double> values;
+  std::vector<SkinPoint> feet;
   const FaceSurface& surface = undeformed_->surface(piece);
-  for (const nurbs::Parameter<2>& xi : table_points(surface.space(), element)) {
-    const SkinPoint foot = surface.at(element, xi);
-    values.push_back(links_->between(foot, foot));
-  }
-  return values;
+  for (const nurbs::Parameter<2>& xi : table_points(surface.space(), element))
+    feet.push_back(surface.at(element, xi));
+  return links_->taken_at(feet);
 }
 
 const ComplianceTable& ComplianceTables::find(int piece, int element) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <set>
 #include <utility>
 
 #include "structure/conditions/skin_surface.h"
@@ -42,11 +41,12 @@ void for_each_step(const nurbs::Space<2>& space, int element, Function f) {
     }
 }
 
-/// Of a force at a foot, what a node takes.
-double share(const SkinPoint& foot, Id node) {
-  const auto at = std::find(foot.nodes.begin(), foot.nodes.end(), node);
-  return at == foot.nodes.end() ? 0.0 : foot.R[at - foot.nodes.begin()];
-}
+/// By what a unit force on nodes of an element differs between the ends of a link: R[first] - R[second], an
+/// end that is not one of these has none.
+struct NearLink {
+  int first, second;  ///< places among the nodes, or -1
+  double give;
+};
 
 }  // namespace
 
@@ -77,17 +77,37 @@ CrossCompliance::CrossCompliance(const ReferenceBody& body, const std::vector<Sk
   }
 }
 
-double CrossCompliance::between(const SkinPoint& foot, const SkinPoint& other) const {
-  std::set<int> links;
-  for (const Id node : foot.nodes)
-    if (const auto found = links_of_.find(node); found != links_of_.end())
-      links.insert(found->second.begin(), found->second.end());
-  double sum = 0.0;
-  for (const int link : links) {
-    const auto& [first, second, give] = links_[link];
-    sum += give * (share(foot, first) - share(foot, second)) * (share(other, first) - share(other, second));
+std::vector<double> CrossCompliance::taken_at(const std::vector<SkinPoint>& feet) const {
+  const std::vector<Id>& nodes = feet.front().nodes;
+  const auto place = [&](Id node) {
+    const auto at = std::find(nodes.begin(), nodes.end(), node);
+    return at == nodes.end() ? -1 : static_cast<int>(at - nodes.begin());
+  };
+  std::vector<NearLink> near;
+  std::vector<int> first_place;  // of each node, which may be there more than once: at a pole
+  for (std::size_t a = 0; a < nodes.size(); ++a) {
+    first_place.push_back(place(nodes[a]));
+    const auto found = links_of_.find(nodes[a]);
+    if (found == links_of_.end() || first_place[a] != static_cast<int>(a)) continue;
+    for (const int link : found->second) {
+      const int ends[] = {place(links_[link].first), place(links_[link].second)};
+      const bool is_its_turn = std::max(ends[0], ends[1]) == static_cast<int>(a);
+      if (is_its_turn) near.push_back({ends[0], ends[1], links_[link].give});
+    }
   }
-  return sum;
+  std::vector<double> taken, shares;
+  for (const SkinPoint& foot : feet) {
+    shares.assign(nodes.size(), 0.0);
+    for (std::size_t a = 0; a < nodes.size(); ++a) shares[first_place[a]] += foot.R[a];
+    const auto share = [&](int place) { return place < 0 ? 0.0 : shares[place]; };
+    double sum = 0.0;
+    for (const auto& [first, second, give] : near) {
+      const double step = share(first) - share(second);
+      sum += give * step * step;
+    }
+    taken.push_back(sum);
+  }
+  return taken;
 }
 
 }  // namespace structure

@@ -35,8 +35,8 @@ class CrossCompliance {
 
   /// Each once, rising.
   const std::vector<Link>& links() const { return links_; }
-  /// What is taken off at one foot for a unit force at the other [length/force].
-  double between(const SkinPoint& foot, const SkinPoint& other) const;
+  /// What is taken off at each of these feet, all on one element, for a unit force there [length/force].
+  std::vector<double> taken_at(const std::vector<SkinPoint>& feet) const;
 
  private:
   std::vector<Link> links_;

@@ -42,6 +42,19 @@ std::vector<double> beside(int finer, int degree, double nu, const Parameter<2>&
   return found;
 }
 
+/// What links take off at one foot for a unit force at the other.
+double taken_off(const CrossCompliance& cross, const structure::SkinPoint& foot,
+                 const structure::SkinPoint& other) {
+  const auto share = [](const structure::SkinPoint& of, structure::Id node) {
+    const auto at = std::find(of.nodes.begin(), of.nodes.end(), node);
+    return at == of.nodes.end() ? 0.0 : of.R[at - of.nodes.begin()];
+  };
+  double sum = 0.0;
+  for (const auto& [first, second, give] : cross.links())
+    sum += give * (share(foot, first) - share(foot, second)) * (share(other, first) - share(other, second));
+  return sum;
+}
+
 /// What is wrong at distances from a foot, along a diagonal or not, over c at the foot; and without links.
 struct Wrong {
   double with_links = 0.0, without = 0.0;
@@ -65,7 +78,9 @@ Wrong wrong_beside(const Parameter<2>& foot, int degree, double nu, const std::v
   const double c = tables.direct(0, element, {foot[0] / kWide, foot[1] / kWide})(2, 2);
   Wrong most;
   for (std::size_t k = 0; k < others.size(); ++k) {
-    const double without = mesh[k] - fine[k], with_links = without - cross.between(at(foot), at(others[k]));
+    const structure::SkinPoint here = at(foot), there = at(others[k]);
+    EXPECT_NEAR(cross.taken_at({here})[0], taken_off(cross, here, here), 1e-12 * c);
+    const double without = mesh[k] - fine[k], with_links = without - taken_off(cross, here, there);
     most.without = std::max(most.without, std::abs(without) / c);
     most.with_links = std::max(most.with_links, std::abs(with_links) / c);
   }

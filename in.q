@@ -1,0 +1,2 @@
+units si
+quit
