@@ -36,7 +36,7 @@ const structure::ComplianceTable& MeshCompliance::table_of(int patch, int elemen
     return tables_.of(patch, element);
   } catch (const std::invalid_argument& problem) {
     throw std::invalid_argument(
-        fmt::format("{}; use elements of other sides there, or 'compliance none'", problem.what()));
+        fmt::format("{}; use other elements there, or 'compliance none'", problem.what()));
   }
 }
 
