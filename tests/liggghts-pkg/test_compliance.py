@@ -358,6 +358,10 @@ class Default(unittest.TestCase):
                 uncorrected, told, _ = self.bounce(**without)
                 self.assertEqual(told, [])
                 np.testing.assert_array_equal(force, uncorrected)
+        flat = bob.prelude(**SETTINGS) + bob.wall(MODELS, CORRECTED) + "run 150\n"
+        run = decks.run(flat, files={"block.yaml": glass((4e-3, 4e-3, 2e-3), (28, 28, 1))})
+        self.assertNotEqual(run.code, 0)
+        self.assertRegex(run.errors[0], "no local compliance of the element about .* too flat; .* or 'compliance none'")
 
 
 class Statics(unittest.TestCase):

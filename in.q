@@ -1,2 +1,0 @@
-units si
-quit
