@@ -52,6 +52,7 @@ class FootBasis {
   }
   /// The first of them, by which elements differ.
   int first_control_point() const { return values_.first; }
+  const nurbs::SurfaceValues& values() const { return values_; }
 
  private:
   nurbs::SurfaceValues values_;
@@ -76,6 +77,7 @@ class FootSlopes {
     for_each(slopes_.values, f);
   }
   int first_control_point() const { return slopes_.values.first; }
+  const nurbs::SurfaceSlopes& slopes() const { return slopes_; }
 
  private:
   nurbs::SurfaceSlopes slopes_;

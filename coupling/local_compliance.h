@@ -36,6 +36,26 @@ class LocalCompliance {
   };
   /// Each pair once, rising, the same on every rank.
   virtual std::vector<Link> links() const { return {}; }
+  /// What spreads a force R over the net about its foot: to R comes w Z, Z being of each node's force these
+  /// shares, which sum to zero (structure/compliance/net_mean.h).
+  struct Share {
+    NodeId from, to;
+    double share;
+  };
+  /// Rising, the same on every rank; none where forces are not spread.
+  virtual std::vector<Share> shares() const { return {}; }
+  /// What comes to Value for a force that is spread: c + 2 w one + w^2 both, also of what links take.
+  struct Spread {
+    Component moment;                ///< second one of Z, the mean of both directions [length^2]
+    Component height;                ///< how far Z is above the foot where the body is undeformed [length]
+    Component one, both;             ///< along the normal [length/force]
+    std::array<Component, 3> along_one, along_both;  ///< likewise
+    Component taken;                 ///< as Value has it, with its changes
+    double taken_one, taken_both;
+  };
+  /// As find(); asked for few contacts.
+  virtual void find_spread(const nurbs::SurfacePoint& /*foot*/, const nurbs::Indices<2>& /*element*/,
+                           Spread& /*spread*/) {}
   /// `element`: of the patch, that the foot is on (KnotVector::element_at).  On one that was not asked for
   /// before this takes some time.  Throws std::invalid_argument, with the place, where it is not known.
   virtual void find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,

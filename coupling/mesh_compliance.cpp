@@ -31,25 +31,46 @@ std::vector<LocalCompliance::Link> MeshCompliance::links() const {
   return links;
 }
 
-const structure::ComplianceTable& MeshCompliance::table_of(int patch, int element) {
+std::vector<LocalCompliance::Share> MeshCompliance::shares() const {
+  std::vector<Share> shares;
+  for (const auto& [from, to, share] : tables_.mean().shares()) shares.push_back({from, to, share});
+  return shares;
+}
+
+template <class Ask>
+auto MeshCompliance::known(Ask ask) -> decltype(ask()) {
   try {
-    return tables_.of(patch, element);
+    return ask();
   } catch (const std::invalid_argument& problem) {
     throw std::invalid_argument(
         fmt::format("{}; use other elements there, or 'compliance none'", problem.what()));
   }
 }
 
+namespace {
+
+struct Bounds {
+  nurbs::Parameter<2> low, high;
+};
+
+Bounds bounds_of(const nurbs::Space<2>& space, const nurbs::Indices<2>& element) {
+  Bounds bounds;
+  for (int d = 0; d < 2; ++d) {
+    bounds.low[d] = space.knots(d).breaks()[element[d]];
+    bounds.high[d] = space.knots(d).breaks()[element[d] + 1];
+  }
+  return bounds;
+}
+
+}  // namespace
+
 void MeshCompliance::find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,
                           Value& value) {
   const nurbs::Space<2>& space = spaces_[foot.patch];
-  nurbs::Parameter<2> low, high;
-  for (int d = 0; d < 2; ++d) {
-    low[d] = space.knots(d).breaks()[element[d]];
-    high[d] = space.knots(d).breaks()[element[d] + 1];
-  }
+  const auto [low, high] = bounds_of(space, element);
   using Table = structure::ComplianceTable;
-  const Table& table = table_of(foot.patch, space.element_index(element));
+  const Table& table =
+      known([&]() -> const Table& { return tables_.of(foot.patch, space.element_index(element)); });
   const double taken = table.taken(low, high, foot.xi);
   if (!with_shear) {
     const Table::Value normal = table.at(Table::normal, low, high, foot.xi);
@@ -62,6 +83,33 @@ void MeshCompliance::find(const nurbs::SurfacePoint& foot, const nurbs::Indices<
   table.together(low, high, foot.xi, [&](int component, const Table::Value& found) {
     *components[component] = {found.c, found.change};
   });
+}
+
+void MeshCompliance::find_spread(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element,
+                                 Spread& spread) {
+  const nurbs::Space<2>& space = spaces_[foot.patch];
+  const auto [low, high] = bounds_of(space, element);
+  using Table = structure::SpreadTable;
+  const Table& table =
+      known([&]() -> const Table& { return tables_.spread_of(foot.patch, space.element_index(element)); });
+  Component taken_one, taken_both;
+  std::array<Component*, Table::kScalars> scalars;
+  scalars[Table::one] = &spread.one;
+  scalars[Table::both] = &spread.both;
+  for (int k = 0; k < 3; ++k) {
+    scalars[Table::one + 1 + k] = &spread.along_one[k];
+    scalars[Table::both + 1 + k] = &spread.along_both[k];
+  }
+  scalars[Table::moment] = &spread.moment;
+  scalars[Table::height] = &spread.height;
+  scalars[Table::taken] = &spread.taken;
+  scalars[Table::taken_one] = &taken_one;
+  scalars[Table::taken_both] = &taken_both;
+  table.for_each(low, high, foot.xi, [&](int scalar, const structure::ComplianceTable::Value& found) {
+    *scalars[scalar] = {found.c, found.change};
+  });
+  spread.taken_one = taken_one.c;
+  spread.taken_both = taken_both.c;
 }
 
 void MeshCompliance::follow_strain(const std::vector<nurbs::SurfacePoint>& feet) {

@@ -20,7 +20,10 @@ class MeshCompliance final : public LocalCompliance {
 
   void find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,
             Value& value) override;
+  void find_spread(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element,
+                   Spread& spread) override;
   std::vector<Link> links() const override;
+  std::vector<Share> shares() const override;
   bool follows_strain() const override { return places_ && tables_.follows_strain(); }
   void follow_strain(const std::vector<nurbs::SurfacePoint>& feet) override;
   /// Where all of the body's nodes are, 3 x node count, asked for on all ranks at the same time.
@@ -29,7 +32,8 @@ class MeshCompliance final : public LocalCompliance {
   structure::ComplianceTables& tables() { return tables_; }
 
  private:
-  const structure::ComplianceTable& table_of(int patch, int element);
+  template <class Ask>
+  auto known(Ask ask) -> decltype(ask());
 
   std::vector<nurbs::Space<2>> spaces_;  // of the patches
   structure::ComplianceTables tables_;

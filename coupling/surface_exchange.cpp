@@ -100,6 +100,9 @@ void SurfaceExchange::find_links() {
   const std::vector<LocalCompliance::Link> links =
       compliance ? compliance->links() : std::vector<LocalCompliance::Link>();
   if (!links.empty()) shift_ = std::make_unique<CrossShift>(solver_.surface().map, links);
+  const std::vector<LocalCompliance::Share> shares =
+      compliance ? compliance->shares() : std::vector<LocalCompliance::Share>();
+  if (!shares.empty()) spread_ = std::make_unique<NetSpread>(solver_.surface().map, shares);
 }
 
 void SurfaceExchange::import_masses() {
@@ -135,7 +138,10 @@ void SurfaceExchange::import_followed() {
 
 void SurfaceExchange::follow(const std::vector<int>& elements) {
   followed_ = control_points_around(elements, solver_.surface().topology);
-  if (owners_ && shift_) follow_linked();
+  if (spread_)
+    follow_also([this](int c, auto take) { spread_->for_each_share(c, [&](int to, double) { take(to); }); });
+  // Forces on an element are wanted by the owners of what it is linked to, who may be beyond a weld.
+  if (owners_ && shift_) follow_also([this](int c, auto take) { shift_->for_each_linked(c, take); });
   brought_.clear();
   std::copy_if(followed_.begin(), followed_.end(), std::back_inserter(brought_),
                [this](int c) { return map_.hangs(c); });
@@ -149,13 +155,14 @@ void SurfaceExchange::follow(const std::vector<int>& elements) {
   for (std::size_t k = 0; k < own_.size(); ++k) own_places_.col(k) = map_.at(own_[k], solver_.positions());
 }
 
-// Forces on an element are wanted by the owners of what it is linked to, who may be beyond a weld.
-void SurfaceExchange::follow_linked() {
-  std::vector<int> linked = followed_;
-  for (const int c : followed_) shift_->for_each_linked(c, [&](int other) { linked.push_back(other); });
-  std::sort(linked.begin(), linked.end());
-  linked.erase(std::unique(linked.begin(), linked.end()), linked.end());
-  followed_ = std::move(linked);
+/// for_each_beside(control point, take): takes those beside one that is followed.
+template <class ForEach>
+void SurfaceExchange::follow_also(ForEach for_each_beside) {
+  std::vector<int> all = followed_;
+  for (const int c : followed_) for_each_beside(c, [&](int other) { all.push_back(other); });
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  followed_ = std::move(all);
 }
 
 double SurfaceExchange::largest_motion() const {
@@ -188,12 +195,14 @@ std::vector<double> SurfaceExchange::all(const std::vector<double>& here) const 
   return all;
 }
 
+void SurfaceExchange::touch(int control_point) {
+  if (!is_touched_[control_point]) touched_.push_back(control_point);
+  is_touched_[control_point] = true;
+}
+
 template <class Basis>
 void SurfaceExchange::touch(const Basis& foot) {
-  foot.for_each_control_point([&](int c) {
-    if (!is_touched_[c]) touched_.push_back(c);
-    is_touched_[c] = true;
-  });
+  foot.for_each_control_point([&](int c) { touch(c); });
 }
 
 void SurfaceExchange::expect_to_stay() const {
@@ -223,6 +232,9 @@ void SurfaceExchange::spread(const ContactForce& contact) {
   if (contact.has_couple) {
     const FootSlopes foot = {surface.topology, foot_of(contact)};
     foot.distribute(F, nurbs::Tangents::Map(contact.couple[0]), surface_forces_);
+    if (contact.is_spread)
+      spread_->distribute(foot.slopes().values, Vector3::Map(contact.spread), surface_forces_,
+                          [this](int c) { touch(c); });
     stiffness_[foot.first_control_point()] += contact.stiffness;
     return touch(foot);
   }
@@ -288,9 +300,13 @@ void SurfaceExchange::send_to_owners(const std::vector<ContactForce>& local) {
       const int owner = owners_->owner(c);
       if (std::find(owners.begin(), owners.end(), owner) == owners.end()) owners.push_back(owner);
     };
-    FootBasis(solver_.surface().topology, foot_of(contact)).for_each_control_point([&](int c) {
+    const auto take_with_linked = [&](int c) {
       take(c);
       if (shift_) shift_->for_each_linked(c, take);
+    };
+    FootBasis(solver_.surface().topology, foot_of(contact)).for_each_control_point([&](int c) {
+      take_with_linked(c);
+      if (contact.is_spread) spread_->for_each_share(c, [&](int to, double) { take_with_linked(to); });
     });
     for (const int owner : owners) (owner == me ? contacts_ : to_rank_[owner]).push_back(contact);
   }

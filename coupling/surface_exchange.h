@@ -13,6 +13,7 @@
 
 #include "coupling/contact_force.h"
 #include "coupling/cross_shift.h"
+#include "coupling/net_spread.h"
 #include "coupling/structure_solver.h"
 #include "coupling/surface_owners.h"
 
@@ -44,6 +45,8 @@ class SurfaceExchange {
   const NodalVectors& velocities() const { return velocities_; }  ///< 3 x n_control_points [length/time]
   /// StructureSolver::inverse_node_mass of all control points (3 x n_control_points), or empty.
   const NodalVectors& inverse_masses() const { return inverse_masses_; }
+  /// What contacts that are corrected are spread by; null: they are not.
+  const NetSpread* net_spread() const { return spread_.get(); }
   /// The control points that import_followed() brings to this rank, rising; all, before the first follow().
   const std::vector<int>& followed() const { return followed_; }
   /// Largest distance of a control point from where it was at the last follow(), of the whole surface; not a
@@ -73,11 +76,13 @@ class SurfaceExchange {
  private:
   void import_own(const std::vector<int>& control_points);
   void find_links();
-  void follow_linked();
+  template <class ForEach>
+  void follow_also(ForEach for_each_beside);
   void import_masses();
   void gather(const std::vector<ContactForce>& local);
   void send_to_owners(const std::vector<ContactForce>& local);
   void spread(const ContactForce& contact);
+  void touch(int control_point);
   template <class Basis>
   void touch(const Basis& foot);
   void expect_to_stay() const;
@@ -89,6 +94,7 @@ class SurfaceExchange {
   std::vector<int> own_;                   ///< these control points
   std::unique_ptr<SurfaceOwners> owners_;  ///< of a structure in parts
   std::unique_ptr<CrossShift> shift_;      ///< of a body whose mesh gives way beside contacts
+  std::unique_ptr<NetSpread> spread_;      ///< likewise
   std::vector<int> followed_;
   std::vector<int> brought_;  ///< of own_, those that this rank or another follows
   NodalVectors own_places_;   ///< of own_, at the last follow()

@@ -88,7 +88,7 @@ void LiggghtsContactModel::hear_of_corrections(const Contact* contacts, int coun
   if (!wall_.store_force()) return;
   for (const Contact* contact = contacts; contact < contacts + count; ++contact)
     if (const contact::ContactCorrection* const by = contact->correction)
-      Vector3::Map(wall_.fix_wallforce()->array_atom[contact->particle]) += by->tangents * by->follows;
+      Vector3::Map(wall_.fix_wallforce()->array_atom[contact->particle]) += by->further_force();
 }
 
 }  // namespace liggghts_pkg

@@ -199,6 +199,7 @@ std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, double 
 
 std::string alarm_of_mesh(const contact::ContactLoop& loop, bool can_be_corrected, MPI_Comm world) {
   const contact::MeshAlarm uncorrected = loop.uncorrected().of_all_ranks(world),
+                           turning = loop.turning().of_all_ranks(world),
                            not_static = loop.not_static().of_all_ranks(world);
   constexpr double kMost = contact::ContactLoop::kMissing;
   const auto place = [](const contact::MeshAlarm& alarm) {
@@ -213,6 +214,13 @@ std::string alarm_of_mesh(const contact::ContactLoop& loop, bool can_be_correcte
         uncorrected.size, place(uncorrected), 100.0 * uncorrected.value, uncorrected.count, 100.0 * kMost,
         can_be_corrected ? "'compliance corrected', or " : "",
         rounded_up(uncorrected.size * uncorrected.value / kMost));
+  if (turning.count > 0)
+    return fmt::format(
+        "elements of size {:.3g} are so small beside the contact of {} that they turn below it ({} contacts "
+        "of this kind in this run): its force may be some per cent too low; use elements of at least {:.3g} "
+        "there",
+        turning.size, place(turning), turning.count,
+        rounded_up(turning.size * std::cbrt(turning.value / contact::ContactLoop::kTurning)));
   if (not_static.count > 0)
     return fmt::format(
         "the contact of {} is too short for 'compliance corrected', which is static: it lasts {:.2g} of what "

@@ -76,6 +76,9 @@ template <class Vector>
 void put(const Vector& v, ShearBlock::Lanes* lanes, int lane) {
   for (int d = 0; d < 3; ++d) lanes[d][lane] = v[d];
 }
+/// What is along the surface.
+Vector3 across(const Vector3& v, const Vector3& n) { return v - n.dot(v) * n; }
+
 Vector3 vector_of(const ShearBlock::Lanes* lanes, int lane) {
   return {lanes[0][lane], lanes[1][lane], lanes[2][lane]};
 }
@@ -88,8 +91,14 @@ ComplianceCorrection::ComplianceCorrection(coupling::LocalCompliance& compliance
       wall_(wall),
       mesh_(mesh),
       has_links_(!compliance.links().empty()),
+      net_spread_(wall.net_spread()),
+      keeps_forces_(has_links_ || net_spread_),
       approach_kernel_(approach_kernel(nurbs::simd_level())),
       shear_kernel_(shear_kernel(nurbs::simd_level())) {}
+
+double* ComplianceCorrection::forces_of(const ParticleView& particles, const Contact& contact) {
+  return memory_of(particles, contact);
+}
 
 double ComplianceCorrection::held_gap(const ParticleSlots& slots, int history_count) {
   double gap = 0.0;
@@ -121,6 +130,7 @@ void ComplianceCorrection::before(const ParticleView& particles, const Time& now
   if (damped_count_ > 0) approach_kernel_.damped(damped_, step);
   for (int k = 0; k < count; ++k) {
     if (!before_[k].block) continue;
+    if (net_spread_ && before_[k].block == &elastic_) spread_elastic(particles, now, contacts[k], before_[k]);
     see_overlap(particles, now, contacts[k], before_[k]);
     if (before_[k].block && before_[k].has_shear && !before_[k].is_light)
       enter_shear(particles, model, contacts[k], before_[k]);
@@ -132,11 +142,12 @@ void ComplianceCorrection::before(const ParticleView& particles, const Time& now
 }
 
 void ComplianceCorrection::enter(const ParticleView& particles, const Time& now, const ContactModel& model,
-                                 const Contact& contact, Before& before) {
+                                 Contact& contact, Before& before) {
   const int i = contact.particle;
   before.overlap = contact.overlap, before.distance = contact.distance, before.touches = contact.touches;
-  before.delta = contact.delta, before.wall_velocity = contact.wall_velocity;
+  before.delta = contact.delta, before.wall_velocity = before.met_velocity = contact.wall_velocity;
   before.block = nullptr, before.shear_lane = -1, before.is_light = false;
+  before.knows_spread = false, before.weight = {}, before.expected_spread = 0.0;
   const double damping = model.hertz_damping(i);
   const bool is_damped = damping > 0.0;
   double* const memory = is_damped ? approach_memory_of(particles, contact) : nullptr;
@@ -152,7 +163,7 @@ void ComplianceCorrection::enter(const ParticleView& particles, const Time& now,
   ApproachBlock& block = is_damped ? damped_ : elastic_;
   const int lane = is_damped ? damped_count_++ : elastic_count_++;
   before.block = &block, before.lane = lane;
-  block.overlap[lane] = has_links_ ? overlap_of_others(particles, now, contact, before) : contact.overlap;
+  block.overlap[lane] = keeps_forces_ ? overlap_of_others(particles, now, contact, before) : contact.overlap;
   block.of_particle[lane] = of_particle, block.of_surface[lane] = of_surface;
   block.radius[lane] = contact.effective_radius;
   block.constant[lane] = model.hertz_constant(i);
@@ -166,6 +177,7 @@ void ComplianceCorrection::enter(const ParticleView& particles, const Time& now,
   before.is_light = is_new ? block.credit[lane] == 0.0 : memory[kLight] > 0.0;
   for (int m = 0; m < ApproachBlock::kU; ++m) block.memory[m][lane] = memory[m];
   block.memory[ApproachBlock::kU][lane] = before.n.dot(body_speed(memory));
+  if (net_spread_) spread_damped(particles, now, contact, before);
 }
 
 // The surface is where it was expected, by links, for this contact's own force, too.
@@ -173,8 +185,17 @@ double ComplianceCorrection::overlap_of_others(const ParticleView& particles, co
                                                const Contact& contact, Before& before) const {
   const double* const forces = memory_of(particles, contact);
   before.expected = Vector3::Map(forces + kExpected);
-  if (!now.is_setup) before.expected = 2.0 * Vector3::Map(forces + kLast) - Vector3::Map(forces + kBefore);
-  const double overlap = contact.overlap - before.give.taken * before.expected.dot(before.n);
+  before.expected_spread = forces[kSpreadExpected];
+  if (!now.is_setup) {
+    before.expected = 2.0 * Vector3::Map(forces + kLast) - Vector3::Map(forces + kBefore);
+    before.expected_spread = 2.0 * forces[kSpreadLast] - forces[kSpreadBefore];
+  }
+  double taken = before.give.taken;
+  if (before.expected_spread != 0.0) {
+    know_spread(contact, before);
+    taken += before.expected_spread * before.spread.taken_one;
+  }
+  const double overlap = contact.overlap - taken * before.expected.dot(before.n);
   return before.block == &damped_ ? overlap : std::max(overlap, 0.0);
 }
 
@@ -188,6 +209,10 @@ void ComplianceCorrection::remember(const ParticleView& particles, const Contact
   Vector3::Map(forces + kExpected) = before.expected;
   std::copy_n(forces + kLast, 3, forces + kBefore);
   Vector3::Map(forces + kLast) = contact.force;
+  forces[kSpreadExpected] = before.expected_spread;
+  forces[kSpreadBefore] = forces[kSpreadLast];
+  forces[kSpreadLast] = before.weight.w;
+  forces[kAbove] = before.knows_spread ? before.above : 0.0;
 }
 
 // The energy of the impact, from bodies that weigh a dozen times as much, none from those that weigh thrice
@@ -211,7 +236,7 @@ void ComplianceCorrection::see_overlap(const ParticleView& particles, const Time
       for (int m = 0; m < ApproachBlock::kU; ++m) memory[m] = block.memory[m][lane];
       memory[kLight] = before.is_light ? 1.0 : 0.0;
       body_speed(memory) =
-          before.wall_velocity + (block.memory[ApproachBlock::kU][lane] - block.of_surface[lane]) * before.n;
+          before.met_velocity + (block.memory[ApproachBlock::kU][lane] - block.of_surface[lane]) * before.n;
     }
     contact.touches = block.x[lane] > 0.0;
     if (!contact.touches) {
@@ -236,15 +261,14 @@ void ComplianceCorrection::enter_shear(const ParticleView& particles, const Cont
   put(before.n, shear_.normal, lane);
   put(before.directions.tangents.col(0), shear_.first, lane);
   for (int c = 0; c < 3; ++c) {
-    const coupling::LocalCompliance::Component& component = before.give.along[c];
-    const Eigen::Vector2d gradient = before.directions.gradient(component.change);
-    shear_.give[c][lane] = component.c;
+    Eigen::Vector2d gradient;
+    shear_.give[c][lane] = give_along(before, c, gradient);
     shear_.gradient[c][0][lane] = gradient[0], shear_.gradient[c][1][lane] = gradient[1];
   }
   const double of_disc = block.root[before.lane] * std::sqrt(contact.effective_radius);
   shear_.stiffness[lane] = model.shear_constant(i) * of_disc;
   put(model.slip(contact), shear_.slip, lane);
-  put(before.wall_velocity, shear_.wall, lane);
+  put(before.met_velocity, shear_.wall, lane);
   put(model.shear_stretch(contact), shear_.stretch, lane);
   shear_.normal_stiffness[lane] = block.stiffness[before.lane];
   shear_.normal_dashpot[lane] = block.dashpot[before.lane];
@@ -278,7 +302,7 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
     contact.wall_velocity = before.wall_velocity;
     if (!before.block) {
       contact.correction = nullptr;
-      if (has_links_ && !now.is_setup) remember(particles, contact, before);
+      if (keeps_forces_ && !now.is_setup) remember(particles, contact, before);
       continue;
     }
     // Of c without what links take: that tilts the surface where it is met.
@@ -286,6 +310,16 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
     Eigen::Vector2d along = -0.5 * F * F * before.directions.gradient(before.give.normal.change);
     ContactCorrection& by = *contact.correction;
     by.tangents = before.directions.tangents;
+    double taken = before.give.taken;
+    if (before.weight.w != 0.0) {
+      along += spread_along(contact, before, F);
+      by.spread = before.weight.w;
+      by.beside = before.beside;
+      by.tilt = -F * before.weight.w / contact.distance * across(before.beside, before.n);
+      taken += before.expected_spread * before.spread.taken_one;
+      by.beside -=
+          (before.spread.taken_one + before.expected_spread * before.spread.taken_both) * before.expected;
+    }
     by.stiffness = before.block->stiffness[before.lane];
     by.tangent = before.block->tangent[before.lane];
     by.dashpot = before.block->dashpot[before.lane];
@@ -298,9 +332,9 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
         for (int m = 0; m < ShearBlock::kMemory; ++m) memory[m] = shear_.memory[m][lane];
     }
     by.follows = along;
-    contact.force.noalias() += before.directions.tangents * along;
-    if (has_links_) by.shift = before.give.taken * before.expected;
-    if (has_links_ && !now.is_setup) remember(particles, contact, before);
+    contact.force += by.further_force();
+    if (has_links_) by.shift = taken * before.expected;
+    if (keeps_forces_ && !now.is_setup) remember(particles, contact, before);
   }
   model.hear_of_corrections(contacts, count);
 }

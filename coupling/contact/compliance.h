@@ -10,7 +10,8 @@
 // step to step, too (approach_kernel.h), springs along the surface what the mesh gives way there
 // (shear_kernel.h).  The surface is met beside where the mesh has it, by what forces of contacts let the mesh
 // give way too much near them (coupling/cross_shift.h); what a contact's own force of the last steps has done
-// there is no overlap.  What they solve is a chain of roots and quotients, so contacts take it side by side.
+// there is no overlap.  Where elements are so small that s passes 0.5 the force is spread about the foot
+// (spread_weight.h).  What they solve is a chain of roots and quotients, so contacts take it side by side.
 #pragma once
 
 #include <array>
@@ -21,6 +22,7 @@
 #include "coupling/contact/mesh_estimate.h"
 #include "coupling/contact/particle_view.h"
 #include "coupling/contact/shear_kernel.h"
+#include "coupling/contact/spread_weight.h"
 #include "coupling/contact/surface_directions.h"
 #include "coupling/contact/wall.h"
 #include "coupling/local_compliance.h"
@@ -29,8 +31,7 @@ namespace contact {
 
 class ComplianceCorrection {
  public:
-  /// Up to this s a point force will do, as the mesh cannot tell it from the contact's disc (theory.md); near
-  /// 1 there is no equilibrium.
+  /// Near s = 1 there is no equilibrium.
   static constexpr double kLargest = 0.9;
   /// How many contacts are corrected together, at most.
   static constexpr int kCapacity = ApproachBlock::kCapacity;
@@ -39,9 +40,19 @@ class ComplianceCorrection {
   ComplianceCorrection(coupling::LocalCompliance& compliance, const Wall& wall, const MeshEstimate* mesh);
 
   /// Numbers that a contact keeps behind those of the model, in each slot of the particles' memory: its force
-  /// as it was expected in the last step, as it was then, and before; of its approach, with u as a vector,
-  /// and whether the body is light; of its spring along the surface.
-  enum Forces { kExpected = 0, kLast = 3, kBefore = 6, kForces = 9 };  // vectors, on the particle
+  /// as it was expected in the last step, as it was then, and before, and how much of it was spread, and how
+  /// far the surface was above the foot then; of its approach, with u as a vector, and whether the body is
+  /// light; of its spring along the surface.
+  enum Forces {
+    kExpected = 0,  // vectors, on the particle
+    kLast = 3,
+    kBefore = 6,
+    kSpreadExpected = 9,  // w
+    kSpreadLast,
+    kSpreadBefore,
+    kAbove,
+    kForces
+  };
   static constexpr int kLight = ApproachBlock::kU + 3, kApproach = kLight + 1;
   static constexpr int kMemory = kForces + kApproach + ShearBlock::kMemory;
   struct Time {
@@ -76,6 +87,7 @@ class ComplianceCorrection {
     double overlap, distance;
     bool touches;
     Vector3 delta, wall_velocity;
+    Vector3 met_velocity;        // of the surface as it is met, by its mean if the force is spread
     const ApproachBlock* block;  // null: not corrected, or over
     int lane, shear_lane;        // shear_lane < 0: no spring along the surface that goes on
     bool has_shear;              // it has one
@@ -83,6 +95,14 @@ class ComplianceCorrection {
     Vector3 n;
     double approach;   // [length/time]
     Vector3 expected;  // its own force on the particle, as the surface has it [force]
+    double expected_spread;
+    // Of a force that is spread, or was:
+    bool knows_spread;
+    SpreadWeight weight;
+    double mismatch, above;    // mu, q [length]
+    Vector3 beside, beside_velocity;  // sums of Z_A x_A and v_A, in space
+    nurbs::Tangents beside_slopes;    // and of dZ_A/dxi_j x_A
+    coupling::LocalCompliance::Spread spread;
     SurfaceDirections directions;
     coupling::LocalCompliance::Value give;
   };
@@ -90,9 +110,18 @@ class ComplianceCorrection {
   double credit(const ParticleView& particles, const ContactModel& model, const Contact& contact,
                 const Before& before) const;
   void enter(const ParticleView& particles, const Time& now, const ContactModel& model,
-             const Contact& contact, Before& before);
+             Contact& contact, Before& before);
   double overlap_of_others(const ParticleView& particles, const Time& now, const Contact& contact,
                            Before& before) const;
+  void know_spread(const Contact& contact, Before& before) const;
+  SpreadLaw spread_law(const Before& before) const;
+  void spread_damped(const ParticleView& particles, const Time& now, Contact& contact, Before& before);
+  void spread_elastic(const ParticleView& particles, const Time& now, Contact& contact, Before& before);
+  static void move_with_spread(const ParticleView& particles, const Time& now, Contact& contact,
+                               Before& before);
+  static double* forces_of(const ParticleView& particles, const Contact& contact);
+  double give_along(const Before& before, int component, Eigen::Vector2d& gradient) const;
+  Eigen::Vector2d spread_along(const Contact& contact, const Before& before, double F) const;
   static void remember(const ParticleView& particles, const Contact& contact, const Before& before);
   void see_overlap(const ParticleView& particles, const Time& now, Contact& contact, Before& before);
   void enter_shear(const ParticleView& particles, const ContactModel& model, const Contact& contact,
@@ -103,6 +132,8 @@ class ComplianceCorrection {
   const Wall& wall_;
   const MeshEstimate* mesh_;
   bool has_links_;
+  const coupling::NetSpread* net_spread_;  // null: forces are not spread
+  bool keeps_forces_;                      // in the memory
   ApproachKernel approach_kernel_;
   ShearKernel shear_kernel_;
   std::array<Before, kCapacity> before_;

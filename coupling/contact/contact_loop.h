@@ -111,6 +111,9 @@ class ContactLoop {
   /// Contacts that miss more than kMissing of their force to the mesh: nothing corrects them.
   const MeshAlarm& uncorrected() const { return uncorrected_; }
   static constexpr double kMissing = 0.02;
+  /// Contacts that are corrected on elements so small that they turn below them (MeshEstimate::turning).
+  const MeshAlarm& turning() const { return turning_; }
+  static constexpr double kTurning = 0.45;
   /// Contacts that are corrected by what is static, and are shorter than that (MeshEstimate::waves > 1).
   const MeshAlarm& not_static() const { return not_static_; }
 
@@ -186,7 +189,7 @@ class ContactLoop {
   mutable ContactRows rows_;
   std::vector<coupling::ContactForce> forces_on_body_;
   RunAlarm inside_, crossing_, stiff_, brief_;
-  MeshAlarm uncorrected_, not_static_;
+  MeshAlarm uncorrected_, turning_, not_static_;
   double body_squared_frequency_ = 0.0;            // in this step [1/time^2]
   double squared_time_ = 0.0, squared_way_ = 0.0;  // in this step: see squared_travel()
   bool is_plain_ = false;                          // in this step: steady contacts are soon complete

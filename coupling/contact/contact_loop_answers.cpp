@@ -93,6 +93,7 @@ inline void ContactLoop::look_at_mesh(const ParticleView& particles, const StepI
     if (contact.missing > kMissing) raise(uncorrected_, contact.missing);
     return;
   }
+  if (const double turning = mesh_->turning(contact); turning > kTurning) raise(turning_, turning);
   constexpr double kFirst = 1.01;  // of the way of a step
   const int i = contact.particle;
   const double approach = contact.normal().dot(contact.wall_velocity - particles.velocity(i));
@@ -111,7 +112,14 @@ void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step,
   force.patch = contact.foot.patch;
   for (int i = 0; i < 2; ++i) force.xi[i] = contact.foot.xi[i];
   Vector3::Map(force.F) = on_body;
-  if (contact.correction) force.stiffness = contact.correction->stiffness;
+  if (contact.correction) {
+    const ContactCorrection& by = *contact.correction;
+    const double of_links = 1.0 - 0.5 * by.spread;  // links see that much of it, at most
+    force.stiffness = by.stiffness * of_links * of_links;
+    force.is_spread = by.spread != 0.0;
+    Vector3::Map(force.spread) =
+        -by.spread * wall_.to_frame_direction(contact.force - by.further_force());
+  }
   if (wall_.deforms() && (contact.correction || !contact.torque.isZero(0.0))) turn_body(contact, force);
 }
 
@@ -132,7 +140,10 @@ inline void ContactLoop::turn_body(const Contact& contact, coupling::ContactForc
     first = S.col(0), second = S.col(1);
   }
   Vector3 moment = contact.torque + contact.delta.cross(force);
-  if (by) moment += by->shift.cross(contact.force);  // the body's foot is where its nodes have it
+  if (by) {
+    moment += by->shift.cross(contact.force);  // the body's foot is where its nodes have it
+    moment -= by->spread * by->beside.cross(contact.force - by->further_force());
+  }
   const Vector3 couple = -wall_.to_frame_direction(moment);
   on_body.has_couple = true;
   const std::array<Vector3, 2> G = coupling::couple_forces(first, second, couple);

@@ -13,6 +13,9 @@ using nurbs::Vector3;
 
 /// What a contact is corrected by (compliance.h), while it is answered.
 struct ContactCorrection {
+  /// Of the force what is not the law's own.
+  Vector3 further_force() const { return tangents * follows + tilt; }
+
   /// Of this step, beside that of the velocities; springs add it to their stretch [length].
   Vector3 further_slip = Vector3::Zero();
   nurbs::Tangents tangents = nurbs::Tangents::Zero();  ///< S_j of the patch, in space [length]
@@ -20,6 +23,12 @@ struct ContactCorrection {
   Vector3 shift = Vector3::Zero();
   /// Of the force what an energy has that changes with the foot: parts along the S_j [force/length].
   Eigen::Vector2d follows = Eigen::Vector2d::Zero();
+  /// Of what is spread about the foot (spread_weight.h): how much of it, how far the body has that from the
+  /// foot, in space [length], and a part of the force that is not, as the normal is not that of the foot
+  /// alone.
+  double spread = 0.0;
+  Vector3 beside = Vector3::Zero();
+  Vector3 tilt = Vector3::Zero();
   double stiffness = 0.0;      ///< of the law alone [force/length]
   double tangent = 0.0;        ///< d(force)/d(overlap) [force/length]
   double dashpot = 0.0;        ///< of damping, by the particle's speed alone [force time/length]
@@ -76,7 +85,7 @@ class ContactModel {
   /// count.
   virtual Vector3 slip(const Contact& /*contact*/) const { return Vector3::Zero(); }
   /// Hears of what has come to the forces that it gave a batch, for its own records: of each contact that has
-  /// a correction what follows its foot.
+  /// a correction what follows its foot, and its tilt.
   virtual void hear_of_corrections(const Contact* /*contacts*/, int /*count*/) {}
 };
 

@@ -24,6 +24,13 @@ class MeshEstimate {
   /// The same at the end of an impact's approach, overlap delta = (5 m V^2 / (4 K))^(2/5) (Johnson 1985, sec.
   /// 11.4) [-].
   double missing_at_peak(const Contact& contact, double hertz_constant, double mass, double speed) const;
+  /// F r*/(E' h^3): a surface that turns by an angle below a contact moves its foot by as many radii, and the
+  /// force with it; elements bear that up to about one half (theory.md) [-].
+  double turning(const Contact& contact) const {
+    const double h = size(contact.foot);
+    return contact.force.norm() * contact.effective_radius /
+           (solids_[contact.foot.patch].plane_modulus * h * h * h);
+  }
   /// 3 h/c_s over the time that a sphere of this mass is in contact after an impact at a speed, 2.943 delta/V
   /// [-]; 0 if the constant is not a number.
   double waves(const Contact& contact, double hertz_constant, double mass, double speed) const;

@@ -46,6 +46,8 @@ class Wall {
 
   const nurbs::MultiPatch& surface() const { return surface_; }
   const nurbs::NodalVectors& control_points() const { return exchange_.positions(); }
+  const nurbs::NodalVectors& velocities() const { return exchange_.velocities(); }
+  const coupling::NetSpread* net_spread() const { return exchange_.net_spread(); }  ///< null: none
   const coupling::RigidFrame& frame() const { return frame_; }
   /// Of the body's control points (SurfaceExchange), and the largest of them [1/mass].
   const nurbs::NodalVectors& inverse_masses() const { return exchange_.inverse_masses(); }

@@ -14,7 +14,7 @@ from typing import Mapping
 import numpy as np
 from bounce import DECK, HERE, STEEL, contact_radius, impact, peak_force, rows, steps
 from matplotlib.figure import Figure as Picture
-from study.build.graded_block import PLACES, GradedBlock
+from study.build.graded_block import PLACES, QUARTER, GradedBlock
 from study.reference import hertz
 from study.run.case import Case, Comparison, Figure, Result, index_variables, numbers
 from study.run.figures import COLOURS, MARKERS, save
@@ -29,6 +29,10 @@ SLIDING_TOLERANCE, SLIDING_ENERGY_TOLERANCE = 1e-6, 1e-4
 RIGID = {"E_ball": 1e20}  # the ball gives way by nothing: E* is the block's own
 RIGID_TOLERANCE = 3e-3
 RIGID_SIZE = 3.7  # contact radii
+# A ball of the block's steel: a point force would pass s = 0.9 from 0.9 to 1.4 contact radii on, it is spread.
+ALIKE = {"E_ball": 210.6e9, "nu_ball": 0.286, "rho": 7850.0}
+ALIKE_SIZES = (2.0, 1.4, 1.2)  # contact radii
+ALIKE_TOLERANCE = 5e-3
 # Energy that waves take into a half-space of this steel: WAVES * integral of (dF/dt)^2 [m s/N]; of Hertz' pulse the integral is
 # PULSE F^2/t_c.  Of the part that is lost the peak force loses PEAK_SHARE (0.11 % of 0.374 %, by integration of the motion).
 WAVES, PULSE, PEAK_SHARE = 5.301e-16, 4.685, 0.294
@@ -84,6 +88,22 @@ def rigid_case(place: str) -> Case:
     file, mesh = f"{name}.yaml", block(h_mm, place, 2)
     variables = {"block": file, "dt": 0.6e-8, **RIGID}
     return Case(name, DECK, rigid_rows, variables, partial(steps, 1.3),
+                lambda _: {file: mesh.model_file(STEEL)})  # fmt: skip
+
+
+def alike_rows(result: Result) -> list[Row]:
+    F, e = with_waves(impact(result.values))
+    return rows((F, ALIKE_TOLERANCE), (e, RESTITUTION_TOLERANCE), result)
+
+
+def alike_case(size: float, place: str, compliance: str = "corrected") -> Case:
+    """Elements that are about as small as the contact."""
+    name = f"{'none_' if compliance == 'none' else ''}alike_{size:g}a_{place}"
+    h_mm = 1e3 * size * contact_radius({**numbers(index_variables(HERE / DECK)), **ALIKE})
+    file, mesh = f"{name}.yaml", block(h_mm, place, 2)
+    variables = {"block": file, "compliance": compliance, "dt": 4.5e-8 * h_mm, **ALIKE}
+    expected = alike_rows if compliance == "corrected" else partial(rows, (), ())
+    return Case(name, DECK, expected, variables, partial(steps, 1.3),
                 lambda _: {file: mesh.model_file(STEEL)})  # fmt: skip
 
 
@@ -168,6 +188,8 @@ CASES = [
     *(block_case(h, place, "corrected", mass="corrected") for h in MASS_MM for place in PLACES),
     *(block_case(h, place, "corrected", 3, "corrected") for h in CUBIC_MASS_MM for place in PLACES),
     *(rigid_case(place) for place in ("corner", "centre")),
+    *(alike_case(size, place) for size in ALIKE_SIZES for place in (*PLACES, QUARTER)),
+    *(alike_case(ALIKE_SIZES[-1], place, "none") for place in UNCORRECTED),
     *(pair_case(h, place, direction) for h in PAIR_MM for place in UNCORRECTED for direction in ANGLES),
     *(sliding_case(compliance) for compliance in ("corrected", "none")),
 ]

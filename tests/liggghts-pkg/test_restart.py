@@ -193,8 +193,8 @@ damping: {mass: 1e4}
 
     def test_contact_memory_of_another_kind_is_refused(self):
         run = self.read(reader(models="model hertz tangential no_history"), self.of_solid)
-        self.check_refused(run, "27 history values", "keep 24", "another ID")
-        self.check_refused(self.read(reader(STRUCTURE + " compliance none"), self.of_solid), "27 history values", "keep 3", "'compliance'")
+        self.check_refused(run, "31 history values", "keep 28", "another ID")
+        self.check_refused(self.read(reader(STRUCTURE + " compliance none"), self.of_solid), "31 history values", "keep 3", "'compliance'")
         self.check_refused(self.read(reader(STRUCTURE + " contacts 3"), self.of_solid), "use 'contacts 4'")
         self.check_continues(self.read(reader(STRUCTURE + " contacts 6"), self.of_solid), self.solid)
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "structure/compliance/compliance_table.h"
 
-#include <Eigen/Core>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+
+#include "structure/compliance/table_polynomial.h"
 
 namespace structure {
 
@@ -34,11 +35,7 @@ std::vector<nurbs::Parameter<2>> table_points(const nurbs::Space<2>& space, int 
   return points;
 }
 
-namespace {
-
-/// Row k of the result: coefficient of s^k of the polynomials that are 1 at one of the points and 0 at the
-/// others.
-Eigen::MatrixXd to_powers(int count) {
+Eigen::MatrixXd lobatto_powers(int count) {
   const std::vector<double> points = lobatto_points(count);
   Eigen::MatrixXd powers(count, count);
   for (int i = 0; i < count; ++i)
@@ -46,15 +43,13 @@ Eigen::MatrixXd to_powers(int count) {
   return powers.inverse();
 }
 
-}  // namespace
-
 ComplianceTable::ComplianceTable(const std::array<int, 2>& counts,
                                  const std::vector<std::vector<double>>& values,
                                  const std::vector<double>& taken)
     : kernel_(table_kernel(nurbs::simd_level())),
       counts_(counts),
       largest_normal_(*std::max_element(values[normal].begin(), values[normal].end())) {
-  const Eigen::MatrixXd of_s = to_powers(counts[0]), of_t = to_powers(counts[1]);
+  const Eigen::MatrixXd of_s = lobatto_powers(counts[0]), of_t = lobatto_powers(counts[1]);
   double* next = powers_.data();
   for (const std::vector<double>& component : values) {
     const Eigen::MatrixXd powers =
@@ -72,34 +67,12 @@ ComplianceTable::ComplianceTable(const std::array<int, 2>& counts,
     for (int c = 0; c < kTogether; ++c) together_[k * kTogether + c] = powers_[c * count + k];
 }
 
-namespace {
-
-/// A polynomial in s and t, and its derivatives.
-struct Polynomial {
-  Polynomial(const double* first, const std::array<int, 2>& counts, double s, double t) {
-    const double* next = first + static_cast<std::ptrdiff_t>(counts[0]) * counts[1];
-    for (int j = counts[1]; j > 0; --j) {
-      double row = *--next, change = 0.0;
-      for (int i = counts[0] - 1; i > 0; --i) {
-        change = change * s + row;
-        row = row * s + *--next;
-      }
-      by_t = by_t * t + value;
-      value = value * t + row;
-      by_s = by_s * t + change;
-    }
-  }
-  double value = 0.0, by_s = 0.0, by_t = 0.0;
-};
-
-}  // namespace
-
 ComplianceTable::Value ComplianceTable::at(Component component, const nurbs::Parameter<2>& low,
                                            const nurbs::Parameter<2>& high,
                                            const nurbs::Parameter<2>& xi) const {
   const double* const first = powers_.data() + static_cast<std::size_t>(component) * counts_[0] * counts_[1];
   const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
-  const Polynomial at(first, counts_, s.value, t.value);
+  const TablePolynomial at(first, counts_, s.value, t.value);
   return {at.value, {at.by_s * s.change, at.by_t * t.change}};
 }
 

@@ -41,6 +41,11 @@ Matrix3 turned(const Matrix3& tensor, const Vector3& from, const Vector3& to) {
   return turn * tensor * turn.transpose();
 }
 
+/// Where the `part`th of two begins, or the only one.
+int offset_of(int part, const std::vector<Matrix3>& tensors) {
+  return part * static_cast<int>(tensors.size() / 2);
+}
+
 constexpr int kMostFunctions = 4 * 4 * 4;  // of degree 3
 
 /// How long an element is along each of its directions, by its control points [length].
@@ -97,13 +102,15 @@ ComplianceTables::ComplianceTables(ReferenceBody body, std::vector<SkinPiece> sk
     const int count = undeformed_->surface(static_cast<int>(piece)).space().element_count();
     state_of_.emplace_back(count, undeformed_);
     known_.emplace_back(count, nullptr);
+    known_spread_.emplace_back(count, nullptr);
   }
 }
 
 /// Of one that shares a point with an element, in the directions of that one's state of the body.
-Matrix3 ComplianceTables::tensor(const TablePoint& point, const ElementCompliances& state) const {
-  ElementCompliances& own = *state_of_[point.piece][point.element];
-  const Matrix3& tensor = own.solved(point.piece, point.element).tensors[point.index];
+Matrix3 ComplianceTables::tensor(const TablePoint& point, const Tensors& tensors, int index,
+                                 const ElementCompliances& state) const {
+  const ElementCompliances& own = *state_of_[point.piece][point.element];
+  const Matrix3& tensor = tensors[index];
   if (&own == &state) return tensor;
   const nurbs::Parameter<2> xi = table_points(own.surface(point.piece).space(), point.element)[point.index];
   const auto frame_in = [&](const ElementCompliances& some) {
@@ -135,17 +142,22 @@ std::vector<double> ComplianceTables::linked(int piece, int element) const {
   return links_->taken_at(feet);
 }
 
-const ComplianceTable& ComplianceTables::find(int piece, int element) {
+void ComplianceTables::expect_solved(const ElementCompliances::Solved& own, int piece, int element) const {
+  if (own.problem.empty()) return;
+  const Vector3 X = state_of_[piece][element]->surface(piece).at_centre(element);
+  throw std::invalid_argument(
+      fmt::format("no local compliance of the element about ({:.6g}, {:.6g}, {:.6g}): {}", X[0], X[1], X[2],
+                  own.problem));
+}
+
+/// At its points, on borders the mean of all that have them: of `solved(state, piece, element)` of each,
+/// `offset` from the first. To `origin` goes what they are made of.
+template <class Solved>
+ComplianceTables::Tensors ComplianceTables::means(int piece, int element, int offset, Solved solved,
+                                                  Origin& origin) const {
   ElementCompliances& state = *state_of_[piece][element];
-  const ElementCompliances::Solved& own = state.solved(piece, element);
-  if (!own.problem.empty()) {
-    const Vector3 X = state.surface(piece).at_centre(element);
-    throw std::invalid_argument(
-        fmt::format("no local compliance of the element about ({:.6g}, {:.6g}, {:.6g}): {}", X[0], X[1], X[2],
-                    own.problem));
-  }
-  Tensors means;
-  Origin origin;
+  const Tensors& own = solved(state, piece, element).tensors;
+  Tensors means, change;
   for (const std::vector<TablePoint>& points : state.shared().of(piece, element)) {
     const TablePoint here{piece, element, static_cast<int>(means.size()), {}};
     const Vector3& normal = std::lower_bound(points.begin(), points.end(), here)->normal;
@@ -153,28 +165,50 @@ const ComplianceTable& ComplianceTables::find(int piece, int element) {
     int count = 0;
     for (const TablePoint& point : points) {
       ElementCompliances& theirs = *state_of_[point.piece][point.element];
-      const Tensors& tensors = theirs.solved(point.piece, point.element).tensors;
+      const Tensors& tensors = solved(theirs, point.piece, point.element).tensors;
       if (&theirs != &state) theirs.rest();
       if (tensors.empty()) continue;
-      sum += turned(tensor(point, state), point.normal, normal);
+      const int index = offset_of(offset, tensors) + point.index;
+      sum += turned(tensor(point, tensors, index, state), point.normal, normal);
       ++count;
-      origin.emplace_back(&tensors, point.index);
+      origin.emplace_back(&tensors, index);
     }
     origin.emplace_back(nullptr, 0);
     means.push_back(sum / count);
+    change.push_back(means.back() - own[offset_of(offset, own) + here.index]);
   }
+  blend(table_counts(state.surface(piece).space()), change, means);
+  return means;
+}
+
+const ComplianceTable& ComplianceTables::find(int piece, int element) {
+  ElementCompliances& state = *state_of_[piece][element];
+  const auto solved = [](ElementCompliances& of, int p, int e) -> auto& { return of.solved(p, e); };
+  expect_solved(solved(state, piece, element), piece, element);
+  Origin origin;
+  const Tensors tensors = means(piece, element, 0, solved, origin);
   const auto [taken, first] = taken_off(piece, element, state.first_alike(piece, element));
   origin.emplace_back(nullptr, first);
   std::unique_ptr<ComplianceTable>& made = tables_[origin];
-  if (!made) {
-    Tensors change = means;
-    for (std::size_t k = 0; k < change.size(); ++k) change[k] -= own.tensors[k];
-    blend(table_counts(state.surface(piece).space()), change, means);
-    made = state.table(piece, element, means, taken);
-  }
+  if (!made) made = state.table(piece, element, tensors, taken);
   if (asked_ && asked_.get() != &state) asked_->rest();
   asked_ = state_of_[piece][element];
   return *(known_[piece][element] = made.get());
+}
+
+const SpreadTable& ComplianceTables::find_spread(int piece, int element) {
+  ElementCompliances& state = *state_of_[piece][element];
+  const auto solved = [](ElementCompliances& of, int p, int e) -> auto& { return of.solved_spread(p, e); };
+  expect_solved(solved(state, piece, element), piece, element);
+  Origin origin;
+  Tensors tensors = means(piece, element, 0, solved, origin);
+  const Tensors both = means(piece, element, 1, solved, origin);
+  tensors.insert(tensors.end(), both.begin(), both.end());
+  const int first = taken_off(piece, element, state.first_alike(piece, element)).second;
+  origin.emplace_back(nullptr, first);
+  std::unique_ptr<SpreadTable>& made = spread_tables_[origin];
+  if (!made) made = state.spread_table(piece, first, tensors, links_.get());
+  return *(known_spread_[piece][element] = made.get());
 }
 
 bool ComplianceTables::follows_strain() const {
@@ -214,23 +248,38 @@ bool ComplianceTables::follow(const NodalVectors& places, const std::vector<Skin
         changed.push_back({static_cast<int>(piece), e});
     }
   if (changed.empty()) return false;
-  const auto state = std::make_shared<ElementCompliances>(std::move(now), skin_);
+  const auto state = std::make_shared<ElementCompliances>(std::move(now), skin_, undeformed_->mean());
   for (const SkinElement& one : changed) {
     const int patch = skin_[one.piece].patch,
               volume = element_behind(undeformed, skin_[one.piece], one.element).element;
     const bool is_back = !differ(state->body().patches[patch], undeformed.patches[patch], volume);
     state_of_[one.piece][one.element] = is_back ? undeformed_ : state;
-    for_each_neighbour(one, [&](int piece, int element) { known_[piece][element] = nullptr; });
+    for_each_neighbour(one, [&](int piece, int element) { forget(piece, element); });
   }
   forget_unused();
   return true;
 }
 
+void ComplianceTables::forget(int piece, int element) {
+  known_[piece][element] = nullptr;
+  known_spread_[piece][element] = nullptr;
+}
+
+namespace {
+
+template <class Known, class Tables>
+void erase_unknown(const Known& known, Tables& tables) {
+  std::set<const void*> used;
+  for (const auto& elements : known) used.insert(elements.begin(), elements.end());
+  for (auto table = tables.begin(); table != tables.end();)
+    table = used.count(table->second.get()) > 0 ? std::next(table) : tables.erase(table);
+}
+
+}  // namespace
+
 void ComplianceTables::forget_unused() {
-  std::set<const ComplianceTable*> used;
-  for (const auto& elements : known_) used.insert(elements.begin(), elements.end());
-  for (auto table = tables_.begin(); table != tables_.end();)
-    table = used.count(table->second.get()) > 0 ? std::next(table) : tables_.erase(table);
+  erase_unknown(known_, tables_);
+  erase_unknown(known_spread_, spread_tables_);
 }
 
 std::vector<double> ComplianceTables::save() const {
@@ -269,7 +318,7 @@ void ComplianceTables::load(const std::vector<double>& numbers) {
     states.push_back(std::make_shared<ElementCompliances>(
         at_places(undeformed, Eigen::Map<const NodalVectors>(numbers.data() + 1 + k * size, 3,
                                                              static_cast<Eigen::Index>(size / 3))),
-        skin_));
+        skin_, undeformed_->mean()));
   const double* index = numbers.data() + numbers.size() - elements;
   for (auto& of_piece : state_of_)
     for (auto& state : of_piece) {
@@ -280,6 +329,7 @@ void ComplianceTables::load(const std::vector<double>& numbers) {
       state = states[static_cast<std::size_t>(k)];
     }
   for (auto& of_piece : known_) std::fill(of_piece.begin(), of_piece.end(), nullptr);
+  for (auto& of_piece : known_spread_) std::fill(of_piece.begin(), of_piece.end(), nullptr);
   forget_unused();
 }
 

@@ -36,6 +36,13 @@ class ComplianceTables {
     const ComplianceTable* const known = known_[piece][element];
     return known ? *known : find(piece, element);
   }
+  /// The same of forces that are spread, worked out when it is first asked for.
+  const SpreadTable& spread_of(int piece, int element) {
+    const SpreadTable* const known = known_spread_[piece][element];
+    return known ? *known : find_spread(piece, element);
+  }
+  /// What they are spread by.
+  const NetMean& mean() const { return *undeformed_->mean(); }
   /// Of the undeformed body; null unless tables are beside them.
   const CrossCompliance* links() const { return links_.get(); }
   /// What the elements about one have at any point of it, without a table or a mean: the tensor in space, of
@@ -65,7 +72,13 @@ class ComplianceTables {
   using Origin = std::vector<std::pair<const Tensors*, int>>;
 
   const ComplianceTable& find(int piece, int element);
-  Matrix3 tensor(const TablePoint& point, const ElementCompliances& state) const;
+  const SpreadTable& find_spread(int piece, int element);
+  void expect_solved(const ElementCompliances::Solved& own, int piece, int element) const;
+  template <class Solved>
+  Tensors means(int piece, int element, int offset, Solved solved, Origin& origin) const;
+  void forget(int piece, int element);
+  Matrix3 tensor(const TablePoint& point, const Tensors& tensors, int index,
+                 const ElementCompliances& state) const;
   template <class Function>
   void for_each_neighbour(const SkinElement& of, Function f) const;
   void forget_unused();
@@ -79,7 +92,9 @@ class ComplianceTables {
   std::map<std::pair<int, int>, std::vector<double>> linked_;  // of the first of those that are alike
   std::vector<std::vector<State>> state_of_;                   // [piece][element]
   std::map<Origin, std::unique_ptr<ComplianceTable>> tables_;
+  std::map<Origin, std::unique_ptr<SpreadTable>> spread_tables_;
   std::vector<std::vector<const ComplianceTable*>> known_;  // [piece][element]; null: not asked for before
+  std::vector<std::vector<const SpreadTable*>> known_spread_;
 };
 
 }  // namespace structure

@@ -110,4 +110,40 @@ std::vector<double> CrossCompliance::taken_at(const std::vector<SkinPoint>& feet
   return taken;
 }
 
+std::vector<CrossCompliance::OfSpread> CrossCompliance::taken_at(
+    const std::vector<SkinPoint>& feet, const std::vector<NetMean::Beside>& beside) const {
+  const std::vector<Id>& nodes = beside.front().nodes;  // rising
+  const auto count = static_cast<int>(nodes.size());
+  const auto place = [&](Id node) {
+    return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
+  };
+  const auto place_or_none = [&](Id node) {
+    const int at = place(node);
+    return at < count && nodes[at] == node ? at : -1;
+  };
+  std::vector<NearLink> near;
+  for (int a = 0; a < count; ++a)
+    if (const auto found = links_of_.find(nodes[a]); found != links_of_.end())
+      for (const int link : found->second) {
+        const int ends[] = {place_or_none(links_[link].first), place_or_none(links_[link].second)};
+        if (std::max(ends[0], ends[1]) == a) near.push_back({ends[0], ends[1], links_[link].give});
+      }
+  std::vector<OfSpread> taken;
+  for (std::size_t f = 0; f < feet.size(); ++f) {
+    std::vector<double> R(nodes.size(), 0.0);
+    for (std::size_t a = 0; a < feet[f].nodes.size(); ++a) R[place(feet[f].nodes[a])] += feet[f].R[a];
+    const auto step = [](const std::vector<double>& of, const NearLink& link) {
+      return (link.first < 0 ? 0.0 : of[link.first]) - (link.second < 0 ? 0.0 : of[link.second]);
+    };
+    OfSpread& sum = taken.emplace_back(OfSpread{0.0, 0.0, 0.0});
+    for (const NearLink& link : near) {
+      const double of_R = step(R, link), of_Z = step(beside[f].Z, link);
+      sum.taken += link.give * of_R * of_R;
+      sum.one += link.give * of_R * of_Z;
+      sum.both += link.give * of_Z * of_Z;
+    }
+  }
+  return taken;
+}
+
 }  // namespace structure

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "structure/compliance/free_faces.h"
+#include "structure/compliance/net_mean.h"
 #include "structure/compliance/reference_body.h"
 
 namespace structure {
@@ -37,6 +38,12 @@ class CrossCompliance {
   const std::vector<Link>& links() const { return links_; }
   /// What is taken off at each of these feet, all on one element, for a unit force there [length/force].
   std::vector<double> taken_at(const std::vector<SkinPoint>& feet) const;
+  /// Of forces R there and Z beside them (net_mean.h), all with the same nodes: of R, of R and Z, of Z.
+  struct OfSpread {
+    double taken, one, both;
+  };
+  std::vector<OfSpread> taken_at(const std::vector<SkinPoint>& feet,
+                                 const std::vector<NetMean::Beside>& beside) const;
 
  private:
   std::vector<Link> links_;

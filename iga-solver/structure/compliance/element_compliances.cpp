@@ -47,12 +47,14 @@ void expect_neighbours(const std::vector<nurbs::Volume>& patches) {
 
 }  // namespace
 
-ElementCompliances::ElementCompliances(ReferenceBody body, const std::vector<SkinPiece>& skin)
+ElementCompliances::ElementCompliances(ReferenceBody body, const std::vector<SkinPiece>& skin,
+                                       std::shared_ptr<const NetMean> mean)
     : body_(std::move(body)),
       near_(body_),
       gradients_(body_),
       skin_(skin),
-      shared_(body_, near_, skin_, surfaces_) {
+      shared_(body_, near_, skin_, surfaces_),
+      mean_(mean ? std::move(mean) : std::make_shared<const NetMean>(body_, skin_)) {
   expect_quadrature(body_.quadrature);
   expect_neighbours(body_.patches);
   for (const SkinPiece& piece : skin_) {
@@ -61,6 +63,7 @@ ElementCompliances::ElementCompliances(ReferenceBody body, const std::vector<Ski
     expect_degrees(patch.space);
     surfaces_.emplace_back(body_, piece);
     solved_of_.emplace_back(surfaces_.back().space().element_count());
+    spread_of_.emplace_back(surfaces_.back().space().element_count());
     const int d = static_cast<int>(piece.face) / 2;
     const LocalExtent extent = extent_for(patch.space);
     alike_.push_back(
@@ -74,6 +77,25 @@ ElementCompliances::Tensors ElementCompliances::at(const HitElement& hit,
   for (const nurbs::Parameter<2>& xi : points) feet.push_back(hit.foot(xi));
   const LocalPatch patch(body_, near_, hit.volume(), extent_for(body_.patches[hit.volume().patch].space));
   return LocalProblem(patch, gradients_).compliances(feet);
+}
+
+std::vector<LocalProblem::OfSpread> ElementCompliances::spread_at(
+    const HitElement& hit, const std::vector<nurbs::Parameter<2>>& points) const {
+  std::vector<SkinPoint> feet;
+  std::vector<NetMean::Beside> beside;
+  std::vector<double> room;
+  for (const nurbs::Parameter<2>& xi : points) {
+    feet.push_back(hit.foot(xi));
+    beside.push_back(mean_->beside(feet.back()));
+    room.push_back(hit.room(xi));
+  }
+  const LocalPatch patch(body_, near_, hit.volume(), extent_for(body_.patches[hit.volume().patch].space));
+  return LocalProblem(patch, gradients_).spread_compliances(feet, beside, room);
+}
+
+LocalProblem::OfSpread ElementCompliances::spread_direct(int piece, int element,
+                                                         const nurbs::Parameter<2>& xi) const {
+  return spread_at(hit(piece, element), {xi}).front();
 }
 
 int ElementCompliances::first_alike(int piece, int element) const {
@@ -96,9 +118,39 @@ const ElementCompliances::Solved& ElementCompliances::solved(int piece, int elem
   return solved;
 }
 
+const ElementCompliances::Solved& ElementCompliances::solved_spread(int piece, int element) {
+  const int first = first_alike(piece, element);
+  Solved& solved = spread_of_[piece][first];
+  if (!solved.tensors.empty() || !solved.problem.empty()) return solved;
+  try {
+    const auto found = spread_at(hit(piece, first), table_points(surfaces_[piece].space(), first));
+    for (const LocalProblem::OfSpread& at : found) solved.tensors.push_back(at.one);
+    for (const LocalProblem::OfSpread& at : found) solved.tensors.push_back(at.both);
+  } catch (const std::invalid_argument& problem) {
+    solved.problem = problem.what();
+  }
+  return solved;
+}
+
 Matrix3 ElementCompliances::direct(int piece, int element, const nurbs::Parameter<2>& xi) const {
   return at(hit(piece, element), {xi}).front();
 }
+
+namespace {
+
+using Components = std::array<double, ComplianceTable::kComponents>;
+
+Components in_frame(const Matrix3& tensor, const Matrix3& frame) {
+  const Matrix3 c = frame.transpose() * tensor * frame;
+  return {c(2, 2),
+          c(0, 0),
+          c(1, 1),
+          0.5 * (c(0, 1) + c(1, 0)),
+          0.5 * (c(0, 2) + c(2, 0)),
+          0.5 * (c(1, 2) + c(2, 1))};
+}
+
+}  // namespace
 
 std::unique_ptr<ComplianceTable> ElementCompliances::table(int piece, int element, const Tensors& tensors,
                                                            const std::vector<double>& taken) const {
@@ -108,18 +160,58 @@ std::unique_ptr<ComplianceTable> ElementCompliances::table(int piece, int elemen
   const std::vector<nurbs::Parameter<2>> points = table_points(space, same);
   std::vector<std::vector<double>> values(ComplianceTable::kComponents);
   for (std::size_t point = 0; point < points.size(); ++point) {
-    const Matrix3 frame = hit.frame(points[point]), c = frame.transpose() * tensors[point] * frame;
-    const double components[] = {c(2, 2),
-                                 c(0, 0),
-                                 c(1, 1),
-                                 0.5 * (c(0, 1) + c(1, 0)),
-                                 0.5 * (c(0, 2) + c(2, 0)),
-                                 0.5 * (c(1, 2) + c(2, 1))};
+    const Components components = in_frame(tensors[point], hit.frame(points[point]));
     for (int k = 0; k < ComplianceTable::kComponents; ++k) values[k].push_back(components[k]);
   }
   for (std::size_t point = 0; point < taken.size(); ++point)
     values[ComplianceTable::normal][point] -= taken[point];
   return std::make_unique<ComplianceTable>(table_counts(space), values, taken);
+}
+
+ElementCompliances::Feet ElementCompliances::feet_at(int piece, int element,
+                                                     const std::vector<nurbs::Parameter<2>>& points) const {
+  Feet feet;
+  for (const nurbs::Parameter<2>& xi : points) {
+    feet.at.push_back(surfaces_[piece].at(element, xi));
+    feet.beside.push_back(mean_->beside(feet.at.back()));
+  }
+  return feet;
+}
+
+std::unique_ptr<SpreadTable> ElementCompliances::spread_table(int piece, int element, const Tensors& tensors,
+                                                              const CrossCompliance* links) const {
+  const HitElement hit = this->hit(piece, element);
+  const nurbs::Space<2>& space = surfaces_[piece].space();
+  const std::vector<nurbs::Parameter<2>> points = table_points(space, element);
+  const Feet feet = feet_at(piece, element, points);
+  std::vector<CrossCompliance::OfSpread> taken(points.size(), {0.0, 0.0, 0.0});
+  if (links) taken = links->taken_at(feet.at, feet.beside);
+  SpreadTable::Values values;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Matrix3 frame = hit.frame(points[k]);
+    const Components one = in_frame(tensors[k], frame),
+                     both = in_frame(tensors[points.size() + k], frame);
+    for (int c = 0; c < ComplianceTable::kTogether; ++c) {
+      const bool is_normal = c == ComplianceTable::normal;
+      values[SpreadTable::one + c].push_back(one[c] - (is_normal ? taken[k].one : 0.0));
+      values[SpreadTable::both + c].push_back(both[c] - (is_normal ? taken[k].both : 0.0));
+    }
+    const SkinPoint& foot = feet.at[k];
+    double height = 0.0, moment = 0.0;
+    for (std::size_t a = 0; a < feet.beside[k].nodes.size(); ++a) {
+      const auto [patch, control_point] = body_.nodes.place(feet.beside[k].nodes[a]);
+      const Vector3 way = body_.patches[patch].control_points.col(control_point) - foot.point;
+      const double above = way.dot(foot.outward_normal);
+      height += feet.beside[k].Z[a] * above;
+      moment += 0.5 * feet.beside[k].Z[a] * (way.squaredNorm() - above * above);
+    }
+    values[SpreadTable::moment].push_back(moment);
+    values[SpreadTable::height].push_back(height);
+    values[SpreadTable::taken].push_back(taken[k].taken);
+    values[SpreadTable::taken_one].push_back(taken[k].one);
+    values[SpreadTable::taken_both].push_back(taken[k].both);
+  }
+  return std::make_unique<SpreadTable>(table_counts(space), values);
 }
 
 }  // namespace structure

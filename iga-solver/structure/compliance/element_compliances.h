@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "structure/compliance/compliance_table.h"
+#include "structure/compliance/cross_compliance.h"
 #include "structure/compliance/hit_element.h"
 #include "structure/compliance/local_problem.h"
 #include "structure/compliance/shared_points.h"
+#include "structure/compliance/spread_table.h"
 
 namespace structure {
 
@@ -22,13 +24,16 @@ class ElementCompliances {
   /// `skin`: pieces of the surface that is touched; keeps a reference.  Throws std::invalid_argument, naming
   /// what is not for it and what is, unless the laws of their patches are isotropic, elastic and without
   /// memory, and their degrees 2 or 3.
-  ElementCompliances(ReferenceBody body, const std::vector<SkinPiece>& skin);
+  /// `mean`: of the undeformed body; null: this is it.
+  ElementCompliances(ReferenceBody body, const std::vector<SkinPiece>& skin,
+                     std::shared_ptr<const NetMean> mean = nullptr);
   ElementCompliances(const ElementCompliances&) = delete;
   ElementCompliances& operator=(const ElementCompliances&) = delete;
 
   const ReferenceBody& body() const { return body_; }
   const NearElements& near() const { return near_; }
   const SharedPoints& shared() const { return shared_; }
+  const std::shared_ptr<const NetMean>& mean() const { return mean_; }
   const FaceSurface& surface(int piece) const { return surfaces_[piece]; }
   HitElement hit(int piece, int element) const {
     return {body_, near_, skin_[piece], surfaces_[piece], element};
@@ -40,6 +45,8 @@ class ElementCompliances {
   };
   /// Of an element of a piece's surface; those that see the same share one.
   const Solved& solved(int piece, int element);
+  /// Of forces that are spread: `one` at all points, then `both`.
+  const Solved& solved_spread(int piece, int element);
   int solved_count() const { return solved_; }
   /// Of those that see the same.
   int first_alike(int piece, int element) const;
@@ -47,13 +54,24 @@ class ElementCompliances {
   void rest() { gradients_.forget(); }
   /// At any point of it.
   Matrix3 direct(int piece, int element, const nurbs::Parameter<2>& xi) const;
+  LocalProblem::OfSpread spread_direct(int piece, int element, const nurbs::Parameter<2>& xi) const;
   /// Of tensors at its points, as the first of the elements that are alike: to the last bit, whoever asks.
   /// `taken`: what is taken off along the normal there, or nothing [length/force].
   std::unique_ptr<ComplianceTable> table(int piece, int element, const Tensors& tensors,
                                          const std::vector<double>& taken = {}) const;
+  /// Of tensors that are spread, less what links take of the element with this number there; null: nothing.
+  std::unique_ptr<SpreadTable> spread_table(int piece, int element, const Tensors& tensors,
+                                            const CrossCompliance* links) const;
 
  private:
+  struct Feet {
+    std::vector<SkinPoint> at;
+    std::vector<NetMean::Beside> beside;
+  };
+  Feet feet_at(int piece, int element, const std::vector<nurbs::Parameter<2>>& points) const;
   Tensors at(const HitElement& hit, const std::vector<nurbs::Parameter<2>>& points) const;
+  std::vector<LocalProblem::OfSpread> spread_at(const HitElement& hit,
+                                                const std::vector<nurbs::Parameter<2>>& points) const;
 
   ReferenceBody body_;
   NearElements near_;
@@ -61,8 +79,10 @@ class ElementCompliances {
   const std::vector<SkinPiece>& skin_;
   std::vector<FaceSurface> surfaces_;
   SharedPoints shared_;
+  std::shared_ptr<const NetMean> mean_;
   std::vector<std::array<std::vector<int>, 2>> alike_;  // per piece and direction (alike_elements.h)
   std::vector<std::vector<Solved>> solved_of_;          // [piece][first of the elements that are alike]
+  std::vector<std::vector<Solved>> spread_of_;          // likewise
   int solved_ = 0;
 };
 

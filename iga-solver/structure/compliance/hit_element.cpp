@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <vector>
 
 namespace structure {
@@ -73,6 +74,20 @@ bool HitElement::is_edge(const NearElements& near, const SkinPiece& piece, int d
     return near.rise(neighbour, foot.point, foot.outward_normal) > kSteep &&
            near.has_corners(neighbour, corners);
   });
+}
+
+double HitElement::room(const nurbs::Parameter<2>& xi) const {
+  const nurbs::Parameter<2> foot = inside(xi);
+  const Vector3 point = surface_.at(element_, foot).point;
+  double room = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 2; ++k)
+    for (const double end : {low_[k], high_[k]}) {
+      if (end == (end == low_[k] ? lowest_[k] : highest_[k])) continue;
+      nurbs::Parameter<2> at = foot;
+      at[k] = end;
+      room = std::min(room, (surface_.at(element_, at).point - point).norm());
+    }
+  return room;
 }
 
 nurbs::Parameter<2> HitElement::inside(nurbs::Parameter<2> xi) const {

@@ -23,6 +23,8 @@ class HitElement {
   /// beyond it, no nearer to it than a quarter of the element.
   nurbs::Parameter<2> inside(nurbs::Parameter<2> xi) const;
   SkinPoint foot(const nurbs::Parameter<2>& xi) const { return surface_.at(element_, inside(xi)); }
+  /// How far that foot is from such a side, about; infinite without one [length].
+  double room(const nurbs::Parameter<2>& xi) const;
   Matrix3 frame(const nurbs::Parameter<2>& xi) const { return surface_.frame(element_, inside(xi)); }
 
  private:

@@ -3,10 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <stdexcept>
 
+#include "nurbs/assert.h"
 #include "structure/material/plate_material.h"
 #include "structure/material/plate_shear.h"
 #include "structure/solid/plate_patch.h"
@@ -177,15 +181,29 @@ Eigen::MatrixXd LocalProblem::prescribed(const std::vector<SkinPoint>& feet,
   return u;
 }
 
+namespace {
+
+/// Whether an element is of the face that a foot is on, or goes on from it smoothly.
+bool faces_as(const FaceSurface& surface, int element, const SkinPoint& foot) {
+  constexpr double kSmooth = 0.7;
+  const nurbs::Parameter<2> middle = surface.space().element_centre(element);
+  return surface.frame(element, middle).col(2).dot(foot.outward_normal) > kSmooth;
+}
+
+}  // namespace
+
 void LocalProblem::add_tractions(const std::vector<SkinPoint>& feet,
-                                 const std::vector<HalfSpace>& half_spaces, Eigen::MatrixXd& forces) const {
+                                 const std::vector<HalfSpace>& half_spaces, bool of_touched_face,
+                                 Eigen::MatrixXd& forces) const {
   const auto row = [&](Id node) {
     const int place = patch_.place(node);
     return place < patch_.free_count() ? place : -1;
   };
   for (const LocalPatch::FreeFace& face : patch_.free_faces()) {
     const FaceSurface surface(patch_.body(), face.piece);
-    for (const int element : face.elements) surface.add_tractions(element, feet, half_spaces, row, forces);
+    for (const int element : face.elements)
+      if (of_touched_face || !faces_as(surface, element, feet.front()))
+        surface.add_tractions(element, feet, half_spaces, row, forces);
   }
 }
 
@@ -200,26 +218,46 @@ Eigen::MatrixXd LocalProblem::forces_of_held(const Eigen::MatrixXd& u) const {
   return forces;
 }
 
-// Feet are on one face, so only its functions' displacements are asked for.  By reciprocity these are work of
-// the loads on what unit forces on its nodes do: far fewer systems than loads.
-std::vector<Matrix3> LocalProblem::compliances(const std::vector<SkinPoint>& feet) const {
+std::vector<int> LocalProblem::places_of(const std::vector<Id>& nodes) const {
+  std::vector<int> places;
+  for (const Id node : nodes) {
+    places.push_back(patch_.place(node));
+    NURBS_ASSERT(places.back() < patch_.free_count(), node);
+  }
+  return places;
+}
+
+/// Displacements by unit forces on free nodes.
+Eigen::MatrixXd LocalProblem::under_unit_forces(const std::vector<int>& places) const {
+  const auto count = static_cast<Eigen::Index>(places.size());
+  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(3 * patch_.free_count(), 3 * count);
+  for (Eigen::Index a = 0; a < count; ++a) u.block<3, 3>(3 * places[a], 3 * a).setIdentity();
+  K_.solve(u);
+  return u;
+}
+
+/// Displacements of the nodes that u is by unit forces on, by the half-spaces of forces at feet.
+Eigen::MatrixXd LocalProblem::by_half_spaces(const Eigen::MatrixXd& u, const std::vector<SkinPoint>& feet,
+                                             bool of_touched_face) const {
   std::vector<HalfSpace> half_spaces;
   for (const SkinPoint& foot : feet) half_spaces.emplace_back(E_, nu_, foot.outward_normal);
-  std::vector<int> hit;
-  for (const Id node : feet.front().nodes) hit.push_back(patch_.place(node));
-  const auto count = static_cast<Eigen::Index>(feet.size()), of_face = static_cast<Eigen::Index>(hit.size());
-  Eigen::MatrixXd u = Eigen::MatrixXd::Zero(3 * patch_.free_count(), 3 * of_face);
-  for (Eigen::Index a = 0; a < of_face; ++a) u.block<3, 3>(3 * hit[a], 3 * a).setIdentity();
-  K_.solve(u);
-
   const Eigen::MatrixXd u_held = prescribed(feet, half_spaces);
-  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(u.rows(), 3 * count);
+  Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(u.rows(), 3 * static_cast<Eigen::Index>(feet.size()));
   for (std::size_t k = 0; k < sprung_.size(); ++k)
     forces.middleRows<3>(3 * static_cast<Eigen::Index>(sprung_[k])) +=
         spring_ * u_held.middleRows<3>(3 * static_cast<Eigen::Index>(k));
-  add_tractions(feet, half_spaces, forces);
+  add_tractions(feet, half_spaces, of_touched_face, forces);
   Eigen::MatrixXd answer = u.transpose() * forces;
   if (sprung_.empty()) answer.noalias() -= forces_of_held(u).transpose() * u_held;
+  return answer;
+}
+
+// Feet are on one face, so only its functions' displacements are asked for.  By reciprocity these are work of
+// the loads on what unit forces on its nodes do: far fewer systems than loads.
+std::vector<Matrix3> LocalProblem::compliances(const std::vector<SkinPoint>& feet) const {
+  const std::vector<int> hit = places_of(feet.front().nodes);
+  const auto count = static_cast<Eigen::Index>(feet.size()), of_face = static_cast<Eigen::Index>(hit.size());
+  const Eigen::MatrixXd u = under_unit_forces(hit), answer = by_half_spaces(u, feet, true);
 
   std::vector<Matrix3> c(feet.size(), Matrix3::Zero());
   for (Eigen::Index f = 0; f < count; ++f)
@@ -229,6 +267,94 @@ std::vector<Matrix3> LocalProblem::compliances(const std::vector<SkinPoint>& fee
       c[f] += feet[f].R[a] * at_node;
     }
   return c;
+}
+
+namespace {
+
+/// Second moments of Z about a foot, along two unit vectors of its tangent plane [length^2].
+struct Spread {
+  Vector3 along[2];
+  double moment[2];
+};
+
+Spread spread_of(const SkinPoint& foot, const std::vector<Vector3>& places, const std::vector<double>& Z) {
+  const Vector3 t = foot.outward_normal.unitOrthogonal(), s = foot.outward_normal.cross(t);
+  Eigen::Matrix2d M = Eigen::Matrix2d::Zero();
+  for (std::size_t a = 0; a < Z.size(); ++a) {
+    const Vector3 way = places[a] - foot.point;
+    const Eigen::Vector2d along(way.dot(t), way.dot(s));
+    M += Z[a] * along * along.transpose();
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(M);
+  Spread spread;
+  for (int k = 0; k < 2; ++k) {
+    spread.along[k] = axes.eigenvectors()(0, k) * t + axes.eigenvectors()(1, k) * s;
+    spread.moment[k] = std::max(axes.eigenvalues()[k], 0.0);
+  }
+  return spread;
+}
+
+}  // namespace
+
+// The half-space of Z is that of forces to both sides of the foot, less that at the foot, with its moments.
+// On the face that is touched they do nothing: it is the half-space's own, but for its curvature.
+std::vector<LocalProblem::OfSpread> LocalProblem::spread_compliances(
+    const std::vector<SkinPoint>& feet, const std::vector<NetMean::Beside>& beside,
+    const std::vector<double>& room) const {
+  constexpr double kWithin = 0.5;  // of the room
+  const std::vector<Id>& nodes = beside.front().nodes;
+  const std::vector<int> places = places_of(nodes);
+  const ReferenceBody& body = patch_.body();
+  std::vector<Vector3> points;
+  for (const Id node : nodes) {
+    const auto [patch, control_point] = body.nodes.place(node);
+    points.push_back(body.patches[patch].control_points.col(control_point));
+  }
+  const auto count = static_cast<Eigen::Index>(nodes.size());
+  const Eigen::MatrixXd u = under_unit_forces(places), of_point = by_half_spaces(u, feet, true);
+  std::vector<SkinPoint> around;
+  std::vector<double> weights;
+  for (std::size_t f = 0; f < feet.size(); ++f) {
+    const Spread spread = spread_of(feet[f], points, beside[f].Z);
+    around.push_back(feet[f]);
+    weights.push_back(0.0);
+    const std::size_t centre = weights.size() - 1;
+    for (int k = 0; k < 2; ++k) {
+      const double reach = std::min(std::sqrt(2.0 * spread.moment[k]), kWithin * room[f]);
+      const double weight = reach > 0.0 ? 0.5 * spread.moment[k] / (reach * reach) : 0.0;
+      for (const double side : {-1.0, 1.0}) {
+        around.push_back(feet[f]);
+        around.back().point += side * reach * spread.along[k];
+        weights.push_back(weight);
+        weights[centre] -= weight;
+      }
+    }
+  }
+  const Eigen::MatrixXd of_around = by_half_spaces(u, around, false);
+  const std::size_t each = around.size() / feet.size();
+  std::vector<OfSpread> found;
+  for (std::size_t f = 0; f < feet.size(); ++f) {
+    std::vector<double> R(nodes.size(), 0.0);
+    for (std::size_t a = 0; a < feet[f].nodes.size(); ++a)
+      R[std::lower_bound(nodes.begin(), nodes.end(), feet[f].nodes[a]) - nodes.begin()] += feet[f].R[a];
+    const std::vector<double>& Z = beside[f].Z;
+    Matrix3 R_by_Z = Matrix3::Zero(), Z_by_R = Matrix3::Zero(), Z_by_Z = Matrix3::Zero();
+    for (Eigen::Index a = 0; a < count; ++a) {
+      Matrix3 by_R = of_point.block<3, 3>(3 * a, 3 * static_cast<Eigen::Index>(f)), by_Z = Matrix3::Zero();
+      for (std::size_t k = f * each; k < (f + 1) * each; ++k)
+        by_Z += weights[k] * of_around.block<3, 3>(3 * a, 3 * static_cast<Eigen::Index>(k));
+      for (Eigen::Index b = 0; b < count; ++b) {
+        const auto response = u.block<3, 3>(3 * places[a], 3 * b);
+        by_R += R[b] * response;
+        by_Z += Z[b] * response;
+      }
+      R_by_Z += R[a] * by_Z;
+      Z_by_R += Z[a] * by_R;
+      Z_by_Z += Z[a] * by_Z;
+    }
+    found.push_back({0.5 * (R_by_Z + Z_by_R), Z_by_Z});
+  }
+  return found;
 }
 
 }  // namespace structure

@@ -14,6 +14,7 @@
 #include "structure/compliance/gradient_products.h"
 #include "structure/compliance/half_space.h"
 #include "structure/compliance/local_patch.h"
+#include "structure/compliance/net_mean.h"
 
 namespace structure {
 
@@ -28,8 +29,20 @@ class LocalProblem {
   /// mesh's displacement there by a unit force along e_j, less what the body itself gives way more than a
   /// half-space.
   std::vector<Matrix3> compliances(const std::vector<SkinPoint>& feet) const;
+  /// What a force gives way that is R + w Z, with Z beside R (net_mean.h), is c + 2 w `one` + w^2 `both`.
+  struct OfSpread {
+    Matrix3 one, both;  ///< [length/force]
+  };
+  /// `room`: how far the skin goes on about each foot [length].
+  std::vector<OfSpread> spread_compliances(const std::vector<SkinPoint>& feet,
+                                           const std::vector<NetMean::Beside>& beside,
+                                           const std::vector<double>& room) const;
 
  private:
+  std::vector<int> places_of(const std::vector<Id>& nodes) const;
+  Eigen::MatrixXd under_unit_forces(const std::vector<int>& places) const;
+  Eigen::MatrixXd by_half_spaces(const Eigen::MatrixXd& u, const std::vector<SkinPoint>& feet,
+                                 bool of_touched_face) const;
   void assemble(GradientProducts& gradients);
   void add(const BodyElement& element, const Eigen::MatrixXd& products, const std::vector<int>& places);
   Matrix3& block(int free_place, int held_place);
@@ -37,7 +50,7 @@ class LocalProblem {
   Eigen::MatrixXd prescribed(const std::vector<SkinPoint>& feet,
                              const std::vector<HalfSpace>& half_spaces) const;
   void add_tractions(const std::vector<SkinPoint>& feet, const std::vector<HalfSpace>& half_spaces,
-                     Eigen::MatrixXd& forces) const;
+                     bool of_touched_face, Eigen::MatrixXd& forces) const;
   Eigen::MatrixXd forces_of_held(const Eigen::MatrixXd& u) const;
 
   const LocalPatch& patch_;

@@ -9,6 +9,7 @@ from typing import Mapping
 import numpy as np
 
 PLACES = ("corner", "edge", "centre")  # of an element: where the middle of the top is
+QUARTER = "quarter"  # a quarter of an element from two of its sides: as any place, without symmetry
 GROWTH = 1.3  # from one element to the next
 EQUAL = 5  # elements on each side of the middle
 
@@ -23,10 +24,10 @@ def lengths(h: float, reach: float, largest: float, first: float) -> np.ndarray:
     return np.array(borders)
 
 
-def across(h: float, reach: float, largest: float, in_the_middle: bool) -> np.ndarray:
-    """Borders from -reach to reach, at least: 0 is one of them, or in the middle of an element."""
-    half = lengths(h, reach, largest, 0.5 * h if in_the_middle else 0.0)
-    return np.concatenate([-half[::-1], half if in_the_middle else half[1:]])
+def across(h: float, reach: float, largest: float, inside: float) -> np.ndarray:
+    """Borders from -reach to reach, at least: 0 is one of them, or `inside` an element by this share of it."""
+    left, right = (lengths(h, reach, largest, share * h) for share in (inside, 1.0 - inside if inside else 0.0))
+    return np.concatenate([-left[::-1], right if inside else right[1:]])
 
 
 def open_knots(breaks: np.ndarray, degree: int) -> np.ndarray:
@@ -43,7 +44,7 @@ class GradedBlock:
     """Lengths in m; its top is at z = 0."""
 
     h: float  # of the elements in the middle of the top
-    place: str  # one of PLACES
+    place: str  # one of PLACES, or QUARTER
     half: float  # side over two, at least
     depth: float  # at least; exact with `layers`
     largest: float  # element
@@ -54,8 +55,8 @@ class GradedBlock:
     shear: str = "plain"  # or corrected
 
     def breaks(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        x, y = (across(self.h, self.half, self.largest, self.place in places)
-                for places in (("edge", "centre"), ("centre",)))  # fmt: skip
+        inside = {"corner": (0.0, 0.0), "edge": (0.5, 0.0), "centre": (0.5, 0.5), QUARTER: (0.25, 0.25)}[self.place]
+        x, y = (across(self.h, self.half, self.largest, share) for share in inside)
         if self.layers:
             return x, y, np.linspace(-self.depth, 0.0, self.layers + 1)
         return x, y, -lengths(self.h, self.depth, self.largest, 0.0)[::-1]

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Of ComplianceCorrection what forces need that are spread about their foot.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "coupling/contact/compliance.h"
+
+namespace contact {
+
+/// What is about the foot now; of what links have done for the contact's own force as much is taken back as
+/// at the foot.
+void ComplianceCorrection::know_spread(const Contact& contact, Before& before) const {
+  if (before.knows_spread) return;
+  before.knows_spread = true;
+  compliance_.find_spread(contact.foot, before.directions.element, before.spread);
+  const coupling::FootSlopes foot(wall_.surface(), contact.foot);
+  const coupling::NetSpread::Sums sums = net_spread_->sums(foot.slopes(), wall_.control_points());
+  before.beside = wall_.to_space_direction(sums.value);
+  for (int j = 0; j < 2; ++j) before.beside_slopes.col(j) = wall_.to_space_direction(sums.slopes.col(j));
+  before.beside_velocity =
+      wall_.to_space_direction(net_spread_->sum(foot.slopes().values, wall_.velocities()));
+  const double taken = before.spread.taken_one + before.expected_spread * before.spread.taken_both;
+  before.above =
+      before.n.dot(before.beside) - before.spread.height.c - taken * before.expected.dot(before.n);
+}
+
+SpreadLaw ComplianceCorrection::spread_law(const Before& before) const {
+  const ApproachBlock& block = *before.block;
+  const coupling::LocalCompliance::Spread& spread = before.spread;
+  const int lane = before.lane;
+  return {block.constant[lane] * std::sqrt(block.radius[lane]),
+          block.radius[lane],
+          before.give.normal.c + before.give.taken,
+          spread.one.c + spread.taken_one,
+          spread.both.c + spread.taken_both,
+          spread.moment.c,
+          before.above};
+}
+
+/// Where the surface is met moves as its mean does.
+void ComplianceCorrection::move_with_spread(const ParticleView& particles, const Time& now, Contact& contact,
+                                            Before& before) {
+  Vector3 velocity = before.weight.w * before.beside_velocity;
+  if (!now.is_setup && now.dt > 0.0) {
+    const double change = before.weight.w - forces_of(particles, contact)[kSpreadLast];
+    velocity += change / now.dt * (before.beside - before.n.dot(before.beside) * before.n);
+  }
+  before.met_velocity += velocity;
+  contact.wall_velocity += velocity;
+  before.approach += before.n.dot(velocity);
+}
+
+void ComplianceCorrection::spread_elastic(const ParticleView& particles, const Time& now, Contact& contact,
+                                          Before& before) {
+  const int lane = before.lane;
+  ApproachBlock& block = elastic_;
+  if (block.give_way[lane] < SpreadWeight::kBegin && before.expected_spread == 0.0) return;
+  know_spread(contact, before);
+  if (block.give_way[lane] < SpreadWeight::kBegin) return;
+  const SpreadLaw law = spread_law(before);
+  const double of_force = before.expected.norm() / law.K, root = std::cbrt(of_force);
+  const SpreadLaw::State state = law.solve(block.overlap[lane], root * root, kLargest);
+  if (state.s == 0.0) return;
+  before.weight = state.weight;
+  before.mismatch = state.mismatch;
+  move_with_spread(particles, now, contact, before);
+  block.x[lane] = state.x, block.root[lane] = std::sqrt(state.x);
+  block.force[lane] = state.force, block.give_way[lane] = state.s;
+  const double in_all = 1.0 / (1.0 - state.s), rate = before.approach * in_all,
+               way = now.dt * std::abs(rate);
+  block.rate[lane] = rate;
+  block.stiffness[lane] = 1.5 * law.K * block.root[lane];
+  block.tangent[lane] = 1.5 * law.K * std::sqrt(std::max(state.x, way)) * in_all;
+}
+
+// By what has been kept of x, before it moves on: a damped contact has no potential anyhow.  Its account is
+// of the work that its force does, w of each step with what the surface does then.
+void ComplianceCorrection::spread_damped(const ParticleView& particles, const Time& now, Contact& contact,
+                                         Before& before) {
+  ApproachBlock& block = damped_;
+  const int lane = before.lane;
+  const double x = block.memory[ApproachBlock::kX][lane];
+  const double* const forces = forces_of(particles, contact);
+  const double last = forces[kSpreadLast];
+  const double c = before.give.normal.c + before.give.taken,
+               K = block.constant[lane] * std::sqrt(block.radius[lane]);
+  const bool begins = x > 0.0 && 1.5 * K * c * std::sqrt(x) > SpreadWeight::kBegin;
+  if (!begins && last == 0.0) return;
+  know_spread(contact, before);
+  before.mismatch = 0.0;
+  const SpreadLaw law = spread_law(before);
+  if (now.is_setup)
+    before.weight.w = last;
+  else if (x > 0.0)
+    before.weight.w = law.weight(x).w;
+  const double w = before.weight.w;
+  if (!now.is_setup) {
+    const double force_before = block.memory[ApproachBlock::kForce][lane];
+    block.memory[ApproachBlock::kOverlap][lane] += (w - last) * forces[kAbove];
+    block.memory[ApproachBlock::kTaken][lane] += 0.5 * force_before * (last - w) * (before.above - forces[kAbove]);
+  }
+  block.overlap[lane] += w * before.above;
+  block.give[lane] = law.give(w);
+  move_with_spread(particles, now, contact, before);
+  block.of_surface[lane] += before.n.dot(w * before.beside_velocity);
+}
+
+double ComplianceCorrection::give_along(const Before& before, int c, Eigen::Vector2d& gradient) const {
+  const coupling::LocalCompliance::Component& of_point = before.give.along[c];
+  const double w = before.weight.w;
+  if (w == 0.0) {
+    gradient = before.directions.gradient(of_point.change);
+    return of_point.c;
+  }
+  const auto &one = before.spread.along_one[c], &both = before.spread.along_both[c];
+  std::array<double, 2> change;
+  for (int j = 0; j < 2; ++j)
+    change[j] = of_point.change[j] + w * (2.0 * one.change[j] + w * both.change[j]);
+  gradient = before.directions.gradient(change);
+  return of_point.c + w * (2.0 * one.c + w * both.c);
+}
+
+// -dU with the foot, beside what a point force has (theory.md).
+Eigen::Vector2d ComplianceCorrection::spread_along(const Contact& contact, const Before& before,
+                                                   double F) const {
+  const coupling::LocalCompliance::Spread& spread = before.spread;
+  const SpreadWeight& weight = before.weight;
+  const double w = weight.w;
+  const Vector3 tilted = (before.beside - before.n.dot(before.beside) * before.n) / contact.distance;
+  std::array<double, 2> change;
+  for (int j = 0; j < 2; ++j) {
+    const double of_give = w * (2.0 * spread.one.change[j] + w * spread.both.change[j]),
+                 of_weight = weight.by_c * (before.give.normal.change[j] + spread.taken.change[j]) +
+                             weight.by_moment * spread.moment.change[j],
+                 of_place = before.n.dot(before.beside_slopes.col(j)) -
+                            before.directions.tangents.col(j).dot(tilted) - spread.height.change[j];
+    change[j] = 0.5 * F * F * of_give + F * before.mismatch * of_weight + F * w * of_place;
+  }
+  return -before.directions.gradient(change);
+}
+
+}  // namespace contact
