@@ -46,11 +46,11 @@ class LocalCompliance {
   virtual std::vector<Share> shares() const { return {}; }
   /// What comes to Value for a force that is spread: c + 2 w one + w^2 both, also of what links take.
   struct Spread {
-    Component moment;                ///< second one of Z, the mean of both directions [length^2]
-    Component height;                ///< how far Z is above the foot where the body is undeformed [length]
-    Component one, both;             ///< along the normal [length/force]
+    Component moment;     ///< second one of Z, the mean of both directions [length^2]
+    Component height;     ///< how far Z is above the foot where the body is undeformed [length]
+    Component one, both;  ///< along the normal [length/force]
     std::array<Component, 3> along_one, along_both;  ///< likewise
-    Component taken;                 ///< as Value has it, with its changes
+    Component taken;                                 ///< as Value has it, with its changes
     double taken_one, taken_both;
   };
   /// As find(); asked for few contacts.

@@ -317,8 +317,6 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
       by.beside = before.beside;
       by.tilt = -F * before.weight.w / contact.distance * across(before.beside, before.n);
       taken += before.expected_spread * before.spread.taken_one;
-      by.beside -=
-          (before.spread.taken_one + before.expected_spread * before.spread.taken_both) * before.expected;
     }
     by.stiffness = before.block->stiffness[before.lane];
     by.tangent = before.block->tangent[before.lane];

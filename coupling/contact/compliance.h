@@ -99,8 +99,8 @@ class ComplianceCorrection {
     // Of a force that is spread, or was:
     bool knows_spread;
     SpreadWeight weight;
-    double mismatch, above;    // mu, q [length]
-    Vector3 beside, beside_velocity;  // sums of Z_A x_A and v_A, in space
+    double mismatch, above;           // mu, q [length]
+    Vector3 beside, beside_velocity;  // sums of Z_A x_A, as the body has it, and of Z_A v_A, in space
     nurbs::Tangents beside_slopes;    // and of dZ_A/dxi_j x_A
     coupling::LocalCompliance::Spread spread;
     SurfaceDirections directions;
@@ -109,8 +109,8 @@ class ComplianceCorrection {
   /// Of a contact that begins [energy] (approach_kernel.h).
   double credit(const ParticleView& particles, const ContactModel& model, const Contact& contact,
                 const Before& before) const;
-  void enter(const ParticleView& particles, const Time& now, const ContactModel& model,
-             Contact& contact, Before& before);
+  void enter(const ParticleView& particles, const Time& now, const ContactModel& model, Contact& contact,
+             Before& before);
   double overlap_of_others(const ParticleView& particles, const Time& now, const Contact& contact,
                            Before& before) const;
   void know_spread(const Contact& contact, Before& before) const;

@@ -16,13 +16,12 @@ void ComplianceCorrection::know_spread(const Contact& contact, Before& before) c
   compliance_.find_spread(contact.foot, before.directions.element, before.spread);
   const coupling::FootSlopes foot(wall_.surface(), contact.foot);
   const coupling::NetSpread::Sums sums = net_spread_->sums(foot.slopes(), wall_.control_points());
-  before.beside = wall_.to_space_direction(sums.value);
   for (int j = 0; j < 2; ++j) before.beside_slopes.col(j) = wall_.to_space_direction(sums.slopes.col(j));
   before.beside_velocity =
       wall_.to_space_direction(net_spread_->sum(foot.slopes().values, wall_.velocities()));
   const double taken = before.spread.taken_one + before.expected_spread * before.spread.taken_both;
-  before.above =
-      before.n.dot(before.beside) - before.spread.height.c - taken * before.expected.dot(before.n);
+  before.beside = wall_.to_space_direction(sums.value) - taken * before.expected;
+  before.above = before.n.dot(before.beside) - before.spread.height.c;
 }
 
 SpreadLaw ComplianceCorrection::spread_law(const Before& before) const {
@@ -67,8 +66,7 @@ void ComplianceCorrection::spread_elastic(const ParticleView& particles, const T
   move_with_spread(particles, now, contact, before);
   block.x[lane] = state.x, block.root[lane] = std::sqrt(state.x);
   block.force[lane] = state.force, block.give_way[lane] = state.s;
-  const double in_all = 1.0 / (1.0 - state.s), rate = before.approach * in_all,
-               way = now.dt * std::abs(rate);
+  const double in_all = 1.0 / (1.0 - state.s), rate = before.approach * in_all, way = now.dt * std::abs(rate);
   block.rate[lane] = rate;
   block.stiffness[lane] = 1.5 * law.K * block.root[lane];
   block.tangent[lane] = 1.5 * law.K * std::sqrt(std::max(state.x, way)) * in_all;
@@ -98,7 +96,8 @@ void ComplianceCorrection::spread_damped(const ParticleView& particles, const Ti
   if (!now.is_setup) {
     const double force_before = block.memory[ApproachBlock::kForce][lane];
     block.memory[ApproachBlock::kOverlap][lane] += (w - last) * forces[kAbove];
-    block.memory[ApproachBlock::kTaken][lane] += 0.5 * force_before * (last - w) * (before.above - forces[kAbove]);
+    block.memory[ApproachBlock::kTaken][lane] +=
+        0.5 * force_before * (last - w) * (before.above - forces[kAbove]);
   }
   block.overlap[lane] += w * before.above;
   block.give[lane] = law.give(w);
@@ -115,8 +114,7 @@ double ComplianceCorrection::give_along(const Before& before, int c, Eigen::Vect
   }
   const auto &one = before.spread.along_one[c], &both = before.spread.along_both[c];
   std::array<double, 2> change;
-  for (int j = 0; j < 2; ++j)
-    change[j] = of_point.change[j] + w * (2.0 * one.change[j] + w * both.change[j]);
+  for (int j = 0; j < 2; ++j) change[j] = of_point.change[j] + w * (2.0 * one.change[j] + w * both.change[j]);
   gradient = before.directions.gradient(change);
   return of_point.c + w * (2.0 * one.c + w * both.c);
 }

@@ -117,8 +117,7 @@ void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step,
     const double of_links = 1.0 - 0.5 * by.spread;  // links see that much of it, at most
     force.stiffness = by.stiffness * of_links * of_links;
     force.is_spread = by.spread != 0.0;
-    Vector3::Map(force.spread) =
-        -by.spread * wall_.to_frame_direction(contact.force - by.further_force());
+    Vector3::Map(force.spread) = -by.spread * wall_.to_frame_direction(contact.force - by.further_force());
   }
   if (wall_.deforms() && (contact.correction || !contact.torque.isZero(0.0))) turn_body(contact, force);
 }

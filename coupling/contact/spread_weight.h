@@ -6,9 +6,9 @@
 //   w = theta(s) W(a^2/(5 m)),   W(y) = y/(1 + y^4)^(1/4),   a^2 = r* x,
 //
 // grows until Z, of second moment m, has w m = a^2/5 of that pressure, as far as one mean over the net goes;
-// and what it meets the surface by is its own mean.  The displacement that is met is then less by w q, q being
-// how far the surface is above the foot under Z, and c(w) = c + 2 w b + w^2 d (coupling/local_compliance.h).
-// w moves with the force, and so does its potential
+// and what it meets the surface by is its own mean.  The displacement that is met is then less by w q, q
+// being how far the surface is above the foot under Z, and c(w) = c + 2 w b + w^2 d
+// (coupling/local_compliance.h). w moves with the force, and so does its potential
 //
 //   U = stationary over F of  F (overlap + w q) + c(w) F^2/2 - integral of x dF,
 //
@@ -22,7 +22,7 @@ struct SpreadWeight {
   static constexpr double kBegin = 0.5, kEnd = 0.7;  ///< of s under a point force
 
   double w = 0.0;
-  double by_c = 0.0, by_moment = 0.0;  ///< its changes [force/length], [1/length^2]
+  double by_c = 0.0, by_moment = 0.0;       ///< its changes [force/length], [1/length^2]
   double by_log = 0.0, by_log_twice = 0.0;  ///< first and second derivatives with log x
 };
 
@@ -43,8 +43,8 @@ struct SpreadLaw {
     SpreadWeight weight;
   };
   State at(double x) const;
-  /// Where the overlap is this, near x = `from`; with s at `limit` or more if there is none below it, and with
-  /// s = 0 where a point force has less than kBegin.
+  /// Where the overlap is this, near x = `from`; with s at `limit` or more if there is none below it, and
+  /// with s = 0 where a point force has less than kBegin.
   State solve(double overlap, double from, double limit) const;
 };
 

@@ -183,7 +183,7 @@ ComplianceTables::Tensors ComplianceTables::means(int piece, int element, int of
 
 const ComplianceTable& ComplianceTables::find(int piece, int element) {
   ElementCompliances& state = *state_of_[piece][element];
-  const auto solved = [](ElementCompliances& of, int p, int e) -> auto& { return of.solved(p, e); };
+  const auto solved = [](ElementCompliances & of, int p, int e) -> auto& { return of.solved(p, e); };
   expect_solved(solved(state, piece, element), piece, element);
   Origin origin;
   const Tensors tensors = means(piece, element, 0, solved, origin);
@@ -198,7 +198,7 @@ const ComplianceTable& ComplianceTables::find(int piece, int element) {
 
 const SpreadTable& ComplianceTables::find_spread(int piece, int element) {
   ElementCompliances& state = *state_of_[piece][element];
-  const auto solved = [](ElementCompliances& of, int p, int e) -> auto& { return of.solved_spread(p, e); };
+  const auto solved = [](ElementCompliances & of, int p, int e) -> auto& { return of.solved_spread(p, e); };
   expect_solved(solved(state, piece, element), piece, element);
   Origin origin;
   Tensors tensors = means(piece, element, 0, solved, origin);

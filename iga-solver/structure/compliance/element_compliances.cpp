@@ -189,8 +189,7 @@ std::unique_ptr<SpreadTable> ElementCompliances::spread_table(int piece, int ele
   SpreadTable::Values values;
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Matrix3 frame = hit.frame(points[k]);
-    const Components one = in_frame(tensors[k], frame),
-                     both = in_frame(tensors[points.size() + k], frame);
+    const Components one = in_frame(tensors[k], frame), both = in_frame(tensors[points.size() + k], frame);
     for (int c = 0; c < ComplianceTable::kTogether; ++c) {
       const bool is_normal = c == ComplianceTable::normal;
       values[SpreadTable::one + c].push_back(one[c] - (is_normal ? taken[k].one : 0.0));

@@ -58,8 +58,7 @@ std::vector<Opposite> opposites(const ReferenceBody& body, Id node, const std::s
   std::vector<Way> ways;
   for (const Id other : neighbours) {
     const Vector3 way = place(other) - centre;
-    if (const double distance = way.norm(); distance > 0.0)
-      ways.push_back({other, distance, way / distance});
+    if (const double distance = way.norm(); distance > 0.0) ways.push_back({other, distance, way / distance});
   }
   struct Candidate {
     double cosine;
@@ -88,8 +87,7 @@ NetMean::NetMean(const ReferenceBody& body, const std::vector<SkinPiece>& skin) 
   constexpr std::size_t kRegular = 2;  // directions of a net
   for (const auto& [node, neighbours] : neighbours_of(body, skin)) {
     const std::vector<Opposite> pairs = opposites(body, node, neighbours);
-    const double of_pair =
-        2.0 * kShare * kRegular / static_cast<double>(std::max(kRegular, pairs.size()));
+    const double of_pair = 2.0 * kShare * kRegular / static_cast<double>(std::max(kRegular, pairs.size()));
     std::map<Id, double> row;
     for (const auto& [nodes, distance] : pairs)
       for (int k = 0; k < 2; ++k) {

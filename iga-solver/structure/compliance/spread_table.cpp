@@ -16,8 +16,7 @@ SpreadTable::SpreadTable(const std::array<int, 2>& counts, const Values& values)
 
 ComplianceTable::Value SpreadTable::at(int scalar, const nurbs::Parameter<2>& low,
                                        const nurbs::Parameter<2>& high, const nurbs::Parameter<2>& xi) const {
-  const double* const first =
-      powers_.data() + static_cast<std::size_t>(scalar) * counts_[0] * counts_[1];
+  const double* const first = powers_.data() + static_cast<std::size_t>(scalar) * counts_[0] * counts_[1];
   std::array<double, 2> change, own;
   for (int d = 0; d < 2; ++d) {
     change[d] = 2.0 / (high[d] - low[d]);

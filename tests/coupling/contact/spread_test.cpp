@@ -32,7 +32,7 @@ TEST(SpreadLaw, KnowsHowItsWeightAndItsOverlapChange) {
     const double up = w(x * std::exp(step)), down = w(x * std::exp(-step));
     EXPECT_NEAR(weight.by_log, (up - down) / (2.0 * step), 1e-5) << s;
     EXPECT_NEAR(weight.by_log_twice, (up - 2.0 * weight.w + down) / (step * step), 1e-4) << s;
-    const auto by = [&](double SpreadLaw::* number) {
+    const auto by = [&](double SpreadLaw::*number) {
       SpreadLaw more = law, less = law;
       more.*number *= 1.0 + step, less.*number *= 1.0 - step;
       return (more.weight(x).w - less.weight(x).w) / (2.0 * step);
@@ -66,8 +66,8 @@ TEST(SpreadLaw, FindsTheOverlapItIsAskedFor) {
   }
 }
 
-// At rest the displacement that is met by R + w Z is less by that of the mesh's own answer to it: the force is
-// that of a point force whose mesh gives way by c, whatever is spread.
+// At rest the displacement that is met by R + w Z is less by that of the mesh's own answer to it: the force
+// is that of a point force whose mesh gives way by c, whatever is spread.
 TEST(SpreadLaw, AtRestSpreadingChangesNoForce) {
   const double c = 2.2e-4;
   for (const double s : {0.55, 0.65, 0.8, 0.95}) {
@@ -114,7 +114,8 @@ class Swells final : public coupling::LocalCompliance {
 
  private:
   static Component wave(const nurbs::SurfacePoint& foot, double mean, double ripple, double phase) {
-    const double k = nurbs::kTwoPi * ripples::kSide, x = k * foot.xi[0] + phase, y = k * foot.xi[1] - 0.7 * phase;
+    const double k = nurbs::kTwoPi * ripples::kSide, x = k * foot.xi[0] + phase,
+                 y = k * foot.xi[1] - 0.7 * phase;
     return {mean * (1.0 + ripple * std::sin(x) * std::cos(y)),
             {mean * ripple * k * std::cos(x) * std::cos(y), -mean * ripple * k * std::sin(x) * std::sin(y)}};
   }
