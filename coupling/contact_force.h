@@ -15,10 +15,10 @@ struct ContactForce {
   double stiffness = 0.0;
   /// And a couple: forces dR_A/dxi_j couple[j] on its control points, whose sum is zero [force].
   bool has_couple = false;
-  double couple[2][3] = {};
-  /// And what is spread about the foot: forces Z_A spread on control points (net_spread.h), whose sum is zero
-  /// [force].
   bool is_spread = false;
+  double couple[2][3] = {};
+  /// And, if it is spread, what is beside the foot: forces Z_A spread on control points (net_spread.h), whose
+  /// sum is zero [force].
   double spread[3] = {};
 };
 

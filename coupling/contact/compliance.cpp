@@ -330,7 +330,8 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
         for (int m = 0; m < ShearBlock::kMemory; ++m) memory[m] = shear_.memory[m][lane];
     }
     by.follows = along;
-    contact.force += by.further_force();
+    contact.force.noalias() += by.tangents * along;
+    if (before.weight.w != 0.0) contact.force += by.tilt;
     if (has_links_) by.shift = taken * before.expected;
     if (keeps_forces_ && !now.is_setup) remember(particles, contact, before);
   }

@@ -116,8 +116,10 @@ void ContactLoop::push_body(const ParticleView& particles, const StepInfo& step,
     const ContactCorrection& by = *contact.correction;
     const double of_links = 1.0 - 0.5 * by.spread;  // links see that much of it, at most
     force.stiffness = by.stiffness * of_links * of_links;
-    force.is_spread = by.spread != 0.0;
-    Vector3::Map(force.spread) = -by.spread * wall_.to_frame_direction(contact.force - by.further_force());
+    if (by.spread != 0.0) {
+      force.is_spread = true;
+      Vector3::Map(force.spread) = -by.spread * wall_.to_frame_direction(contact.force - by.further_force());
+    }
   }
   if (wall_.deforms() && (contact.correction || !contact.torque.isZero(0.0))) turn_body(contact, force);
 }
@@ -141,7 +143,7 @@ inline void ContactLoop::turn_body(const Contact& contact, coupling::ContactForc
   Vector3 moment = contact.torque + contact.delta.cross(force);
   if (by) {
     moment += by->shift.cross(contact.force);  // the body's foot is where its nodes have it
-    moment -= by->spread * by->beside.cross(contact.force - by->further_force());
+    if (by->spread != 0.0) moment -= by->spread * by->beside.cross(contact.force - by->further_force());
   }
   const Vector3 couple = -wall_.to_frame_direction(moment);
   on_body.has_couple = true;
