@@ -76,9 +76,6 @@ template <class Vector>
 void put(const Vector& v, ShearBlock::Lanes* lanes, int lane) {
   for (int d = 0; d < 3; ++d) lanes[d][lane] = v[d];
 }
-/// What is along the surface.
-Vector3 across(const Vector3& v, const Vector3& n) { return v - n.dot(v) * n; }
-
 Vector3 vector_of(const ShearBlock::Lanes* lanes, int lane) {
   return {lanes[0][lane], lanes[1][lane], lanes[2][lane]};
 }
@@ -147,7 +144,7 @@ void ComplianceCorrection::enter(const ParticleView& particles, const Time& now,
   before.overlap = contact.overlap, before.distance = contact.distance, before.touches = contact.touches;
   before.delta = contact.delta, before.wall_velocity = before.met_velocity = contact.wall_velocity;
   before.block = nullptr, before.shear_lane = -1, before.is_light = false;
-  before.knows_spread = false, before.weight = {}, before.expected_spread = 0.0;
+  before.spread = nullptr, before.w = before.expected_spread = 0.0;
   const double damping = model.hertz_damping(i);
   const bool is_damped = damping > 0.0;
   double* const memory = is_damped ? approach_memory_of(particles, contact) : nullptr;
@@ -182,7 +179,7 @@ void ComplianceCorrection::enter(const ParticleView& particles, const Time& now,
 
 // The surface is where it was expected, by links, for this contact's own force, too.
 double ComplianceCorrection::overlap_of_others(const ParticleView& particles, const Time& now,
-                                               const Contact& contact, Before& before) const {
+                                               const Contact& contact, Before& before) {
   const double* const forces = memory_of(particles, contact);
   before.expected = Vector3::Map(forces + kExpected);
   before.expected_spread = forces[kSpreadExpected];
@@ -192,8 +189,7 @@ double ComplianceCorrection::overlap_of_others(const ParticleView& particles, co
   }
   double taken = before.give.taken;
   if (before.expected_spread != 0.0) {
-    know_spread(contact, before);
-    taken += before.expected_spread * before.spread.taken_one;
+    taken += before.expected_spread * know_spread(contact, before).give.taken_one;
   }
   const double overlap = contact.overlap - taken * before.expected.dot(before.n);
   return before.block == &damped_ ? overlap : std::max(overlap, 0.0);
@@ -211,8 +207,8 @@ void ComplianceCorrection::remember(const ParticleView& particles, const Contact
   Vector3::Map(forces + kLast) = contact.force;
   forces[kSpreadExpected] = before.expected_spread;
   forces[kSpreadBefore] = forces[kSpreadLast];
-  forces[kSpreadLast] = before.weight.w;
-  forces[kAbove] = before.knows_spread ? before.above : 0.0;
+  forces[kSpreadLast] = before.w;
+  forces[kAbove] = before.spread ? before.spread->above : 0.0;
 }
 
 // The energy of the impact, from bodies that weigh a dozen times as much, none from those that weigh thrice
@@ -311,12 +307,13 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
     ContactCorrection& by = *contact.correction;
     by.tangents = before.directions.tangents;
     double taken = before.give.taken;
-    if (before.weight.w != 0.0) {
+    if (before.w != 0.0) {
+      const Spread& spread = *before.spread;
       along += spread_along(contact, before, F);
-      by.spread = before.weight.w;
-      by.beside = before.beside;
-      by.tilt = -F * before.weight.w / contact.distance * across(before.beside, before.n);
-      taken += before.expected_spread * before.spread.taken_one;
+      by.spread = before.w;
+      by.beside = spread.beside;
+      by.tilt = -F * before.w / contact.distance * across(spread.beside, before.n);
+      taken += before.expected_spread * spread.give.taken_one;
     }
     by.stiffness = before.block->stiffness[before.lane];
     by.tangent = before.block->tangent[before.lane];
@@ -331,7 +328,7 @@ void ComplianceCorrection::after(const ParticleView& particles, const Time& now,
     }
     by.follows = along;
     contact.force.noalias() += by.tangents * along;
-    if (before.weight.w != 0.0) contact.force += by.tilt;
+    if (before.w != 0.0) contact.force += by.tilt;
     if (has_links_) by.shift = taken * before.expected;
     if (keeps_forces_ && !now.is_setup) remember(particles, contact, before);
   }

@@ -82,6 +82,14 @@ class ComplianceCorrection {
   static double held_gap(const ParticleSlots& slots, int history_count);
 
  private:
+  /// What few contacts need: those whose force is spread.
+  struct Spread {
+    SpreadWeight weight;
+    double mismatch, above;           // mu, q [length]
+    Vector3 beside, beside_velocity;  // sums of Z_A x_A, as the body has it, and of Z_A v_A, in space
+    nurbs::Tangents beside_slopes;    // and of dZ_A/dxi_j x_A
+    coupling::LocalCompliance::Spread give;
+  };
   /// What a contact was, and where it is in the blocks.
   struct Before {
     double overlap, distance;
@@ -96,13 +104,8 @@ class ComplianceCorrection {
     double approach;   // [length/time]
     Vector3 expected;  // its own force on the particle, as the surface has it [force]
     double expected_spread;
-    // Of a force that is spread, or was:
-    bool knows_spread;
-    SpreadWeight weight;
-    double mismatch, above;           // mu, q [length]
-    Vector3 beside, beside_velocity;  // sums of Z_A x_A, as the body has it, and of Z_A v_A, in space
-    nurbs::Tangents beside_slopes;    // and of dZ_A/dxi_j x_A
-    coupling::LocalCompliance::Spread spread;
+    double w;              // how much of it is spread now
+    const Spread* spread;  // of a force that is spread, or was
     SurfaceDirections directions;
     coupling::LocalCompliance::Value give;
   };
@@ -112,16 +115,17 @@ class ComplianceCorrection {
   void enter(const ParticleView& particles, const Time& now, const ContactModel& model, Contact& contact,
              Before& before);
   double overlap_of_others(const ParticleView& particles, const Time& now, const Contact& contact,
-                           Before& before) const;
-  void know_spread(const Contact& contact, Before& before) const;
-  SpreadLaw spread_law(const Before& before) const;
+                           Before& before);
+  Spread& know_spread(const Contact& contact, Before& before);
+  static SpreadLaw spread_law(const Before& before);
   void spread_damped(const ParticleView& particles, const Time& now, Contact& contact, Before& before);
   void spread_elastic(const ParticleView& particles, const Time& now, Contact& contact, Before& before);
   static void move_with_spread(const ParticleView& particles, const Time& now, Contact& contact,
                                Before& before);
+  static Vector3 across(const Vector3& v, const Vector3& n) { return v - n.dot(v) * n; }
   static double* forces_of(const ParticleView& particles, const Contact& contact);
-  double give_along(const Before& before, int component, Eigen::Vector2d& gradient) const;
-  Eigen::Vector2d spread_along(const Contact& contact, const Before& before, double F) const;
+  static double give_along(const Before& before, int component, Eigen::Vector2d& gradient);
+  static Eigen::Vector2d spread_along(const Contact& contact, const Before& before, double F);
   static void remember(const ParticleView& particles, const Contact& contact, const Before& before);
   void see_overlap(const ParticleView& particles, const Time& now, Contact& contact, Before& before);
   void enter_shear(const ParticleView& particles, const ContactModel& model, const Contact& contact,
@@ -137,6 +141,7 @@ class ComplianceCorrection {
   ApproachKernel approach_kernel_;
   ShearKernel shear_kernel_;
   std::array<Before, kCapacity> before_;
+  std::array<Spread, kCapacity> spreads_;  // of the same
   ApproachBlock elastic_, damped_;
   ShearBlock shear_;
   int elastic_count_ = 0, damped_count_ = 0, shear_count_ = 0;

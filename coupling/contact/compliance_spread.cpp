@@ -10,40 +10,43 @@ namespace contact {
 
 /// What is about the foot now; of what links have done for the contact's own force as much is taken back as
 /// at the foot.
-void ComplianceCorrection::know_spread(const Contact& contact, Before& before) const {
-  if (before.knows_spread) return;
-  before.knows_spread = true;
-  compliance_.find_spread(contact.foot, before.directions.element, before.spread);
+ComplianceCorrection::Spread& ComplianceCorrection::know_spread(const Contact& contact, Before& before) {
+  Spread& spread = spreads_[&before - before_.data()];
+  if (before.spread) return spread;
+  before.spread = &spread;
+  spread.mismatch = 0.0;
+  compliance_.find_spread(contact.foot, before.directions.element, spread.give);
   const coupling::FootSlopes foot(wall_.surface(), contact.foot);
   const coupling::NetSpread::Sums sums = net_spread_->sums(foot.slopes(), wall_.control_points());
-  for (int j = 0; j < 2; ++j) before.beside_slopes.col(j) = wall_.to_space_direction(sums.slopes.col(j));
-  before.beside_velocity =
+  const double taken = spread.give.taken_one + before.expected_spread * spread.give.taken_both;
+  spread.beside = wall_.to_space_direction(sums.value) - taken * before.expected;
+  for (int j = 0; j < 2; ++j) spread.beside_slopes.col(j) = wall_.to_space_direction(sums.slopes.col(j));
+  spread.beside_velocity =
       wall_.to_space_direction(net_spread_->sum(foot.slopes().values, wall_.velocities()));
-  const double taken = before.spread.taken_one + before.expected_spread * before.spread.taken_both;
-  before.beside = wall_.to_space_direction(sums.value) - taken * before.expected;
-  before.above = before.n.dot(before.beside) - before.spread.height.c;
+  spread.above = before.n.dot(spread.beside) - spread.give.height.c;
+  return spread;
 }
 
-SpreadLaw ComplianceCorrection::spread_law(const Before& before) const {
+SpreadLaw ComplianceCorrection::spread_law(const Before& before) {
   const ApproachBlock& block = *before.block;
-  const coupling::LocalCompliance::Spread& spread = before.spread;
+  const coupling::LocalCompliance::Spread& give = before.spread->give;
   const int lane = before.lane;
   return {block.constant[lane] * std::sqrt(block.radius[lane]),
           block.radius[lane],
           before.give.normal.c + before.give.taken,
-          spread.one.c + spread.taken_one,
-          spread.both.c + spread.taken_both,
-          spread.moment.c,
-          before.above};
+          give.one.c + give.taken_one,
+          give.both.c + give.taken_both,
+          give.moment.c,
+          before.spread->above};
 }
 
 /// Where the surface is met moves as its mean does.
 void ComplianceCorrection::move_with_spread(const ParticleView& particles, const Time& now, Contact& contact,
                                             Before& before) {
-  Vector3 velocity = before.weight.w * before.beside_velocity;
+  Vector3 velocity = before.w * before.spread->beside_velocity;
   if (!now.is_setup && now.dt > 0.0) {
-    const double change = before.weight.w - forces_of(particles, contact)[kSpreadLast];
-    velocity += change / now.dt * (before.beside - before.n.dot(before.beside) * before.n);
+    const double change = before.w - forces_of(particles, contact)[kSpreadLast];
+    velocity += change / now.dt * across(before.spread->beside, before.n);
   }
   before.met_velocity += velocity;
   contact.wall_velocity += velocity;
@@ -54,15 +57,15 @@ void ComplianceCorrection::spread_elastic(const ParticleView& particles, const T
                                           Before& before) {
   const int lane = before.lane;
   ApproachBlock& block = elastic_;
-  if (block.give_way[lane] < SpreadWeight::kBegin && before.expected_spread == 0.0) return;
-  know_spread(contact, before);
   if (block.give_way[lane] < SpreadWeight::kBegin) return;
+  Spread& spread = know_spread(contact, before);
   const SpreadLaw law = spread_law(before);
   const double of_force = before.expected.norm() / law.K, root = std::cbrt(of_force);
   const SpreadLaw::State state = law.solve(block.overlap[lane], root * root, kLargest);
   if (state.s == 0.0) return;
-  before.weight = state.weight;
-  before.mismatch = state.mismatch;
+  spread.weight = state.weight;
+  spread.mismatch = state.mismatch;
+  before.w = state.weight.w;
   move_with_spread(particles, now, contact, before);
   block.x[lane] = state.x, block.root[lane] = std::sqrt(state.x);
   block.force[lane] = state.force, block.give_way[lane] = state.s;
@@ -85,34 +88,33 @@ void ComplianceCorrection::spread_damped(const ParticleView& particles, const Ti
                K = block.constant[lane] * std::sqrt(block.radius[lane]);
   const bool begins = x > 0.0 && 1.5 * K * c * std::sqrt(x) > SpreadWeight::kBegin;
   if (!begins && last == 0.0) return;
-  know_spread(contact, before);
-  before.mismatch = 0.0;
+  Spread& spread = know_spread(contact, before);
   const SpreadLaw law = spread_law(before);
-  if (now.is_setup)
-    before.weight.w = last;
-  else if (x > 0.0)
-    before.weight.w = law.weight(x).w;
-  const double w = before.weight.w;
   if (!now.is_setup) {
-    const double force_before = block.memory[ApproachBlock::kForce][lane];
-    block.memory[ApproachBlock::kOverlap][lane] += (w - last) * forces[kAbove];
-    block.memory[ApproachBlock::kTaken][lane] +=
-        0.5 * force_before * (last - w) * (before.above - forces[kAbove]);
+    spread.weight = x > 0.0 ? law.weight(x) : SpreadWeight();
+    before.w = spread.weight.w;
+    const double force_before = block.memory[ApproachBlock::kForce][lane], of_step = before.w - last;
+    block.memory[ApproachBlock::kOverlap][lane] += of_step * forces[kAbove];
+    block.memory[ApproachBlock::kTaken][lane] -=
+        0.5 * force_before * of_step * (spread.above - forces[kAbove]);
+  } else {
+    spread.weight = {};
+    before.w = last;
   }
-  block.overlap[lane] += w * before.above;
-  block.give[lane] = law.give(w);
+  block.overlap[lane] += before.w * spread.above;
+  block.give[lane] = law.give(before.w);
   move_with_spread(particles, now, contact, before);
-  block.of_surface[lane] += before.n.dot(w * before.beside_velocity);
+  block.of_surface[lane] += before.n.dot(before.w * spread.beside_velocity);
 }
 
-double ComplianceCorrection::give_along(const Before& before, int c, Eigen::Vector2d& gradient) const {
+double ComplianceCorrection::give_along(const Before& before, int c, Eigen::Vector2d& gradient) {
   const coupling::LocalCompliance::Component& of_point = before.give.along[c];
-  const double w = before.weight.w;
+  const double w = before.w;
   if (w == 0.0) {
     gradient = before.directions.gradient(of_point.change);
     return of_point.c;
   }
-  const auto &one = before.spread.along_one[c], &both = before.spread.along_both[c];
+  const auto &one = before.spread->give.along_one[c], &both = before.spread->give.along_both[c];
   std::array<double, 2> change;
   for (int j = 0; j < 2; ++j) change[j] = of_point.change[j] + w * (2.0 * one.change[j] + w * both.change[j]);
   gradient = before.directions.gradient(change);
@@ -120,20 +122,19 @@ double ComplianceCorrection::give_along(const Before& before, int c, Eigen::Vect
 }
 
 // -dU with the foot, beside what a point force has (theory.md).
-Eigen::Vector2d ComplianceCorrection::spread_along(const Contact& contact, const Before& before,
-                                                   double F) const {
-  const coupling::LocalCompliance::Spread& spread = before.spread;
-  const SpreadWeight& weight = before.weight;
-  const double w = weight.w;
-  const Vector3 tilted = (before.beside - before.n.dot(before.beside) * before.n) / contact.distance;
+Eigen::Vector2d ComplianceCorrection::spread_along(const Contact& contact, const Before& before, double F) {
+  const Spread& spread = *before.spread;
+  const coupling::LocalCompliance::Spread& give = spread.give;
+  const double w = before.w;
+  const Vector3 tilted = across(spread.beside, before.n) / contact.distance;
   std::array<double, 2> change;
   for (int j = 0; j < 2; ++j) {
-    const double of_give = w * (2.0 * spread.one.change[j] + w * spread.both.change[j]),
-                 of_weight = weight.by_c * (before.give.normal.change[j] + spread.taken.change[j]) +
-                             weight.by_moment * spread.moment.change[j],
-                 of_place = before.n.dot(before.beside_slopes.col(j)) -
-                            before.directions.tangents.col(j).dot(tilted) - spread.height.change[j];
-    change[j] = 0.5 * F * F * of_give + F * before.mismatch * of_weight + F * w * of_place;
+    const double of_give = w * (2.0 * give.one.change[j] + w * give.both.change[j]),
+                 of_weight = spread.weight.by_c * (before.give.normal.change[j] + give.taken.change[j]) +
+                             spread.weight.by_moment * give.moment.change[j],
+                 of_place = before.n.dot(spread.beside_slopes.col(j)) -
+                            before.directions.tangents.col(j).dot(tilted) - give.height.change[j];
+    change[j] = 0.5 * F * F * of_give + F * spread.mismatch * of_weight + F * w * of_place;
   }
   return -before.directions.gradient(change);
 }
