@@ -111,7 +111,8 @@ class ContactLoop {
   /// Contacts that miss more than kMissing of their force to the mesh: nothing corrects them.
   const MeshAlarm& uncorrected() const { return uncorrected_; }
   static constexpr double kMissing = 0.02;
-  /// Contacts that are corrected on elements so small that they turn below them (MeshEstimate::turning).
+  /// Contacts that are corrected on elements so small that they turn below them
+  /// (MeshEstimate::squared_turning).
   const MeshAlarm& turning() const { return turning_; }
   static constexpr double kTurning = 0.45;
   /// Contacts that are corrected by what is static, and are shorter than that (MeshEstimate::waves > 1).

@@ -93,7 +93,8 @@ inline void ContactLoop::look_at_mesh(const ParticleView& particles, const StepI
     if (contact.missing > kMissing) raise(uncorrected_, contact.missing);
     return;
   }
-  if (const double turning = mesh_->turning(contact); turning > kTurning) raise(turning_, turning);
+  if (const double squared = mesh_->squared_turning(contact, hertz_constant); squared > kTurning * kTurning)
+    raise(turning_, std::sqrt(squared));
   constexpr double kFirst = 1.01;  // of the way of a step
   const int i = contact.particle;
   const double approach = contact.normal().dot(contact.wall_velocity - particles.velocity(i));

@@ -61,8 +61,7 @@ double MeshEstimate::missing_at_peak(const Contact& contact, double hertz_consta
 }
 
 double MeshEstimate::missing(const Contact& contact, double hertz_constant, double overlap) const {
-  constexpr double kCorner = 0.8;  // of quadratic elements
-  const double a = std::sqrt(contact.effective_radius * overlap), E_star = 0.75 * hertz_constant;
+  const double a = std::sqrt(contact.effective_radius * overlap), E_star = kOfModulus * hertz_constant;
   const double modulus = solids_[contact.foot.patch].plane_modulus;
   return std::max(0.0, kCorner * E_star * a / (modulus * size(contact.foot)));
 }

@@ -4,6 +4,7 @@
 // for a give that is static (iga-solver/structure/compliance/README.md has both).
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -24,12 +25,16 @@ class MeshEstimate {
   /// The same at the end of an impact's approach, overlap delta = (5 m V^2 / (4 K))^(2/5) (Johnson 1985, sec.
   /// 11.4) [-].
   double missing_at_peak(const Contact& contact, double hertz_constant, double mass, double speed) const;
-  /// F r*/(E' h^3): a surface that turns by an angle below a contact moves its foot by as many radii, and the
-  /// force with it; elements bear that up to about one half (theory.md) [-].
-  double turning(const Contact& contact) const {
-    const double h = size(contact.foot);
-    return contact.force.norm() * contact.effective_radius /
-           (solids_[contact.foot.patch].plane_modulus * h * h * h);
+  /// F r*/(E' h^3), squared: a surface that turns by an angle below a contact moves its foot by as many
+  /// radii, and the force with it; elements bear that up to about one half (theory.md) [-].  With
+  /// Contact::missing.
+  double squared_turning(const Contact& contact, double hertz_constant) const {
+    const double modulus = solids_[contact.foot.patch].plane_modulus,
+                 a_over_h = contact.missing * modulus / (kCorner * kOfModulus * hertz_constant),
+                 squared = a_over_h * a_over_h,
+                 a2 = contact.effective_radius * std::max(contact.overlap, 0.0);
+    const double of_force = contact.force.squaredNorm() * contact.effective_radius * contact.effective_radius;
+    return a2 > 0.0 ? of_force * squared * squared * squared / (modulus * modulus * a2 * a2 * a2) : 0.0;
   }
   /// 3 h/c_s over the time that a sphere of this mass is in contact after an impact at a speed, 2.943 delta/V
   /// [-]; 0 if the constant is not a number.
@@ -56,6 +61,9 @@ class MeshEstimate {
   /// How deep that sphere comes [length], and how long it is in contact [time].
   static double depth(const Contact& contact, double hertz_constant, double mass, double speed);
   static double duration(const Contact& contact, double hertz_constant, double mass, double speed);
+
+  static constexpr double kCorner = 0.8;      // of quadratic elements
+  static constexpr double kOfModulus = 0.75;  // E* over the constant
 
   const nurbs::MultiPatch& surface_;
   std::vector<coupling::MeshedSolid> solids_;  // below each patch
