@@ -84,9 +84,9 @@ void ComplianceCorrection::spread_damped(const ParticleView& particles, const Ti
   const double x = block.memory[ApproachBlock::kX][lane];
   const double* const forces = forces_of(particles, contact);
   const double last = forces[kSpreadLast];
-  const double c = before.give.normal.c + before.give.taken,
-               K = block.constant[lane] * std::sqrt(block.radius[lane]);
-  const bool begins = x > 0.0 && 1.5 * K * c * std::sqrt(x) > SpreadWeight::kBegin;
+  const double S_over_root = 1.5 * block.constant[lane] * block.give[lane];  // over that of the radius
+  constexpr double kBegin = SpreadWeight::kBegin;
+  const bool begins = x > 0.0 && S_over_root * S_over_root * block.radius[lane] * x > kBegin * kBegin;
   if (!begins && last == 0.0) return;
   Spread& spread = know_spread(contact, before);
   const SpreadLaw law = spread_law(before);
