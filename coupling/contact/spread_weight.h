@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // How far a contact's force is spread about its foot, and its law then.  Near s = 1 (compliance.h) a point
-// force has no equilibrium on the mesh, which is finer than the contact's disc; one that is spread as Hertz'
-// pressure has.  So the force is R + w Z (coupling/net_spread.h), where from s = 0.5 to 0.7 of a point force
+// force has no equilibrium on the mesh, which is finer than the contact's disc; one that is spread as the
+// contact is has.  So the force is R + w Z (coupling/net_spread.h), where from s = 0.5 to 0.7 of a point
+// force
 //
-//   w = theta(s) W(a^2/(5 m)),   W(y) = y/(1 + y^4)^(1/4),   a^2 = r* x,
+//   w = theta(s) W(a^2/(3 m)),   W(y) = y/(1 + y^4)^(1/4),   a^2 = r* x,
 //
-// grows until Z, of second moment m, has w m = a^2/5 of that pressure, as far as one mean over the net goes;
-// and what it meets the surface by is its own mean.  The displacement that is met is then less by w q, q
-// being how far the surface is above the foot under Z, and c(w) = c + 2 w b + w^2 d
-// (coupling/local_compliance.h). w moves with the force, and so does its potential
+// grows until Z, of second moment m, has w m = a^2/3, that of the pressure of a flat punch on Hertz' disc, as
+// far as one mean over the net goes: the surface below it is flat, as a foot wants it (Hertz' own pressure,
+// a^2/5, leaves it as round as the ball).  What it meets the surface by is its own mean: the displacement
+// that is met is less by w q, q being how far the surface is above the foot under Z, and c(w) = c + 2 w b +
+// w^2 d (coupling/local_compliance.h).  w moves with the force, and so does its potential
 //
 //   U = stationary over F of  F (overlap + w q) + c(w) F^2/2 - integral of x dF,
 //

@@ -21,8 +21,8 @@ class NetMean {
     double share;
   };
   /// A share of each of these is on each neighbour of a regular net, four times it leaves the node: the
-  /// second moment is 2 kShare h^2 in both directions, that of the pressure after Hertz, a^2/5, for
-  /// a = 1.4 h.
+  /// second moment is 2 kShare h^2 in both directions, that of a flat punch's pressure, a^2/3, for
+  /// a = 1.1 h.
   static constexpr double kShare = 0.2;
 
   /// Of the pieces of the skin that forces act on.
