@@ -217,7 +217,7 @@ std::string alarm_of_mesh(const contact::ContactLoop& loop, bool can_be_correcte
   if (turning.count > 0)
     return fmt::format(
         "elements of size {:.3g} are so small beside the contact of {} that they turn below it ({} contacts "
-        "of this kind in this run): its force may be some per cent too low; use elements of at least {:.3g} "
+        "of this kind in this run): its force may be wrong by some per cent; use elements of at least {:.3g} "
         "there",
         turning.size, place(turning), turning.count,
         rounded_up(turning.size * std::cbrt(turning.value / contact::ContactLoop::kTurning)));

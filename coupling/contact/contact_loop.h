@@ -114,7 +114,7 @@ class ContactLoop {
   /// Contacts that are corrected on elements so small that they turn below them
   /// (MeshEstimate::squared_turning).
   const MeshAlarm& turning() const { return turning_; }
-  static constexpr double kTurning = 0.45;
+  static constexpr double kTurning = 0.41;  ///< those that are spread are refused then
   /// Contacts that are corrected by what is static, and are shorter than that (MeshEstimate::waves > 1).
   const MeshAlarm& not_static() const { return not_static_; }
 
@@ -158,6 +158,8 @@ class ContactLoop {
                           ContactModel& model, Contact* begin, Contact* end);
   void look_at(const ParticleView& particles, const StepInfo& step, const ContactModel& model,
                ContactObserver* observer, std::size_t first);
+  [[noreturn]] static void fail_as_turning(const ParticleView& particles, const StepInfo& step,
+                                           const Contact& contact, double turning);
   void look_at_mesh(const ParticleView& particles, const StepInfo& step, double hertz_constant,
                     Contact& contact);
   void expect_stable(const ParticleView& particles, const StepInfo& step, double hertz_damping,

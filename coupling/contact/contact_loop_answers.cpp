@@ -82,6 +82,20 @@ void ContactLoop::look_at(const ParticleView& particles, const StepInfo& step, c
   }
 }
 
+// Its foot would leave its place.
+void ContactLoop::fail_as_turning(const ParticleView& particles, const StepInfo& step, const Contact& contact,
+                                  double turning) {
+  const Vector3 foot = contact.centre - contact.delta;
+  throw std::runtime_error(
+      fmt::format("elements at ({:.6g}, {:.6g}, {:.6g}) are too small for the contact of particle {} (radius "
+                  "{:.4g}, overlap "
+                  "{:.4g}) at step {}: they turn below it ({:.2g}, expected at most {:.2g}); use elements at "
+                  "least {:.2g} "
+                  "times as large there, or 'compliance none'",
+                  foot[0], foot[1], foot[2], contact.tag, particles.radius[contact.particle], contact.overlap,
+                  step.number, turning, kTurning, 1.1 * std::cbrt(turning / kTurning)));
+}
+
 // The speed of the impact is that of the first step of a touch.
 inline void ContactLoop::look_at_mesh(const ParticleView& particles, const StepInfo& step,
                                       double hertz_constant, Contact& contact) {
@@ -93,8 +107,11 @@ inline void ContactLoop::look_at_mesh(const ParticleView& particles, const StepI
     if (contact.missing > kMissing) raise(uncorrected_, contact.missing);
     return;
   }
-  if (const double squared = mesh_->squared_turning(contact, hertz_constant); squared > kTurning * kTurning)
+  if (const double squared = mesh_->squared_turning(contact, hertz_constant); squared > kTurning * kTurning) {
+    if (contact.correction && contact.correction->spread != 0.0)
+      fail_as_turning(particles, step, contact, std::sqrt(squared));
     raise(turning_, std::sqrt(squared));
+  }
   constexpr double kFirst = 1.01;  // of the way of a step
   const int i = contact.particle;
   const double approach = contact.normal().dot(contact.wall_velocity - particles.velocity(i));

@@ -77,6 +77,16 @@ class SpreadForces(unittest.TestCase):
         self.assertLess(np.abs(fine["fx"]).max() / np.abs(coarse["fx"]).max() - 1.0, 0.01)
 
 
+class SmallElements(unittest.TestCase):
+    def test_a_run_stops_where_elements_turn_below_a_contact(self):
+        """F r/(E' h^3) is 0.35 at 1 m/s, and goes as the speed to the power of 6/5."""
+        deck = bob.prelude(**SETTINGS | dict(velocity=(0.0, 0.0, -1.3))) + bob.wall(FRICTIONLESS, CORRECTED)
+        run = decks.run(deck + "run 1400\n", files={"block.yaml": block(FINE)})
+        self.assertNotEqual(run.code, 0)
+        self.assertRegex(run.errors[0], r"elements at .* too small for the contact of particle 1 .* they turn below it \(0.41, "
+                         r"expected at most 0.41\); use elements at least 1.1 times as large there, or 'compliance none'")  # fmt: skip
+
+
 class Digits(unittest.TestCase):
     """Two balls, whose forces go over the borders of a body's boxes; damped, with friction."""
 
