@@ -372,7 +372,7 @@ class BadInput(unittest.TestCase):
         self.check_table({
             "elements that are too small": (
                 fast + words + "4000\n", {"block.yaml": small},
-                ["id plate", r"elements at .* too small for the contact of particle 1 \(radius \S+, overlap \S+\) at step \d+", "expected at most 0.9", "'compliance none'"]),
+                ["id plate", r"elements at .* too small for the contact of particle 1 \(radius \S+, overlap \S+\) at step \d+", r"they turn below it \(0.41, expected at most 0.41\)", "'compliance none'"]),
             "a solid of one element": (
                 fast + words + "100\n", {"block.yaml": one}, ["id plate", "block.yaml", "elements beside the one that is hit, given a single one", "'compliance none'"]),
             **{
