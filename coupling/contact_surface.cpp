@@ -36,6 +36,16 @@ bool SurfaceMap::is_selection() const {
   return true;
 }
 
+std::vector<NodeId> SurfaceMap::selected_nodes() const {
+  if (!is_selection()) throw std::logic_error("expected a surface whose control points are nodes");
+  std::vector<NodeId> nodes;
+  for (NodeId row = 0; row < S_.rows(); ++row)
+    for_each_share(static_cast<int>(row), [&](NodeId node, double) { nodes.push_back(node); });
+  if (static_cast<NodeId>(nodes.size()) != S_.rows())
+    throw std::logic_error("expected a surface all of whose control points are nodes");
+  return nodes;
+}
+
 SurfaceMap SurfaceMap::on(const std::vector<NodeId>& nodes, Eigen::Index owned) const {
   std::vector<Eigen::Triplet<double, NodeId>> entries;
   entries.reserve(S_.nonZeros());

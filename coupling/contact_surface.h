@@ -45,6 +45,8 @@ class SurfaceMap {
 
   /// Whether each control point is one node.
   bool is_selection() const;
+  /// Which node each control point is; throws std::logic_error if one is none.
+  std::vector<NodeId> selected_nodes() const;
 
   /// visit(node, share) for each node that a control point hangs on.
   template <class Visit>

@@ -24,15 +24,12 @@ void CrossShift::Forces::find_nodes() {
 
 CrossShift::CrossShift(const SurfaceMap& map, const std::vector<LocalCompliance::Link>& links) {
   std::map<NodeId, int> nodes;
-  const int points = static_cast<int>(map.control_point_count());
-  for (int c = 0; c < points; ++c)
-    map.for_each_share(c, [&](NodeId id, double) {
-      const auto [node, is_new] = nodes.emplace(id, static_cast<int>(nodes.size()));
-      if (is_new) point_of_.push_back(c);
-      node_of_.push_back(node->second);
-    });
-  if (static_cast<int>(node_of_.size()) != points)
-    throw std::logic_error("CrossShift: expected a surface whose control points are nodes");
+  const std::vector<NodeId> selected = map.selected_nodes();
+  for (std::size_t c = 0; c < selected.size(); ++c) {
+    const auto [node, is_new] = nodes.emplace(selected[c], static_cast<int>(nodes.size()));
+    if (is_new) point_of_.push_back(static_cast<int>(c));
+    node_of_.push_back(node->second);
+  }
   links_of_.resize(nodes.size());
   for (const auto& [first, second, give] : links) {
     const int a = nodes.at(first), b = nodes.at(second);

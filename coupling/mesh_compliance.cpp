@@ -49,49 +49,44 @@ auto MeshCompliance::known(Ask ask) -> decltype(ask()) {
 
 namespace {
 
-struct Bounds {
+/// An element of a surface: its number, and where it is.
+struct Place {
+  Place(const nurbs::Space<2>& space, const nurbs::Indices<2>& at) : element(space.element_index(at)) {
+    for (int d = 0; d < 2; ++d) {
+      low[d] = space.knots(d).breaks()[at[d]];
+      high[d] = space.knots(d).breaks()[at[d] + 1];
+    }
+  }
+  int element;
   nurbs::Parameter<2> low, high;
 };
-
-Bounds bounds_of(const nurbs::Space<2>& space, const nurbs::Indices<2>& element) {
-  Bounds bounds;
-  for (int d = 0; d < 2; ++d) {
-    bounds.low[d] = space.knots(d).breaks()[element[d]];
-    bounds.high[d] = space.knots(d).breaks()[element[d] + 1];
-  }
-  return bounds;
-}
 
 }  // namespace
 
 void MeshCompliance::find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,
                           Value& value) {
-  const nurbs::Space<2>& space = spaces_[foot.patch];
-  const auto [low, high] = bounds_of(space, element);
   using Table = structure::ComplianceTable;
-  const Table& table =
-      known([&]() -> const Table& { return tables_.of(foot.patch, space.element_index(element)); });
-  const double taken = table.taken(low, high, foot.xi);
+  const Place at(spaces_[foot.patch], element);
+  const Table& table = known([&]() -> const Table& { return tables_.of(foot.patch, at.element); });
+  const double taken = table.taken(at.low, at.high, foot.xi);
   if (!with_shear) {
-    const Table::Value normal = table.at(Table::normal, low, high, foot.xi);
+    const Table::Value normal = table.at(Table::normal, at.low, at.high, foot.xi);
     value = {{normal.c, normal.change}, {}, taken};
     return;
   }
   value.taken = taken;
   Component* const components[] = {&value.normal, &value.along[0], &value.along[1], &value.along[2]};
   static_assert(Table::normal == 0 && Table::first == 1 && Table::second == 2 && Table::first_second == 3);
-  table.together(low, high, foot.xi, [&](int component, const Table::Value& found) {
+  table.together(at.low, at.high, foot.xi, [&](int component, const Table::Value& found) {
     *components[component] = {found.c, found.change};
   });
 }
 
 void MeshCompliance::find_spread(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element,
                                  Spread& spread) {
-  const nurbs::Space<2>& space = spaces_[foot.patch];
-  const auto [low, high] = bounds_of(space, element);
   using Table = structure::SpreadTable;
-  const Table& table =
-      known([&]() -> const Table& { return tables_.spread_of(foot.patch, space.element_index(element)); });
+  const Place at(spaces_[foot.patch], element);
+  const Table& table = known([&]() -> const Table& { return tables_.spread_of(foot.patch, at.element); });
   Component taken_one, taken_both;
   std::array<Component*, Table::kScalars> scalars;
   scalars[Table::one] = &spread.one;
@@ -105,7 +100,7 @@ void MeshCompliance::find_spread(const nurbs::SurfacePoint& foot, const nurbs::I
   scalars[Table::taken] = &spread.taken;
   scalars[Table::taken_one] = &taken_one;
   scalars[Table::taken_both] = &taken_both;
-  table.for_each(low, high, foot.xi, [&](int scalar, const structure::ComplianceTable::Value& found) {
+  table.for_each(at.low, at.high, foot.xi, [&](int scalar, const structure::ComplianceTable::Value& found) {
     *scalars[scalar] = {found.c, found.change};
   });
   spread.taken_one = taken_one.c;

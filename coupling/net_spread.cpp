@@ -2,25 +2,17 @@
 #include "coupling/net_spread.h"
 
 #include <map>
-#include <stdexcept>
 
 namespace coupling {
 
 // A node of several patches is any of its control points: they are in one place.
 NetSpread::NetSpread(const SurfaceMap& map, const std::vector<LocalCompliance::Share>& shares) {
-  const int points = static_cast<int>(map.control_point_count());
-  std::vector<NodeId> node_of;
+  const std::vector<NodeId> nodes = map.selected_nodes();
   std::map<NodeId, int> point_of;
-  for (int c = 0; c < points; ++c)
-    map.for_each_share(c, [&](NodeId node, double) {
-      node_of.push_back(node);
-      point_of.emplace(node, c);
-    });
-  if (static_cast<int>(node_of.size()) != points)
-    throw std::logic_error("NetSpread: expected a surface whose control points are nodes");
+  for (std::size_t c = 0; c < nodes.size(); ++c) point_of.emplace(nodes[c], static_cast<int>(c));
   std::map<NodeId, std::vector<Share>> of_node;
   for (const auto& [from, to, share] : shares) of_node[from].push_back({point_of.at(to), share});
-  for (const NodeId node : node_of) {
+  for (const NodeId node : nodes) {
     first_.push_back(static_cast<int>(shares_.size()));
     const std::vector<Share>& own = of_node[node];
     shares_.insert(shares_.end(), own.begin(), own.end());

@@ -43,33 +43,8 @@ double mass_of(const ParticleView& particles, int i) {
   return particles.mass ? particles.mass[i] : std::numeric_limits<double>::infinity();
 }
 
-/// What a contact keeps.
-double* memory_of(const ParticleView& particles, const Contact& contact) {
-  const int kept = particles.memory.history_count - ComplianceCorrection::kMemory;
-  if (kept < 0)
-    throw std::logic_error(
-        fmt::format("slots of contacts have room for {} numbers, expected {} more than the contact model "
-                    "keeps, for those that are corrected",
-                    particles.memory.history_count, ComplianceCorrection::kMemory));
-  return contact.history + kept;
-}
-
-double* approach_memory_of(const ParticleView& particles, const Contact& contact) {
-  return memory_of(particles, contact) + ComplianceCorrection::kForces;
-}
-double* shear_memory_of(const ParticleView& particles, const Contact& contact) {
-  return approach_memory_of(particles, contact) + ComplianceCorrection::kApproach;
-}
-
 /// u, as a vector in space, so that it does not depend on who looks, and how the normal turns.
 Eigen::Map<Vector3> body_speed(double* memory) { return Eigen::Map<Vector3>(memory + ApproachBlock::kU); }
-
-/// A contact without damping keeps nothing of its approach: it is asked what it gives way now.
-void forget_approach(const ParticleView& particles, const Contact& contact) {
-  if (particles.memory.history_count < ComplianceCorrection::kMemory) return;
-  double* const memory = approach_memory_of(particles, contact);
-  if (memory[ApproachBlock::kX] != 0.0) std::fill_n(memory, ComplianceCorrection::kApproach, 0.0);
-}
 
 /// Vectors to and from a lane.
 template <class Vector>
@@ -93,8 +68,21 @@ ComplianceCorrection::ComplianceCorrection(coupling::LocalCompliance& compliance
       approach_kernel_(approach_kernel(nurbs::simd_level())),
       shear_kernel_(shear_kernel(nurbs::simd_level())) {}
 
-double* ComplianceCorrection::forces_of(const ParticleView& particles, const Contact& contact) {
-  return memory_of(particles, contact);
+double* ComplianceCorrection::memory_of(const ParticleView& particles, const Contact& contact) {
+  const int kept = particles.memory.history_count - kMemory;
+  if (kept < 0)
+    throw std::logic_error(
+        fmt::format("slots of contacts have room for {} numbers, expected {} more than the contact model "
+                    "keeps, for those that are corrected",
+                    particles.memory.history_count, kMemory));
+  return contact.history + kept;
+}
+
+/// A contact without damping keeps nothing of its approach: it is asked what it gives way now.
+void ComplianceCorrection::forget_approach(const ParticleView& particles, const Contact& contact) {
+  if (particles.memory.history_count < kMemory) return;
+  double* const memory = approach_memory_of(particles, contact);
+  if (memory[ApproachBlock::kX] != 0.0) std::fill_n(memory, kApproach, 0.0);
 }
 
 double ComplianceCorrection::held_gap(const ParticleSlots& slots, int history_count) {
@@ -188,9 +176,8 @@ double ComplianceCorrection::overlap_of_others(const ParticleView& particles, co
     before.expected_spread = 2.0 * forces[kSpreadLast] - forces[kSpreadBefore];
   }
   double taken = before.give.taken;
-  if (before.expected_spread != 0.0) {
+  if (before.expected_spread != 0.0)
     taken += before.expected_spread * know_spread(contact, before).give.taken_one;
-  }
   const double overlap = contact.overlap - taken * before.expected.dot(before.n);
   return before.block == &damped_ ? overlap : std::max(overlap, 0.0);
 }

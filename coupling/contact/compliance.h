@@ -123,7 +123,16 @@ class ComplianceCorrection {
   static void move_with_spread(const ParticleView& particles, const Time& now, Contact& contact,
                                Before& before);
   static Vector3 across(const Vector3& v, const Vector3& n) { return v - n.dot(v) * n; }
-  static double* forces_of(const ParticleView& particles, const Contact& contact);
+  /// What a contact keeps: its forces, of its approach, of its spring.  Throws std::logic_error if there is
+  /// no room for it.
+  static double* memory_of(const ParticleView& particles, const Contact& contact);
+  static double* approach_memory_of(const ParticleView& particles, const Contact& contact) {
+    return memory_of(particles, contact) + kForces;
+  }
+  static double* shear_memory_of(const ParticleView& particles, const Contact& contact) {
+    return approach_memory_of(particles, contact) + kApproach;
+  }
+  static void forget_approach(const ParticleView& particles, const Contact& contact);
   static double give_along(const Before& before, int component, Eigen::Vector2d& gradient);
   static Eigen::Vector2d spread_along(const Contact& contact, const Before& before, double F);
   static void remember(const ParticleView& particles, const Contact& contact, const Before& before);

@@ -45,7 +45,7 @@ void ComplianceCorrection::move_with_spread(const ParticleView& particles, const
                                             Before& before) {
   Vector3 velocity = before.w * before.spread->beside_velocity;
   if (!now.is_setup && now.dt > 0.0) {
-    const double change = before.w - forces_of(particles, contact)[kSpreadLast];
+    const double change = before.w - memory_of(particles, contact)[kSpreadLast];
     velocity += change / now.dt * across(before.spread->beside, before.n);
   }
   before.met_velocity += velocity;
@@ -82,7 +82,7 @@ void ComplianceCorrection::spread_damped(const ParticleView& particles, const Ti
   ApproachBlock& block = damped_;
   const int lane = before.lane;
   const double x = block.memory[ApproachBlock::kX][lane];
-  const double* const forces = forces_of(particles, contact);
+  const double* const forces = memory_of(particles, contact);
   const double last = forces[kSpreadLast];
   const double S_over_root = 1.5 * block.constant[lane] * block.give[lane];  // over that of the radius
   constexpr double kBegin = SpreadWeight::kBegin;

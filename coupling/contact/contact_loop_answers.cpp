@@ -85,15 +85,15 @@ void ContactLoop::look_at(const ParticleView& particles, const StepInfo& step, c
 // Its foot would leave its place.
 void ContactLoop::fail_as_turning(const ParticleView& particles, const StepInfo& step, const Contact& contact,
                                   double turning) {
+  constexpr double kSafe = 1.1;
   const Vector3 foot = contact.centre - contact.delta;
-  throw std::runtime_error(
-      fmt::format("elements at ({:.6g}, {:.6g}, {:.6g}) are too small for the contact of particle {} (radius "
-                  "{:.4g}, overlap "
-                  "{:.4g}) at step {}: they turn below it ({:.2g}, expected at most {:.2g}); use elements at "
-                  "least {:.2g} "
-                  "times as large there, or 'compliance none'",
-                  foot[0], foot[1], foot[2], contact.tag, particles.radius[contact.particle], contact.overlap,
-                  step.number, turning, kTurning, 1.1 * std::cbrt(turning / kTurning)));
+  throw std::runtime_error(fmt::format(
+      "elements at ({:.6g}, {:.6g}, {:.6g}) are too small for the contact of particle {} (radius {:.4g}, "
+      "overlap {:.4g}) at step {}: they turn below it ({:.2g}, expected at most {:.2g}); use elements at "
+      "least "
+      "{:.2g} times as large there, or 'compliance none'",
+      foot[0], foot[1], foot[2], contact.tag, particles.radius[contact.particle], contact.overlap,
+      step.number, turning, kTurning, kSafe * std::cbrt(turning / kTurning)));
 }
 
 // The speed of the impact is that of the first step of a touch.

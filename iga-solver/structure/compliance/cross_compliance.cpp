@@ -41,13 +41,6 @@ void for_each_step(const nurbs::Space<2>& space, int element, Function f) {
     }
 }
 
-/// By what a unit force on nodes of an element differs between the ends of a link: R[first] - R[second], an
-/// end that is not one of these has none.
-struct NearLink {
-  int first, second;  ///< places among the nodes, or -1
-  double give;
-};
-
 }  // namespace
 
 CrossCompliance::CrossCompliance(const ReferenceBody& body, const std::vector<SkinPiece>& skin) {
@@ -77,67 +70,47 @@ CrossCompliance::CrossCompliance(const ReferenceBody& body, const std::vector<Sk
   }
 }
 
-std::vector<double> CrossCompliance::taken_at(const std::vector<SkinPoint>& feet) const {
-  const std::vector<Id>& nodes = feet.front().nodes;
+/// Those with an end among these nodes, which rise.
+std::vector<CrossCompliance::NearLink> CrossCompliance::links_near(const std::vector<Id>& nodes) const {
   const auto place = [&](Id node) {
-    const auto at = std::find(nodes.begin(), nodes.end(), node);
-    return at == nodes.end() ? -1 : static_cast<int>(at - nodes.begin());
+    const auto at = std::lower_bound(nodes.begin(), nodes.end(), node);
+    return at == nodes.end() || *at != node ? -1 : static_cast<int>(at - nodes.begin());
   };
   std::vector<NearLink> near;
-  std::vector<int> first_place;  // of each node, which may be there more than once: at a pole
-  for (std::size_t a = 0; a < nodes.size(); ++a) {
-    first_place.push_back(place(nodes[a]));
-    const auto found = links_of_.find(nodes[a]);
-    if (found == links_of_.end() || first_place[a] != static_cast<int>(a)) continue;
-    for (const int link : found->second) {
-      const int ends[] = {place(links_[link].first), place(links_[link].second)};
-      const bool is_its_turn = std::max(ends[0], ends[1]) == static_cast<int>(a);
-      if (is_its_turn) near.push_back({ends[0], ends[1], links_[link].give});
-    }
-  }
-  std::vector<double> taken, shares;
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    if (const auto found = links_of_.find(nodes[a]); found != links_of_.end())
+      for (const int link : found->second) {
+        const int ends[] = {place(links_[link].first), place(links_[link].second)};
+        const bool is_its_turn = std::max(ends[0], ends[1]) == static_cast<int>(a);
+        if (is_its_turn) near.push_back({ends[0], ends[1], links_[link].give});
+      }
+  return near;
+}
+
+std::vector<double> CrossCompliance::taken_at(const std::vector<SkinPoint>& feet) const {
+  std::vector<Id> nodes = feet.front().nodes;
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  const std::vector<NearLink> near = links_near(nodes);
+  std::vector<double> taken;
   for (const SkinPoint& foot : feet) {
-    shares.assign(nodes.size(), 0.0);
-    for (std::size_t a = 0; a < nodes.size(); ++a) shares[first_place[a]] += foot.R[a];
-    const auto share = [&](int place) { return place < 0 ? 0.0 : shares[place]; };
+    const std::vector<double> R = foot.forces_on(nodes);
     double sum = 0.0;
-    for (const auto& [first, second, give] : near) {
-      const double step = share(first) - share(second);
-      sum += give * step * step;
-    }
+    for (const NearLink& link : near) sum += link.give * link.step(R) * link.step(R);
     taken.push_back(sum);
   }
   return taken;
 }
 
-std::vector<CrossCompliance::OfSpread> CrossCompliance::taken_at(
-    const std::vector<SkinPoint>& feet, const std::vector<NetMean::Beside>& beside) const {
-  const std::vector<Id>& nodes = beside.front().nodes;  // rising
-  const auto count = static_cast<int>(nodes.size());
-  const auto place = [&](Id node) {
-    return static_cast<int>(std::lower_bound(nodes.begin(), nodes.end(), node) - nodes.begin());
-  };
-  const auto place_or_none = [&](Id node) {
-    const int at = place(node);
-    return at < count && nodes[at] == node ? at : -1;
-  };
-  std::vector<NearLink> near;
-  for (int a = 0; a < count; ++a)
-    if (const auto found = links_of_.find(nodes[a]); found != links_of_.end())
-      for (const int link : found->second) {
-        const int ends[] = {place_or_none(links_[link].first), place_or_none(links_[link].second)};
-        if (std::max(ends[0], ends[1]) == a) near.push_back({ends[0], ends[1], links_[link].give});
-      }
+std::vector<CrossCompliance::OfSpread> CrossCompliance::taken_at(const std::vector<SpreadFoot>& feet) const {
+  const std::vector<Id>& nodes = feet.front().beside.nodes;
+  const std::vector<NearLink> near = links_near(nodes);
   std::vector<OfSpread> taken;
-  for (std::size_t f = 0; f < feet.size(); ++f) {
-    std::vector<double> R(nodes.size(), 0.0);
-    for (std::size_t a = 0; a < feet[f].nodes.size(); ++a) R[place(feet[f].nodes[a])] += feet[f].R[a];
-    const auto step = [](const std::vector<double>& of, const NearLink& link) {
-      return (link.first < 0 ? 0.0 : of[link.first]) - (link.second < 0 ? 0.0 : of[link.second]);
-    };
+  for (const SpreadFoot& foot : feet) {
+    const std::vector<double> R = foot.at.forces_on(nodes);
     OfSpread& sum = taken.emplace_back(OfSpread{0.0, 0.0, 0.0});
     for (const NearLink& link : near) {
-      const double of_R = step(R, link), of_Z = step(beside[f].Z, link);
+      const double of_R = link.step(R), of_Z = link.step(foot.beside.Z);
       sum.taken += link.give * of_R * of_R;
       sum.one += link.give * of_R * of_Z;
       sum.both += link.give * of_Z * of_Z;

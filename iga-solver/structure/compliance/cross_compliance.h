@@ -38,14 +38,24 @@ class CrossCompliance {
   const std::vector<Link>& links() const { return links_; }
   /// What is taken off at each of these feet, all on one element, for a unit force there [length/force].
   std::vector<double> taken_at(const std::vector<SkinPoint>& feet) const;
-  /// Of forces R there and Z beside them (net_mean.h), all with the same nodes: of R, of R and Z, of Z.
+  /// Of forces R there and Z beside them, all with the same nodes: of R, of R and Z, of Z.
   struct OfSpread {
     double taken, one, both;
   };
-  std::vector<OfSpread> taken_at(const std::vector<SkinPoint>& feet,
-                                 const std::vector<NetMean::Beside>& beside) const;
+  std::vector<OfSpread> taken_at(const std::vector<SpreadFoot>& feet) const;
 
  private:
+  /// With places among some nodes, or -1.
+  struct NearLink {
+    int first, second;
+    double give;
+    /// By what forces on these nodes differ between its ends.
+    double step(const std::vector<double>& forces) const {
+      return (first < 0 ? 0.0 : forces[first]) - (second < 0 ? 0.0 : forces[second]);
+    }
+  };
+  std::vector<NearLink> links_near(const std::vector<Id>& nodes) const;
+
   std::vector<Link> links_;
   std::map<Id, std::vector<int>> links_of_;  // of each node
 };

@@ -79,18 +79,18 @@ ElementCompliances::Tensors ElementCompliances::at(const HitElement& hit,
   return LocalProblem(patch, gradients_).compliances(feet);
 }
 
+SpreadFoot ElementCompliances::spread_foot(const HitElement& hit, const nurbs::Parameter<2>& xi,
+                                           SkinPoint at) const {
+  NetMean::Beside beside = mean_->beside(at);
+  return {std::move(at), std::move(beside), hit.frame(xi), hit.room(xi)};
+}
+
 std::vector<LocalProblem::OfSpread> ElementCompliances::spread_at(
     const HitElement& hit, const std::vector<nurbs::Parameter<2>>& points) const {
-  std::vector<SkinPoint> feet;
-  std::vector<NetMean::Beside> beside;
-  std::vector<double> room;
-  for (const nurbs::Parameter<2>& xi : points) {
-    feet.push_back(hit.foot(xi));
-    beside.push_back(mean_->beside(feet.back()));
-    room.push_back(hit.room(xi));
-  }
+  std::vector<SpreadFoot> feet;
+  for (const nurbs::Parameter<2>& xi : points) feet.push_back(spread_foot(hit, xi, hit.foot(xi)));
   const LocalPatch patch(body_, near_, hit.volume(), extent_for(body_.patches[hit.volume().patch].space));
-  return LocalProblem(patch, gradients_).spread_compliances(feet, beside, room);
+  return LocalProblem(patch, gradients_).spread_compliances(feet);
 }
 
 LocalProblem::OfSpread ElementCompliances::spread_direct(int piece, int element,
@@ -168,41 +168,33 @@ std::unique_ptr<ComplianceTable> ElementCompliances::table(int piece, int elemen
   return std::make_unique<ComplianceTable>(table_counts(space), values, taken);
 }
 
-ElementCompliances::Feet ElementCompliances::feet_at(int piece, int element,
-                                                     const std::vector<nurbs::Parameter<2>>& points) const {
-  Feet feet;
-  for (const nurbs::Parameter<2>& xi : points) {
-    feet.at.push_back(surfaces_[piece].at(element, xi));
-    feet.beside.push_back(mean_->beside(feet.at.back()));
-  }
-  return feet;
-}
-
 std::unique_ptr<SpreadTable> ElementCompliances::spread_table(int piece, int element, const Tensors& tensors,
                                                               const CrossCompliance* links) const {
   const HitElement hit = this->hit(piece, element);
   const nurbs::Space<2>& space = surfaces_[piece].space();
   const std::vector<nurbs::Parameter<2>> points = table_points(space, element);
-  const Feet feet = feet_at(piece, element, points);
+  std::vector<SpreadFoot> feet;
+  for (const nurbs::Parameter<2>& xi : points)
+    feet.push_back(spread_foot(hit, xi, surfaces_[piece].at(element, xi)));
   std::vector<CrossCompliance::OfSpread> taken(points.size(), {0.0, 0.0, 0.0});
-  if (links) taken = links->taken_at(feet.at, feet.beside);
+  if (links) taken = links->taken_at(feet);
   SpreadTable::Values values;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const Matrix3 frame = hit.frame(points[k]);
-    const Components one = in_frame(tensors[k], frame), both = in_frame(tensors[points.size() + k], frame);
+    const SpreadFoot& foot = feet[k];
+    const Components one = in_frame(tensors[k], foot.frame),
+                     both = in_frame(tensors[points.size() + k], foot.frame);
     for (int c = 0; c < ComplianceTable::kTogether; ++c) {
       const bool is_normal = c == ComplianceTable::normal;
       values[SpreadTable::one + c].push_back(one[c] - (is_normal ? taken[k].one : 0.0));
       values[SpreadTable::both + c].push_back(both[c] - (is_normal ? taken[k].both : 0.0));
     }
-    const SkinPoint& foot = feet.at[k];
     double height = 0.0, moment = 0.0;
-    for (std::size_t a = 0; a < feet.beside[k].nodes.size(); ++a) {
-      const auto [patch, control_point] = body_.nodes.place(feet.beside[k].nodes[a]);
-      const Vector3 way = body_.patches[patch].control_points.col(control_point) - foot.point;
-      const double above = way.dot(foot.outward_normal);
-      height += feet.beside[k].Z[a] * above;
-      moment += 0.5 * feet.beside[k].Z[a] * (way.squaredNorm() - above * above);
+    for (std::size_t a = 0; a < foot.beside.nodes.size(); ++a) {
+      const auto [patch, control_point] = body_.nodes.place(foot.beside.nodes[a]);
+      const Vector3 way = body_.patches[patch].control_points.col(control_point) - foot.at.point;
+      const double above = way.dot(foot.at.outward_normal);
+      height += foot.beside.Z[a] * above;
+      moment += 0.5 * foot.beside.Z[a] * (way.squaredNorm() - above * above);
     }
     values[SpreadTable::moment].push_back(moment);
     values[SpreadTable::height].push_back(height);

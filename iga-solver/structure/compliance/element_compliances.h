@@ -64,12 +64,8 @@ class ElementCompliances {
                                             const CrossCompliance* links) const;
 
  private:
-  struct Feet {
-    std::vector<SkinPoint> at;
-    std::vector<NetMean::Beside> beside;
-  };
-  Feet feet_at(int piece, int element, const std::vector<nurbs::Parameter<2>>& points) const;
   Tensors at(const HitElement& hit, const std::vector<nurbs::Parameter<2>>& points) const;
+  SpreadFoot spread_foot(const HitElement& hit, const nurbs::Parameter<2>& xi, SkinPoint at) const;
   std::vector<LocalProblem::OfSpread> spread_at(const HitElement& hit,
                                                 const std::vector<nurbs::Parameter<2>>& points) const;
 

@@ -10,6 +10,13 @@
 
 namespace structure {
 
+std::vector<double> SkinPoint::forces_on(const std::vector<Id>& rising) const {
+  std::vector<double> forces(rising.size(), 0.0);
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    forces[std::lower_bound(rising.begin(), rising.end(), nodes[a]) - rising.begin()] += R[a];
+  return forces;
+}
+
 FaceSurface::FaceSurface(const ReferenceBody& body, const SkinPiece& piece)
     : body_(body),
       patch_(piece.patch),

@@ -18,6 +18,10 @@ struct SkinPoint {
   Vector3 point, outward_normal;  ///< [length], unit
   std::vector<Id> nodes;
   std::vector<double> R;
+
+  /// What a unit force there is on these nodes, which rise and have all of its own; it may have one more than
+  /// once, at a pole.
+  std::vector<double> forces_on(const std::vector<Id>& rising) const;
 };
 
 /// One face of a body's patches, as a surface.

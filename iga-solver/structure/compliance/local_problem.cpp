@@ -3,14 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
-#include "nurbs/assert.h"
 #include "structure/material/plate_material.h"
 #include "structure/material/plate_shear.h"
 #include "structure/solid/plate_patch.h"
@@ -222,7 +220,8 @@ std::vector<int> LocalProblem::places_of(const std::vector<Id>& nodes) const {
   std::vector<int> places;
   for (const Id node : nodes) {
     places.push_back(patch_.place(node));
-    NURBS_ASSERT(places.back() < patch_.free_count(), node);
+    if (places.back() >= patch_.free_count())
+      throw std::invalid_argument("too few elements take part: others have nodes that the force is on");
   }
   return places;
 }
@@ -271,27 +270,17 @@ std::vector<Matrix3> LocalProblem::compliances(const std::vector<SkinPoint>& fee
 
 namespace {
 
-/// Second moments of Z about a foot, along two unit vectors of its tangent plane [length^2].
-struct Spread {
-  Vector3 along[2];
-  double moment[2];
-};
-
-Spread spread_of(const SkinPoint& foot, const std::vector<Vector3>& places, const std::vector<double>& Z) {
-  const Vector3 t = foot.outward_normal.unitOrthogonal(), s = foot.outward_normal.cross(t);
+/// Two ways along the tangent plane, v_k, by which Z's second moments about the foot are the sum of v v^T;
+/// the first is along t_1, but for a net that is skew.
+std::array<Vector3, 2> ways_of(const SpreadFoot& foot, const std::vector<Vector3>& places) {
   Eigen::Matrix2d M = Eigen::Matrix2d::Zero();
-  for (std::size_t a = 0; a < Z.size(); ++a) {
-    const Vector3 way = places[a] - foot.point;
-    const Eigen::Vector2d along(way.dot(t), way.dot(s));
-    M += Z[a] * along * along.transpose();
+  for (std::size_t a = 0; a < places.size(); ++a) {
+    const Eigen::Vector2d way = foot.frame.leftCols<2>().transpose() * (places[a] - foot.at.point);
+    M += foot.beside.Z[a] * way * way.transpose();
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(M);
-  Spread spread;
-  for (int k = 0; k < 2; ++k) {
-    spread.along[k] = axes.eigenvectors()(0, k) * t + axes.eigenvectors()(1, k) * s;
-    spread.moment[k] = std::max(axes.eigenvalues()[k], 0.0);
-  }
-  return spread;
+  const double across = std::sqrt(std::max(M(0, 0), 0.0)), both = across > 0.0 ? M(1, 0) / across : 0.0;
+  const double rest = std::sqrt(std::max(M(1, 1) - both * both, 0.0));
+  return {across * foot.frame.col(0) + both * foot.frame.col(1), rest * foot.frame.col(1)};
 }
 
 }  // namespace
@@ -299,10 +288,9 @@ Spread spread_of(const SkinPoint& foot, const std::vector<Vector3>& places, cons
 // The half-space of Z is that of forces to both sides of the foot, less that at the foot, with its moments.
 // On the face that is touched they do nothing: it is the half-space's own, but for its curvature.
 std::vector<LocalProblem::OfSpread> LocalProblem::spread_compliances(
-    const std::vector<SkinPoint>& feet, const std::vector<NetMean::Beside>& beside,
-    const std::vector<double>& room) const {
+    const std::vector<SpreadFoot>& feet) const {
   constexpr double kWithin = 0.5;  // of the room
-  const std::vector<Id>& nodes = beside.front().nodes;
+  const std::vector<Id>& nodes = feet.front().beside.nodes;
   const std::vector<int> places = places_of(nodes);
   const ReferenceBody& body = patch_.body();
   std::vector<Vector3> points;
@@ -311,33 +299,32 @@ std::vector<LocalProblem::OfSpread> LocalProblem::spread_compliances(
     points.push_back(body.patches[patch].control_points.col(control_point));
   }
   const auto count = static_cast<Eigen::Index>(nodes.size());
-  const Eigen::MatrixXd u = under_unit_forces(places), of_point = by_half_spaces(u, feet, true);
-  std::vector<SkinPoint> around;
-  std::vector<double> weights;
-  for (std::size_t f = 0; f < feet.size(); ++f) {
-    const Spread spread = spread_of(feet[f], points, beside[f].Z);
-    around.push_back(feet[f]);
+  std::vector<SkinPoint> at, around;
+  std::vector<double> weights;  // of those around
+  for (const SpreadFoot& foot : feet) {
+    at.push_back(foot.at);
+    around.push_back(foot.at);
+    const std::size_t centre = weights.size();
     weights.push_back(0.0);
-    const std::size_t centre = weights.size() - 1;
-    for (int k = 0; k < 2; ++k) {
-      const double reach = std::min(std::sqrt(2.0 * spread.moment[k]), kWithin * room[f]);
-      const double weight = reach > 0.0 ? 0.5 * spread.moment[k] / (reach * reach) : 0.0;
+    for (const Vector3& way : ways_of(foot, points)) {
+      const double length = std::sqrt(2.0) * way.norm(),
+                   share = length > 0.0 ? std::min(1.0, kWithin * foot.room / length) : 0.0;
+      const double weight = share > 0.0 ? 0.25 / (share * share) : 0.0;
       for (const double side : {-1.0, 1.0}) {
-        around.push_back(feet[f]);
-        around.back().point += side * reach * spread.along[k];
+        around.push_back(foot.at);
+        around.back().point += side * share * std::sqrt(2.0) * way;
         weights.push_back(weight);
-        weights[centre] -= weight;
       }
+      weights[centre] -= 2.0 * weight;
     }
   }
+  const Eigen::MatrixXd u = under_unit_forces(places), of_point = by_half_spaces(u, at, true);
   const Eigen::MatrixXd of_around = by_half_spaces(u, around, false);
   const std::size_t each = around.size() / feet.size();
   std::vector<OfSpread> found;
   for (std::size_t f = 0; f < feet.size(); ++f) {
-    std::vector<double> R(nodes.size(), 0.0);
-    for (std::size_t a = 0; a < feet[f].nodes.size(); ++a)
-      R[std::lower_bound(nodes.begin(), nodes.end(), feet[f].nodes[a]) - nodes.begin()] += feet[f].R[a];
-    const std::vector<double>& Z = beside[f].Z;
+    const std::vector<double> R = feet[f].at.forces_on(nodes);
+    const std::vector<double>& Z = feet[f].beside.Z;
     Matrix3 R_by_Z = Matrix3::Zero(), Z_by_R = Matrix3::Zero(), Z_by_Z = Matrix3::Zero();
     for (Eigen::Index a = 0; a < count; ++a) {
       Matrix3 by_R = of_point.block<3, 3>(3 * a, 3 * static_cast<Eigen::Index>(f)), by_Z = Matrix3::Zero();

@@ -33,10 +33,8 @@ class LocalProblem {
   struct OfSpread {
     Matrix3 one, both;  ///< [length/force]
   };
-  /// `room`: how far the skin goes on about each foot [length].
-  std::vector<OfSpread> spread_compliances(const std::vector<SkinPoint>& feet,
-                                           const std::vector<NetMean::Beside>& beside,
-                                           const std::vector<double>& room) const;
+  /// All with the same nodes.
+  std::vector<OfSpread> spread_compliances(const std::vector<SpreadFoot>& feet) const;
 
  private:
   std::vector<int> places_of(const std::vector<Id>& nodes) const;

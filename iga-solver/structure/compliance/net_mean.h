@@ -42,4 +42,12 @@ class NetMean {
   std::map<Id, int> first_;  // of shares from a node
 };
 
+/// A foot whose force is spread, and what is beside it there.
+struct SpreadFoot {
+  SkinPoint at;
+  NetMean::Beside beside;
+  Matrix3 frame;  ///< columns t_1, t_2, n (FaceSurface)
+  double room;    ///< how far the skin goes on about it; infinite: as far as can be [length]
+};
+
 }  // namespace structure
