@@ -36,14 +36,17 @@ class LocalCompliance {
   };
   /// Each pair once, rising, the same on every rank.
   virtual std::vector<Link> links() const { return {}; }
-  /// What spreads a force R over the net about its foot: to R comes w Z, Z being of each node's force these
-  /// shares, which sum to zero (structure/compliance/net_mean.h).
   struct Share {
     NodeId from, to;
     double share;
   };
-  /// Rising, the same on every rank; none where forces are not spread.
+  /// What spreads a force R over the net about its foot: to R comes w Z, Z being of each node's force these
+  /// shares, which sum to zero (structure/compliance/net_mean.h).  Rising, the same on every rank; none where
+  /// forces are not spread.
   virtual std::vector<Share> shares() const { return {}; }
+  /// Where nodes of smooth seams are met, and where forces on them go: shares of nodes beside them, on no
+  /// seam (structure/compliance/smooth_seams.h); likewise.
+  virtual std::vector<Share> seams() const { return {}; }
   /// What comes to Value for a force that is spread: c + 2 w one + w^2 both, also of what links take.
   struct Spread {
     Component moment;     ///< second one of Z, the mean of both directions [length^2]

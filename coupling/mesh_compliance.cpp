@@ -20,6 +20,13 @@ std::vector<nurbs::Space<2>> spaces_of(const structure::ReferenceBody& body,
   return spaces;
 }
 
+template <class Net>
+std::vector<LocalCompliance::Share> shares_of(const Net& net) {
+  std::vector<LocalCompliance::Share> shares;
+  for (const auto& [from, to, share] : net.shares()) shares.push_back({from, to, share});
+  return shares;
+}
+
 }  // namespace
 
 MeshCompliance::MeshCompliance(structure::ReferenceBody body, const std::vector<structure::SkinPiece>& skin)
@@ -31,11 +38,9 @@ std::vector<LocalCompliance::Link> MeshCompliance::links() const {
   return links;
 }
 
-std::vector<LocalCompliance::Share> MeshCompliance::shares() const {
-  std::vector<Share> shares;
-  for (const auto& [from, to, share] : tables_.mean().shares()) shares.push_back({from, to, share});
-  return shares;
-}
+std::vector<LocalCompliance::Share> MeshCompliance::shares() const { return shares_of(tables_.net().mean); }
+
+std::vector<LocalCompliance::Share> MeshCompliance::seams() const { return shares_of(tables_.net().seams); }
 
 template <class Ask>
 auto MeshCompliance::known(Ask ask) -> decltype(ask()) {

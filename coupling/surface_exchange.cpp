@@ -102,7 +102,11 @@ void SurfaceExchange::find_links() {
   if (!links.empty()) shift_ = std::make_unique<CrossShift>(solver_.surface().map, links);
   const std::vector<LocalCompliance::Share> shares =
       compliance ? compliance->shares() : std::vector<LocalCompliance::Share>();
-  if (!shares.empty()) spread_ = std::make_unique<NetSpread>(solver_.surface().map, shares);
+  if (!shares.empty()) spread_ = std::make_unique<NetSpread>(NetShares(solver_.surface().map, shares));
+  const std::vector<LocalCompliance::Share> seams =
+      compliance ? compliance->seams() : std::vector<LocalCompliance::Share>();
+  if (!seams.empty()) seams_ = std::make_unique<Seams>(NetShares(solver_.surface().map, seams));
+  if (seams_) followed_on_seams_ = on_seams_ = seams_->among(followed_);
 }
 
 void SurfaceExchange::import_masses() {
@@ -115,6 +119,15 @@ void SurfaceExchange::import_masses() {
   if (owners_) owners_->bring_all(inverse_masses_, velocities_);  // which come anew
 }
 
+double SurfaceExchange::inverse_mass_at(const nurbs::SurfacePoint& at, const Vector3& n) const {
+  const FootBasis foot(solver_.surface().topology, at);
+  return seams_ ? seams_->sum_of_squares(foot, n, inverse_masses_) : foot.sum_of_squares(n, inverse_masses_);
+}
+
+bool SurfaceExchange::is_at_seam(const nurbs::SurfacePoint& foot) const {
+  return seams_ && seams_->has_any(FootBasis(solver_.surface().topology, foot));
+}
+
 void SurfaceExchange::import_own(const std::vector<int>& control_points) {
   map_.to_surface(control_points, solver_.positions(), positions_);
   map_.to_surface(control_points, solver_.velocities(), velocities_);
@@ -122,24 +135,39 @@ void SurfaceExchange::import_own(const std::vector<int>& control_points) {
   for (const int c : control_points) positions_.col(c) += shift_->at(c);
 }
 
+void SurfaceExchange::straighten(const std::vector<int>& control_points) {
+  for (NodalVectors* const of_surface : {&positions_, &velocities_})
+    seams_->straighten(control_points, *of_surface);
+}
+
 void SurfaceExchange::import_surface() {
   import_own(own_);
   if (owners_) owners_->bring_all(positions_, velocities_);
-  if (!shift_) return;
+  if (seams_) straighten(on_seams_);
+  if (!shift_ && !seams_) return;
   body_positions_.resizeLike(positions_);
   map_.to_surface(own_, solver_.positions(), body_positions_);
-  if (owners_) owners_->bring_all(body_positions_, velocities_);
+  if (!owners_) return;
+  NodalVectors of_body = velocities_;  // to come along, in vain
+  owners_->bring_all(body_positions_, of_body);
 }
 
 void SurfaceExchange::import_followed() {
   import_own(brought_);
   if (owners_) owners_->bring_wanted(positions_, velocities_);
+  if (seams_) straighten(followed_on_seams_);
 }
 
 void SurfaceExchange::follow(const std::vector<int>& elements) {
   followed_ = control_points_around(elements, solver_.surface().topology);
-  if (spread_)
-    follow_also([this](int c, auto take) { spread_->for_each_share(c, [&](int to, double) { take(to); }); });
+  const auto follow_shares = [this](const NetShares& shares) {
+    follow_also([&](int c, auto take) { shares.for_each(c, [&](int to, double) { take(to); }); });
+  };
+  if (spread_) follow_shares(spread_->shares());
+  if (seams_) {
+    followed_on_seams_ = seams_->among(followed_);
+    follow_shares(seams_->shares());
+  }
   // Forces on an element are wanted by the owners of what it is linked to, who may be beyond a weld.
   if (owners_ && shift_) follow_also([this](int c, auto take) { shift_->for_each_linked(c, take); });
   brought_.clear();
@@ -259,6 +287,10 @@ const NodalForces& SurfaceExchange::export_add(const std::vector<ContactForce>& 
     spread(contact);
   }
   std::sort(touched_.begin(), touched_.end());
+  if (seams_) {
+    seams_->carry(touched_, surface_forces_, [this](int c) { touch(c); });
+    std::sort(touched_.begin(), touched_.end());
+  }
   map_.nodes_of(touched_, nodal_forces_.touched);
   map_.add_to_nodes(touched_, surface_forces_, nodal_forces_.values);
   if (shift_) expect_to_stay();
@@ -304,9 +336,13 @@ void SurfaceExchange::send_to_owners(const std::vector<ContactForce>& local) {
       take(c);
       if (shift_) shift_->for_each_linked(c, take);
     };
-    FootBasis(solver_.surface().topology, foot_of(contact)).for_each_control_point([&](int c) {
+    const auto take_all = [&](int c) {
       take_with_linked(c);
-      if (contact.is_spread) spread_->for_each_share(c, [&](int to, double) { take_with_linked(to); });
+      if (seams_) seams_->shares().for_each(c, [&](int to, double) { take_with_linked(to); });
+    };
+    FootBasis(solver_.surface().topology, foot_of(contact)).for_each_control_point([&](int c) {
+      take_all(c);
+      if (contact.is_spread) spread_->shares().for_each(c, [&](int to, double) { take_all(to); });
     });
     for (const int owner : owners) (owner == me ? contacts_ : to_rank_[owner]).push_back(contact);
   }

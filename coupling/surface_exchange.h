@@ -14,6 +14,7 @@
 #include "coupling/contact_force.h"
 #include "coupling/cross_shift.h"
 #include "coupling/net_spread.h"
+#include "coupling/seams.h"
 #include "coupling/structure_solver.h"
 #include "coupling/surface_owners.h"
 
@@ -41,10 +42,14 @@ class SurfaceExchange {
   const NodalVectors& positions() const { return positions_; }  ///< 3 x n_control_points [length]
   /// The same where the body has them, a little beside where corrected contacts meet them: for output, as of
   /// the last import_surface().
-  const NodalVectors& body_positions() const { return shift_ ? body_positions_ : positions_; }
+  const NodalVectors& body_positions() const { return shift_ || seams_ ? body_positions_ : positions_; }
   const NodalVectors& velocities() const { return velocities_; }  ///< 3 x n_control_points [length/time]
   /// StructureSolver::inverse_node_mass of all control points (3 x n_control_points), or empty.
   const NodalVectors& inverse_masses() const { return inverse_masses_; }
+  /// What a foot is accelerated by along n under a unit force along n [1/mass].
+  double inverse_mass_at(const nurbs::SurfacePoint& foot, const Vector3& n) const;
+  /// Whether its element is so near a seam that contacts meet it beside where the body has it (seams.h).
+  bool is_at_seam(const nurbs::SurfacePoint& foot) const;
   /// What contacts that are corrected are spread by; null: they are not.
   const NetSpread* net_spread() const { return spread_.get(); }
   /// The control points that import_followed() brings to this rank, rising; all, before the first follow().
@@ -75,6 +80,7 @@ class SurfaceExchange {
 
  private:
   void import_own(const std::vector<int>& control_points);
+  void straighten(const std::vector<int>& control_points);
   void find_links();
   template <class ForEach>
   void follow_also(ForEach for_each_beside);
@@ -95,7 +101,9 @@ class SurfaceExchange {
   std::unique_ptr<SurfaceOwners> owners_;  ///< of a structure in parts
   std::unique_ptr<CrossShift> shift_;      ///< of a body whose mesh gives way beside contacts
   std::unique_ptr<NetSpread> spread_;      ///< likewise
-  std::vector<int> followed_;
+  std::unique_ptr<Seams> seams_;           ///< likewise
+  std::vector<int> on_seams_;              ///< all control points there
+  std::vector<int> followed_, followed_on_seams_;
   std::vector<int> brought_;  ///< of own_, those that this rank or another follows
   NodalVectors own_places_;   ///< of own_, at the last follow()
   NodalVectors positions_, velocities_, inverse_masses_, body_positions_;

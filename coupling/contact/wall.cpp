@@ -34,7 +34,7 @@ Wall::Wall(const coupling::StructureSolver& structure, coupling::SurfaceExchange
       surface_(structure.surface().topology),
       shape_(shape_of(structure.surface(), surface_, exchange.positions(), edge_angle)),
       patches_(dynamic_cast<const PatchShape*>(shape_.get())) {
-  if (inverse_masses().cols() > 0) largest_inverse_mass_ = inverse_masses().maxCoeff();
+  if (knows_masses()) largest_inverse_mass_ = exchange_.inverse_masses().maxCoeff();
 }
 
 void Wall::weld_across(const std::vector<Vector3>& periods) {

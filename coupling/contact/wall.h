@@ -49,9 +49,14 @@ class Wall {
   const nurbs::NodalVectors& velocities() const { return exchange_.velocities(); }
   const coupling::NetSpread* net_spread() const { return exchange_.net_spread(); }  ///< null: none
   const coupling::RigidFrame& frame() const { return frame_; }
-  /// Of the body's control points (SurfaceExchange), and the largest of them [1/mass].
-  const nurbs::NodalVectors& inverse_masses() const { return exchange_.inverse_masses(); }
+  /// Whether those of the body's nodes are known; what a foot is accelerated by along n under a unit force,
+  /// and no more than that anywhere [1/mass].
+  bool knows_masses() const { return exchange_.inverse_masses().cols() > 0; }
+  double inverse_mass_at(const nurbs::SurfacePoint& foot, const nurbs::Vector3& n) const {
+    return exchange_.inverse_mass_at(foot, n);
+  }
   double largest_inverse_mass() const { return largest_inverse_mass_; }
+  bool is_at_seam(const nurbs::SurfacePoint& foot) const { return exchange_.is_at_seam(foot); }
   /// Of the body's fastest vibration, at most, if it takes the same steps as the particles [1/time^2].
   double squared_frequency() const {
     const double stable = structure_.stable_time_step_with_contacts();

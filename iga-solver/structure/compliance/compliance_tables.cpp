@@ -138,7 +138,7 @@ std::vector<double> ComplianceTables::linked(int piece, int element) const {
   std::vector<SkinPoint> feet;
   const FaceSurface& surface = undeformed_->surface(piece);
   for (const nurbs::Parameter<2>& xi : table_points(surface.space(), element))
-    feet.push_back(surface.at(element, xi));
+    feet.push_back(net().seams.carried(surface.at(element, xi)));
   return links_->taken_at(feet);
 }
 
@@ -248,7 +248,7 @@ bool ComplianceTables::follow(const NodalVectors& places, const std::vector<Skin
         changed.push_back({static_cast<int>(piece), e});
     }
   if (changed.empty()) return false;
-  const auto state = std::make_shared<ElementCompliances>(std::move(now), skin_, undeformed_->mean());
+  const auto state = std::make_shared<ElementCompliances>(std::move(now), skin_, undeformed_->net());
   for (const SkinElement& one : changed) {
     const int patch = skin_[one.piece].patch,
               volume = element_behind(undeformed, skin_[one.piece], one.element).element;
@@ -318,7 +318,7 @@ void ComplianceTables::load(const std::vector<double>& numbers) {
     states.push_back(std::make_shared<ElementCompliances>(
         at_places(undeformed, Eigen::Map<const NodalVectors>(numbers.data() + 1 + k * size, 3,
                                                              static_cast<Eigen::Index>(size / 3))),
-        skin_, undeformed_->mean()));
+        skin_, undeformed_->net()));
   const double* index = numbers.data() + numbers.size() - elements;
   for (auto& of_piece : state_of_)
     for (auto& state : of_piece) {

@@ -41,8 +41,8 @@ class ComplianceTables {
     const SpreadTable* const known = known_spread_[piece][element];
     return known ? *known : find_spread(piece, element);
   }
-  /// What they are spread by.
-  const NetMean& mean() const { return *undeformed_->mean(); }
+  /// How forces are on nodes, and what they are spread by.
+  const SkinNet& net() const { return *undeformed_->net(); }
   /// Of the undeformed body; null unless tables are beside them.
   const CrossCompliance* links() const { return links_.get(); }
   /// What the elements about one have at any point of it, without a table or a mean: the tensor in space, of

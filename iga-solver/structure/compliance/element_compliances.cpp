@@ -48,13 +48,13 @@ void expect_neighbours(const std::vector<nurbs::Volume>& patches) {
 }  // namespace
 
 ElementCompliances::ElementCompliances(ReferenceBody body, const std::vector<SkinPiece>& skin,
-                                       std::shared_ptr<const NetMean> mean)
+                                       std::shared_ptr<const SkinNet> net)
     : body_(std::move(body)),
       near_(body_),
       gradients_(body_),
       skin_(skin),
       shared_(body_, near_, skin_, surfaces_),
-      mean_(mean ? std::move(mean) : std::make_shared<const NetMean>(body_, skin_)) {
+      net_(net ? std::move(net) : std::make_shared<const SkinNet>(body_, skin_)) {
   expect_quadrature(body_.quadrature);
   expect_neighbours(body_.patches);
   for (const SkinPiece& piece : skin_) {
@@ -74,15 +74,14 @@ ElementCompliances::ElementCompliances(ReferenceBody body, const std::vector<Ski
 ElementCompliances::Tensors ElementCompliances::at(const HitElement& hit,
                                                    const std::vector<nurbs::Parameter<2>>& points) const {
   std::vector<SkinPoint> feet;
-  for (const nurbs::Parameter<2>& xi : points) feet.push_back(hit.foot(xi));
+  for (const nurbs::Parameter<2>& xi : points) feet.push_back(net_->seams.carried(hit.foot(xi)));
   const LocalPatch patch(body_, near_, hit.volume(), extent_for(body_.patches[hit.volume().patch].space));
   return LocalProblem(patch, gradients_).compliances(feet);
 }
 
 SpreadFoot ElementCompliances::spread_foot(const HitElement& hit, const nurbs::Parameter<2>& xi,
-                                           SkinPoint at) const {
-  NetMean::Beside beside = mean_->beside(at);
-  return {std::move(at), std::move(beside), hit.frame(xi), hit.room(xi)};
+                                           const SkinPoint& at) const {
+  return {net_->seams.carried(at), net_->beside(at), hit.frame(xi), hit.room(xi)};
 }
 
 std::vector<LocalProblem::OfSpread> ElementCompliances::spread_at(

@@ -13,6 +13,7 @@
 #include "structure/compliance/hit_element.h"
 #include "structure/compliance/local_problem.h"
 #include "structure/compliance/shared_points.h"
+#include "structure/compliance/skin_net.h"
 #include "structure/compliance/spread_table.h"
 
 namespace structure {
@@ -24,16 +25,16 @@ class ElementCompliances {
   /// `skin`: pieces of the surface that is touched; keeps a reference.  Throws std::invalid_argument, naming
   /// what is not for it and what is, unless the laws of their patches are isotropic, elastic and without
   /// memory, and their degrees 2 or 3.
-  /// `mean`: of the undeformed body; null: this is it.
+  /// `net`: of the undeformed body; null: this is it.
   ElementCompliances(ReferenceBody body, const std::vector<SkinPiece>& skin,
-                     std::shared_ptr<const NetMean> mean = nullptr);
+                     std::shared_ptr<const SkinNet> net = nullptr);
   ElementCompliances(const ElementCompliances&) = delete;
   ElementCompliances& operator=(const ElementCompliances&) = delete;
 
   const ReferenceBody& body() const { return body_; }
   const NearElements& near() const { return near_; }
   const SharedPoints& shared() const { return shared_; }
-  const std::shared_ptr<const NetMean>& mean() const { return mean_; }
+  const std::shared_ptr<const SkinNet>& net() const { return net_; }
   const FaceSurface& surface(int piece) const { return surfaces_[piece]; }
   HitElement hit(int piece, int element) const {
     return {body_, near_, skin_[piece], surfaces_[piece], element};
@@ -65,7 +66,7 @@ class ElementCompliances {
 
  private:
   Tensors at(const HitElement& hit, const std::vector<nurbs::Parameter<2>>& points) const;
-  SpreadFoot spread_foot(const HitElement& hit, const nurbs::Parameter<2>& xi, SkinPoint at) const;
+  SpreadFoot spread_foot(const HitElement& hit, const nurbs::Parameter<2>& xi, const SkinPoint& at) const;
   std::vector<LocalProblem::OfSpread> spread_at(const HitElement& hit,
                                                 const std::vector<nurbs::Parameter<2>>& points) const;
 
@@ -75,7 +76,7 @@ class ElementCompliances {
   const std::vector<SkinPiece>& skin_;
   std::vector<FaceSurface> surfaces_;
   SharedPoints shared_;
-  std::shared_ptr<const NetMean> mean_;
+  std::shared_ptr<const SkinNet> net_;
   std::vector<std::array<std::vector<int>, 2>> alike_;  // per piece and direction (alike_elements.h)
   std::vector<std::vector<Solved>> solved_of_;          // [piece][first of the elements that are alike]
   std::vector<std::vector<Solved>> spread_of_;          // likewise

@@ -13,18 +13,28 @@ namespace structure {
 
 namespace {
 
-/// Nodes beside each along the nets of the pieces.
-std::map<Id, std::set<Id>> neighbours_of(const ReferenceBody& body, const std::vector<SkinPiece>& skin) {
+/// Nodes beside each along the nets of the pieces; beyond a seam, if one is there.
+std::map<Id, std::set<Id>> neighbours_of(const ReferenceBody& body, const std::vector<SkinPiece>& skin,
+                                         const SmoothSeams& seams) {
   std::map<Id, std::set<Id>> found;
   for (const SkinPiece& piece : skin) {
     const SkinSurface surface = skin_surface(body.patches[piece.patch], piece, body.nodes);
     const std::vector<int>& nodes = surface.face.volume_control_point;
     const int counts[] = {surface.face.space.control_point_count(0),
                           surface.face.space.control_point_count(1)};
+    const auto add = [&](Id from, Id to) {
+      const SmoothSeams::Row* const met = seams.between(to);
+      const auto is_from = [&](const auto& beside) { return beside.first == from; };
+      if (!met || std::none_of(met->begin(), met->end(), is_from))
+        found[from].insert(to);
+      else
+        for (const auto& [beyond, share] : *met)
+          if (beyond != from) found[from].insert(beyond);
+    };
     const auto join = [&](int a, int b) {
       if (nodes[a] == nodes[b]) return;  // at a pole
-      found[nodes[a]].insert(nodes[b]);
-      found[nodes[b]].insert(nodes[a]);
+      add(nodes[a], nodes[b]);
+      add(nodes[b], nodes[a]);
     };
     for (int j = 0; j < counts[1]; ++j)
       for (int i = 0; i < counts[0]; ++i) {
@@ -83,18 +93,26 @@ std::vector<Opposite> opposites(const ReferenceBody& body, Id node, const std::s
 
 }  // namespace
 
-NetMean::NetMean(const ReferenceBody& body, const std::vector<SkinPiece>& skin) {
+// Of a node on a seam: what those have that it is met by.
+NetMean::NetMean(const ReferenceBody& body, const std::vector<SkinPiece>& skin, const SmoothSeams& seams) {
   constexpr std::size_t kRegular = 2;  // directions of a net
-  for (const auto& [node, neighbours] : neighbours_of(body, skin)) {
+  std::map<Id, std::map<Id, double>> rows;
+  for (const auto& [node, neighbours] : neighbours_of(body, skin, seams)) {
+    std::map<Id, double>& row = rows[node];
+    if (seams.between(node)) continue;
     const std::vector<Opposite> pairs = opposites(body, node, neighbours);
     const double of_pair = 2.0 * kShare * kRegular / static_cast<double>(std::max(kRegular, pairs.size()));
-    std::map<Id, double> row;
     for (const auto& [nodes, distance] : pairs)
       for (int k = 0; k < 2; ++k) {
         const double share = of_pair * distance[1 - k] / (distance[0] + distance[1]);
         row[nodes[k]] += share;
         row[node] -= share;
       }
+  }
+  for (auto& [node, row] : rows) {
+    if (const SmoothSeams::Row* const met = seams.between(node))
+      for (const auto& [beside, part] : *met)
+        for (const auto& [to, share] : rows[beside]) row[to] += part * share;
     first_[node] = static_cast<int>(shares_.size());
     for (const auto& [to, share] : row) shares_.push_back({node, to, share});
   }

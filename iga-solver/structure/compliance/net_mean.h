@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // A mean over the control points of a body's skin and those beside them, along the net: what spreads a force
 // over a contact's disc, and the displacement that is met by it, where elements are so small beside the disc
-// that a point force makes a dent of its own (README.md).  Across welds as along the net; not over edges.
+// that a point force makes a dent of its own (README.md).  Across welds as along the net, seams left out; not
+// over edges.
 #pragma once
 
 #include <map>
@@ -9,6 +10,7 @@
 
 #include "structure/compliance/free_faces.h"
 #include "structure/compliance/reference_body.h"
+#include "structure/compliance/smooth_seams.h"
 
 namespace structure {
 
@@ -26,7 +28,7 @@ class NetMean {
   static constexpr double kShare = 0.2;
 
   /// Of the pieces of the skin that forces act on.
-  NetMean(const ReferenceBody& body, const std::vector<SkinPiece>& skin);
+  NetMean(const ReferenceBody& body, const std::vector<SkinPiece>& skin, const SmoothSeams& seams);
 
   /// Of all nodes, rising.
   const std::vector<Share>& shares() const { return shares_; }

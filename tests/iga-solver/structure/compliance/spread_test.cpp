@@ -6,9 +6,10 @@
 #include <array>
 #include <cmath>
 
+#include "nurbs/refinement.h"
 #include "point_force.h"
 #include "structure/compliance/element_compliances.h"
-#include "structure/compliance/net_mean.h"
+#include "structure/compliance/skin_net.h"
 
 namespace {
 
@@ -23,14 +24,27 @@ structure::ReferenceBody block(const Vector3& size, const std::array<int, 3>& el
   return point_force::block_body(size, elements, degree);
 }
 
-/// Along the normal: Z of a foot.
+NodalVectors along_normal(const structure::ReferenceBody& body, const std::vector<structure::Id>& nodes,
+                          const std::vector<double>& forces) {
+  NodalVectors load = NodalVectors::Zero(3, body.patches[0].control_points.cols());
+  for (std::size_t a = 0; a < nodes.size(); ++a) load(2, nodes[a]) = forces[a];
+  return load;
+}
+
+/// Z of a foot.
 NodalVectors beside(const structure::ReferenceBody& body, const Parameter<2>& xi) {
   const structure::FaceSurface top(body, kTop[0]);
   const structure::NetMean::Beside beside =
-      structure::NetMean(body, kTop).beside(top.at(top.space().element_at(xi), xi));
-  NodalVectors load = NodalVectors::Zero(3, body.patches[0].control_points.cols());
-  for (std::size_t a = 0; a < beside.nodes.size(); ++a) load(2, beside.nodes[a]) = beside.Z[a];
-  return load;
+      structure::SkinNet(body, kTop).beside(top.at(top.space().element_at(xi), xi));
+  return along_normal(body, beside.nodes, beside.Z);
+}
+
+/// R of a foot, on no seam.
+NodalVectors beside_seams(const structure::ReferenceBody& body, const Parameter<2>& xi) {
+  const structure::FaceSurface top(body, kTop[0]);
+  const structure::SkinPoint foot =
+      structure::SmoothSeams(body, kTop).carried(top.at(top.space().element_at(xi), xi));
+  return along_normal(body, foot.nodes, foot.R);
 }
 
 double work(const NodalVectors& a, const NodalVectors& b) { return a.cwiseProduct(b).sum(); }
@@ -69,17 +83,18 @@ TEST(NetMean, GoesAcrossWeldsAndNotOverEdges) {
       {0, nurbs::Face::zeta_plus}, {1, nurbs::Face::zeta_plus}, {1, nurbs::Face::xi_plus}};
   const structure::ReferenceBody body{
       patches, {models::elastic(1.0, 0.3), models::elastic(1.0, 0.3)}, structure::weld(patches)};
-  const structure::NetMean mean(body, skin);
+  const structure::SkinNet net(body, skin);
   int across = 0;
-  for (const auto& [from, to, share] : mean.shares()) {
+  for (const auto& [from, to, share] : net.mean.shares()) {
     const auto [p, a] = body.nodes.place(from);
     const auto [q, b] = body.nodes.place(to);
     const Vector3 X = patches[p].control_points.col(a), way = patches[q].control_points.col(b) - X;
     const bool at_edge = X[0] > 4.0 - 1e-9 && X[2] > 2.0 - 1e-9;
     EXPECT_FALSE(at_edge && (way[0] != 0.0 || way[2] != 0.0)) << X.transpose();
-    across += std::abs(X[0] - 2.0) < 1e-9 && way[0] != 0.0;
+    across += std::abs(X[0] - 1.5) < 1e-9 && std::abs(way[0] - 1.0) < 1e-9;
+    EXPECT_GT(std::abs(X[0] + way[0] - 2.0), 0.4);  // none to the seam, at 2
   }
-  EXPECT_EQ(across, 2 * 6);  // to both sides of each node of the seam
+  EXPECT_EQ(across, 6);
 }
 
 // Less what a block gives way more or less than a half-space: a spread force of the same moments about a foot
@@ -97,6 +112,26 @@ TEST(SpreadForces, GiveWayAsOnAWholeBlock) {
       EXPECT_NEAR(found.one(2, 2), work(of_Z, R), 0.02) << degree;
       EXPECT_NEAR(found.both(2, 2), work(of_Z, Z), 0.02) << degree;
       EXPECT_LT(found.one(2, 2), -0.25);
+    }
+  }
+}
+
+// The same where patches are welded, or a knot stands as often as the degree is.
+TEST(SpreadForces, GiveWayAtSeamsAsOnAWholeBlock) {
+  for (const int degree : {2, 3}) {
+    structure::ReferenceBody body = block({14, 14, 6}, {14, 14, 6}, degree);
+    body = point_force::body_of(nurbs::insert_knot(body.patches[0], 0, 0.5, degree - 1));
+    const structure::ElementCompliances compliances(body, kTop);
+    const auto on_base = [](const Vector3& X) { return X[2] < 1e-9; };
+    for (const Parameter<2>& foot : {Parameter<2>{7, 7}, {7.5, 7.5}, {7.25, 7.4}, {7, 7.5}, {8.25, 7.25}}) {
+      const Parameter<2> xi = {foot[0] / 14, foot[1] / 14};
+      const NodalVectors R = beside_seams(body, xi), Z = beside(body, xi),
+                         of_Z = displacements(body, Z, on_base);
+      const int element = static_cast<int>(foot[0]) + 14 * 7;
+      const auto found = compliances.spread_direct(0, element, xi);
+      EXPECT_NEAR(found.one(2, 2), work(of_Z, R), 0.02) << degree;
+      EXPECT_NEAR(found.both(2, 2), work(of_Z, Z), 0.025) << degree;
+      EXPECT_LT(found.one(2, 2), -0.2);
     }
   }
 }

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""`compliance corrected` where patches are welded, or one is to itself: a ball of steel that slides over the weld, beside the same block in
+one patch."""
+
+import tempfile
+import unittest
+from pathlib import Path
+
+import numpy as np
+
+import ball_on_block as bob
+import decks
+from test_compliance import COLUMNS, CORRECTED, STEEL
+
+FRICTIONLESS = "model hertz tangential no_history"
+SIDE = 0.768e-3  # of each half [m]
+IMPACT = 0.5 * 4.0 / 3.0 * np.pi * bob.RADIUS**3 * bob.DENSITY  # energy of 1 m/s
+VELOCITY = (20.0, 5.0, -1.0)
+SETTINGS = dict(ball=STEEL, wall=STEEL, models=FRICTIONLESS, timestep=2e-9, velocity=VELOCITY, balls=((-50e-6, 17e-6, bob.RADIUS),))
+
+
+def box(low: float, width: float, elements: int, n: int, degree: int) -> str:
+    return (f"{{origin: [{low}, {-SIDE / 2}, {-SIDE / 2}], size: [{width}, {SIDE}, {SIDE / 2}], elements: [{elements}, {n}, {n // 2}], "
+            f"degree: {degree}}}")  # fmt: skip
+
+
+def block(n: int, degree: int, patches: int) -> str:
+    """The weld is at x = 0."""
+    geometry = f"{{box: {box(-SIDE, 2 * SIDE, 2 * n, n, degree)}}}"
+    if patches == 2:
+        geometry = "{shapes: [" + ", ".join(f"{{box: {box(x, SIDE, n, n, degree)}}}" for x in (-SIDE, 0.0)) + "]}"
+    held = ", ".join(f"{{patch: {p}, fix: [x, y, z], faces: [zeta-]}}" for p in range(patches))
+    tops = ", ".join(f"{p} zeta+" for p in range(patches)) if patches == 2 else "zeta+"
+    return f"""units: si
+geometry: {geometry}
+material: {{law: linear_elastic, youngs_modulus: {STEEL[0]}, poissons_ratio: {STEEL[1]}, density: 7850}}
+boundary: [{held}]
+surfaces: {{top: [{tops}]}}
+probes: {{middle: {{patch: 0, face: zeta+, at: [0.5, 0.5]}}}}
+"""
+
+
+TUBE = f"""units: si
+geometry: {{tube: {{origin: [0, -0.0004, -3e-3], axis: [0, 1, 0], inner_radius: 2.6e-3, outer_radius: 3e-3, length: 0.8e-3, angle: [0, 360],
+  elements: [200, 8, 4]}}}}
+material: {{law: linear_elastic, youngs_modulus: {STEEL[0]}, poissons_ratio: {STEEL[1]}, density: 7850}}
+surfaces: {{top: zeta+}}
+probes: {{middle: {{face: zeta+, at: [0.5, 0.5]}}}}
+"""
+
+
+def bounce(model: str, steps: int = 2800, ranks: int = 1, **settings) -> dict[str, np.ndarray]:
+    """Until nothing touches."""
+    deck = bob.prelude(**SETTINGS | settings) + bob.wall(FRICTIONLESS, CORRECTED) + bob.output(COLUMNS)
+    return decks.good(deck + f"run {steps}\n", files={"block.yaml": model}, ranks=ranks, timeout=400).table
+
+
+class Seams(unittest.TestCase):
+    def assert_keeps_energy(self, table):
+        self.assertEqual(table["plate7"][-1], 0.0)
+        self.assertEqual(table["plate7"].max(), 1.0)
+        energy = table["KinEng"] + table["plate15"] + table["plate16"]
+        print(f"energy: {(energy[-1] - energy[0]) / IMPACT:.2e} of the impact's")
+        self.assertLess(abs(energy[-1] - energy[0]), 1e-5 * IMPACT)
+
+    def test_a_ball_that_slides_over_a_weld_feels_none(self):
+        """Elements of 2.3 contact radii, and of 1.3: there forces are spread."""
+        for n, degree, most in ((8, 2, 0.002), (8, 3, 0.002), (14, 2, 0.004)):
+            with self.subTest(n=n, degree=degree):
+                welded, one = (bounce(block(n, degree, patches)) for patches in (2, 1))
+                place = welded["x"][welded["plate7"] > 0]
+                self.assertLess(place.min(), -30e-6)
+                self.assertGreater(place.max(), 30e-6)
+                self.assert_keeps_energy(welded)
+                force = welded["fz"].max() / one["fz"].max() - 1.0
+                print(f"n {n}, degree {degree}: force {force:.2e}")
+                self.assertLess(abs(force), most)
+
+    def test_a_ball_on_the_seam_of_a_tube(self):
+        """The same where the tube's angle begins: at its top, and at its lower side."""
+        for turn in (0, 45):
+            with self.subTest(turn=turn):
+                model = TUBE.replace("[0, 360]", f"[{turn}, {turn + 360}]")
+                table = bounce(model, steps=3600, velocity=(4.0, 2.0, -1.0), balls=((-10e-6, 17e-6, bob.RADIUS),))
+                self.assert_keeps_energy(table)
+
+    def test_elements_at_a_weld_turn_earlier(self):
+        deck = bob.prelude(**SETTINGS | dict(velocity=(0.0, 0.0, -1.0), balls=((12e-6, 12e-6, bob.RADIUS),))) + bob.wall(FRICTIONLESS, CORRECTED)
+        run = decks.run(deck + "run 1400\n", files={"block.yaml": block(16, 2, 2)})
+        self.assertNotEqual(run.code, 0)
+        self.assertRegex(run.errors[0], r"elements at .* too small for the contact of particle 1 .* they turn below it \(0.41, "
+                         r"expected at most 0.41\); use elements at least 1.1 times as large there, or 'compliance none'")  # fmt: skip
+
+
+class Digits(unittest.TestCase):
+    def test_same_on_1_2_and_4_ranks_and_after_a_restart(self):
+        """A body in parts whose borders are at the weld, and along it."""
+        model = block(14, 2, 2)
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "contact"
+            deck = bob.prelude(**SETTINGS) + bob.wall(FRICTIONLESS, CORRECTED) + bob.output(COLUMNS) + f"run 1200\nwrite_restart {path}\nrun 60\n"
+            again = bob.prelude(restart=path, **SETTINGS) + bob.wall(FRICTIONLESS, CORRECTED) + bob.output(COLUMNS) + "run 60\n"
+            last = decks.good(deck, files={"block.yaml": model}, timeout=300).tables[-1]
+            self.assertEqual(last["plate7"].max(), 1)
+            for ranks, processors in ((1, "1 1 1"), (2, "2 1 1"), (4, "2 2 1")):
+                with self.subTest(ranks=ranks):
+                    text = deck.replace("processors * * *", f"processors {processors}")
+                    more = decks.good(text, files={"block.yaml": model}, ranks=ranks, timeout=300).tables[-1] if ranks > 1 else last
+                    restarted = decks.good(again, files={"block.yaml": model}, ranks=ranks, timeout=300).table
+                    for column in (c for c in last if c.startswith("plate")):
+                        self.assertTrue((more[column] == last[column]).all(), column)
+                        self.assertTrue((restarted[column] == last[column]).all(), f"{column} after a restart")
+
+
+if __name__ == "__main__":
+    unittest.main()
