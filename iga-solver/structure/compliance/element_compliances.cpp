@@ -71,11 +71,21 @@ ElementCompliances::ElementCompliances(ReferenceBody body, const std::vector<Ski
   }
 }
 
+/// With more layers where forces on an element are also on nodes beyond a seam.
+LocalPatch ElementCompliances::patch_around(const HitElement& hit, const std::vector<Id>& pressed) const {
+  constexpr int kMostLayersMore = 4;
+  LocalExtent extent = extent_for(body_.patches[hit.volume().patch].space);
+  for (int more = 0;; ++more, ++extent.layers) {
+    LocalPatch patch(body_, near_, hit.volume(), extent);
+    if (more == kMostLayersMore || patch.are_free(pressed)) return patch;
+  }
+}
+
 ElementCompliances::Tensors ElementCompliances::at(const HitElement& hit,
                                                    const std::vector<nurbs::Parameter<2>>& points) const {
   std::vector<SkinPoint> feet;
   for (const nurbs::Parameter<2>& xi : points) feet.push_back(net_->seams.carried(hit.foot(xi)));
-  const LocalPatch patch(body_, near_, hit.volume(), extent_for(body_.patches[hit.volume().patch].space));
+  const LocalPatch patch = patch_around(hit, feet.front().nodes);
   return LocalProblem(patch, gradients_).compliances(feet);
 }
 
@@ -88,7 +98,7 @@ std::vector<LocalProblem::OfSpread> ElementCompliances::spread_at(
     const HitElement& hit, const std::vector<nurbs::Parameter<2>>& points) const {
   std::vector<SpreadFoot> feet;
   for (const nurbs::Parameter<2>& xi : points) feet.push_back(spread_foot(hit, xi, hit.foot(xi)));
-  const LocalPatch patch(body_, near_, hit.volume(), extent_for(body_.patches[hit.volume().patch].space));
+  const LocalPatch patch = patch_around(hit, feet.front().beside.nodes);
   return LocalProblem(patch, gradients_).spread_compliances(feet);
 }
 

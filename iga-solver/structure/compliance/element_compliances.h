@@ -65,6 +65,7 @@ class ElementCompliances {
                                             const CrossCompliance* links) const;
 
  private:
+  LocalPatch patch_around(const HitElement& hit, const std::vector<Id>& pressed) const;
   Tensors at(const HitElement& hit, const std::vector<nurbs::Parameter<2>>& points) const;
   SpreadFoot spread_foot(const HitElement& hit, const nurbs::Parameter<2>& xi, const SkinPoint& at) const;
   std::vector<LocalProblem::OfSpread> spread_at(const HitElement& hit,

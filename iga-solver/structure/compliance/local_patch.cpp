@@ -17,6 +17,13 @@ LocalPatch::LocalPatch(const ReferenceBody& body, const NearElements& near, cons
   take_free_faces(near);
 }
 
+bool LocalPatch::are_free(const std::vector<Id>& nodes) const {
+  return std::all_of(nodes.begin(), nodes.end(), [&](Id node) {
+    const auto place = place_.find(node);
+    return place != place_.end() && place->second < free_;
+  });
+}
+
 void LocalPatch::number_nodes(const NearElements& near) {
   std::map<Id, int> elements_inside;
   for (const BodyElement& element : elements_) {

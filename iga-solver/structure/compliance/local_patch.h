@@ -33,6 +33,7 @@ class LocalPatch {
   const std::vector<Id>& nodes() const { return nodes_; }
   int free_count() const { return free_; }
   int place(Id node) const { return place_.at(node); }
+  bool are_free(const std::vector<Id>& nodes) const;
   /// Of an element's control points, the first direction fastest.
   std::vector<int> places_of(const BodyElement& element) const;
   /// Elements of each free face of a patch, as that surface counts them.

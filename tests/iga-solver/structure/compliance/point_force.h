@@ -7,7 +7,7 @@
 
 #include "models.h"
 #include "nurbs/boundary.h"
-#include "structure/compliance/free_faces.h"
+#include "structure/compliance/smooth_seams.h"
 #include "structure/solid/solid.h"
 #include "structure/weld.h"
 
@@ -30,11 +30,13 @@ inline ReferenceBody block_body(const Vector3& size, const std::array<int, 3>& e
 }
 inline const std::vector<structure::SkinPiece> kTop = {{0, nurbs::Face::zeta_plus}};
 
-/// Nodal forces of a unit force along the normal of a piece; their work on displacements is the foot's own.
+/// Nodal forces of a unit force along the normal of a piece, as it is met; their work on displacements is the
+/// foot's own.
 inline NodalVectors unit_force(const ReferenceBody& body, const nurbs::Parameter<2>& xi,
                                const structure::SkinPiece& piece = kTop[0]) {
   const structure::FaceSurface top(body, piece);
-  const structure::SkinPoint foot = top.at(top.space().element_at(xi), xi);
+  const structure::SkinPoint foot =
+      structure::SmoothSeams(body, {piece}).carried(top.at(top.space().element_at(xi), xi));
   NodalVectors load = NodalVectors::Zero(3, body.patches[0].control_points.cols());
   for (std::size_t a = 0; a < foot.R.size(); ++a) load.col(foot.nodes[a]) = foot.R[a] * foot.outward_normal;
   return load;

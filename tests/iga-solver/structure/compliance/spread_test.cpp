@@ -24,27 +24,14 @@ structure::ReferenceBody block(const Vector3& size, const std::array<int, 3>& el
   return point_force::block_body(size, elements, degree);
 }
 
-NodalVectors along_normal(const structure::ReferenceBody& body, const std::vector<structure::Id>& nodes,
-                          const std::vector<double>& forces) {
-  NodalVectors load = NodalVectors::Zero(3, body.patches[0].control_points.cols());
-  for (std::size_t a = 0; a < nodes.size(); ++a) load(2, nodes[a]) = forces[a];
-  return load;
-}
-
-/// Z of a foot.
+/// Along the normal: Z of a foot.
 NodalVectors beside(const structure::ReferenceBody& body, const Parameter<2>& xi) {
   const structure::FaceSurface top(body, kTop[0]);
   const structure::NetMean::Beside beside =
       structure::SkinNet(body, kTop).beside(top.at(top.space().element_at(xi), xi));
-  return along_normal(body, beside.nodes, beside.Z);
-}
-
-/// R of a foot, on no seam.
-NodalVectors beside_seams(const structure::ReferenceBody& body, const Parameter<2>& xi) {
-  const structure::FaceSurface top(body, kTop[0]);
-  const structure::SkinPoint foot =
-      structure::SmoothSeams(body, kTop).carried(top.at(top.space().element_at(xi), xi));
-  return along_normal(body, foot.nodes, foot.R);
+  NodalVectors load = NodalVectors::Zero(3, body.patches[0].control_points.cols());
+  for (std::size_t a = 0; a < beside.nodes.size(); ++a) load(2, beside.nodes[a]) = beside.Z[a];
+  return load;
 }
 
 double work(const NodalVectors& a, const NodalVectors& b) { return a.cwiseProduct(b).sum(); }
@@ -123,9 +110,10 @@ TEST(SpreadForces, GiveWayAtSeamsAsOnAWholeBlock) {
     body = point_force::body_of(nurbs::insert_knot(body.patches[0], 0, 0.5, degree - 1));
     const structure::ElementCompliances compliances(body, kTop);
     const auto on_base = [](const Vector3& X) { return X[2] < 1e-9; };
-    for (const Parameter<2>& foot : {Parameter<2>{7, 7}, {7.5, 7.5}, {7.25, 7.4}, {7, 7.5}, {8.25, 7.25}}) {
+    for (const Parameter<2>& foot :
+         {Parameter<2>{7, 7}, {7.5, 7.5}, {7.25, 7.4}, {7, 7.5}, {8.25, 7.25}, {9.5, 7.25}, {10.2, 7.5}}) {
       const Parameter<2> xi = {foot[0] / 14, foot[1] / 14};
-      const NodalVectors R = beside_seams(body, xi), Z = beside(body, xi),
+      const NodalVectors R = unit_force(body, xi), Z = beside(body, xi),
                          of_Z = displacements(body, Z, on_base);
       const int element = static_cast<int>(foot[0]) + 14 * 7;
       const auto found = compliances.spread_direct(0, element, xi);
