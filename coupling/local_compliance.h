@@ -44,8 +44,8 @@ class LocalCompliance {
   /// shares, which sum to zero (structure/compliance/net_mean.h).  Rising, the same on every rank; none where
   /// forces are not spread.
   virtual std::vector<Share> shares() const { return {}; }
-  /// Where nodes of smooth seams are met, and where forces on them go: shares of nodes beside them, on no
-  /// seam (structure/compliance/smooth_seams.h); likewise.
+  /// Where nodes on smooth seams and beside them are met, and where forces on them go: shares of nodes, which
+  /// sum to 1 (structure/compliance/smooth_seams.h); likewise.
   virtual std::vector<Share> seams() const { return {}; }
   /// What comes to Value for a force that is spread: c + 2 w one + w^2 both, also of what links take.
   struct Spread {

@@ -13,7 +13,7 @@ struct SkinNet {
 
   SkinNet(const ReferenceBody& body, const std::vector<SkinPiece>& skin)
       : seams(body, skin), mean(body, skin, seams) {}
-  /// What is beside a unit force where it is spread, on nodes that are on no seam.
+  /// What is beside a unit force where it is spread, carried as that is.
   NetMean::Beside beside(const SkinPoint& foot) const {
     NetMean::Beside beside = mean.beside(foot);
     seams.carry(beside.nodes, beside.Z);
