@@ -47,6 +47,8 @@ class LocalCompliance {
   /// Where nodes on smooth seams and beside them are met, and where forces on them go: shares of nodes, which
   /// sum to 1 (structure/compliance/smooth_seams.h); likewise.
   virtual std::vector<Share> seams() const { return {}; }
+  /// Nodes of such seams where the mesh kinks and is met so; likewise.
+  virtual std::vector<NodeId> kinks() const { return {}; }
   /// What comes to Value for a force that is spread: c + 2 w one + w^2 both, also of what links take.
   struct Spread {
     Component moment;     ///< second one of Z, the mean of both directions [length^2]

@@ -25,6 +25,7 @@ class MeshCompliance final : public LocalCompliance {
   std::vector<Link> links() const override;
   std::vector<Share> shares() const override;
   std::vector<Share> seams() const override;
+  std::vector<NodeId> kinks() const override { return tables_.net().seams.kinks(); }
   bool follows_strain() const override { return places_ && tables_.follows_strain(); }
   void follow_strain(const std::vector<nurbs::SurfacePoint>& feet) override;
   /// Where all of the body's nodes are, 3 x node count, asked for on all ranks at the same time.

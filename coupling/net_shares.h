@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "coupling/contact_surface.h"
+#include "coupling/force_distribution.h"
 #include "coupling/local_compliance.h"
 
 namespace coupling {
@@ -16,6 +17,12 @@ class NetShares {
 
   /// Whether this control point has any.
   bool has(int control_point) const { return first_[control_point] < first_[control_point + 1]; }
+  /// Whether one of a foot's has.
+  bool has_any(const FootBasis& foot) const {
+    bool found = false;
+    foot.for_each_control_point([&](int c) { found = found || has(c); });
+    return found;
+  }
   /// f(control point, share) for each of this one's.
   template <class Function>
   void for_each(int control_point, Function f) const {

@@ -26,11 +26,6 @@ class Seams {
                  [this](int c) { return shares_.has(c); });
     return found;
   }
-  bool has_any(const FootBasis& foot) const {
-    bool found = false;
-    foot.for_each_control_point([&](int c) { found = found || shares_.has(c); });
-    return found;
-  }
   /// Takes a field (3 x n) to what is met at these, which are met elsewhere.
   void straighten(const std::vector<int>& control_points, NodalVectors& q) {
     values_.clear();

@@ -107,6 +107,10 @@ void SurfaceExchange::find_links() {
       compliance ? compliance->seams() : std::vector<LocalCompliance::Share>();
   if (!seams.empty()) seams_ = std::make_unique<Seams>(NetShares(solver_.surface().map, seams));
   if (seams_) followed_on_seams_ = on_seams_ = seams_->among(followed_);
+  std::vector<LocalCompliance::Share> kinks;
+  for (const NodeId node : compliance ? compliance->kinks() : std::vector<NodeId>())
+    kinks.push_back({node, node, 1.0});
+  if (!kinks.empty()) kinks_ = std::make_unique<NetShares>(solver_.surface().map, kinks);
 }
 
 void SurfaceExchange::import_masses() {
@@ -125,7 +129,11 @@ double SurfaceExchange::inverse_mass_at(const nurbs::SurfacePoint& at, const Vec
 }
 
 bool SurfaceExchange::is_at_seam(const nurbs::SurfacePoint& foot) const {
-  return seams_ && seams_->has_any(FootBasis(solver_.surface().topology, foot));
+  return seams_ && seams_->shares().has_any(FootBasis(solver_.surface().topology, foot));
+}
+
+bool SurfaceExchange::is_at_kink(const nurbs::SurfacePoint& foot) const {
+  return kinks_ && kinks_->has_any(FootBasis(solver_.surface().topology, foot));
 }
 
 void SurfaceExchange::import_own(const std::vector<int>& control_points) {

@@ -50,6 +50,8 @@ class SurfaceExchange {
   double inverse_mass_at(const nurbs::SurfacePoint& foot, const Vector3& n) const;
   /// Whether its element is so near a seam that contacts meet it beside where the body has it (seams.h).
   bool is_at_seam(const nurbs::SurfacePoint& foot) const;
+  /// Whether it is where the mesh kinks and contacts meet that.
+  bool is_at_kink(const nurbs::SurfacePoint& foot) const;
   /// What contacts that are corrected are spread by; null: they are not.
   const NetSpread* net_spread() const { return spread_.get(); }
   /// The control points that import_followed() brings to this rank, rising; all, before the first follow().
@@ -101,6 +103,7 @@ class SurfaceExchange {
   std::unique_ptr<SurfaceOwners> owners_;  ///< of a structure in parts
   std::unique_ptr<CrossShift> shift_;      ///< of a body whose mesh gives way beside contacts
   std::unique_ptr<NetSpread> spread_;      ///< likewise
+  std::unique_ptr<NetShares> kinks_;       ///< control points there have one, their own
   std::unique_ptr<Seams> seams_;           ///< likewise
   std::vector<int> on_seams_;              ///< all control points there
   std::vector<int> followed_, followed_on_seams_;

@@ -200,6 +200,7 @@ std::vector<std::string> alarms_of_run(const contact::ContactLoop& loop, double 
 std::string alarm_of_mesh(const contact::ContactLoop& loop, bool can_be_corrected, MPI_Comm world) {
   const contact::MeshAlarm uncorrected = loop.uncorrected().of_all_ranks(world),
                            turning = loop.turning().of_all_ranks(world),
+                           kinked = loop.kinked().of_all_ranks(world),
                            not_static = loop.not_static().of_all_ranks(world);
   constexpr double kMost = contact::ContactLoop::kMissing;
   const auto place = [](const contact::MeshAlarm& alarm) {
@@ -221,6 +222,14 @@ std::string alarm_of_mesh(const contact::ContactLoop& loop, bool can_be_correcte
         "there",
         turning.size, place(turning), turning.count,
         rounded_up(turning.size * std::cbrt(turning.value / contact::ContactLoop::kTurning)));
+  if (kinked.count > 0)
+    return fmt::format(
+        "the mesh kinks below the contact of {}, at a weld or C0 knot where control points do not run on "
+        "from "
+        "side to side ({} contacts of this kind in this run): its force may be wrong by more than {:.1f} %, "
+        "and a particle that moves across gain energy; let rows of control points go straight across there, "
+        "or use larger elements than of {:.3g}",
+        place(kinked), kinked.count, 100.0 * kinked.value, kinked.size);
   if (not_static.count > 0)
     return fmt::format(
         "the contact of {} is too short for 'compliance corrected', which is static: it lasts {:.2g} of what "

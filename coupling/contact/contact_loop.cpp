@@ -28,7 +28,7 @@ ContactLoop::ContactLoop(const coupling::StructureSolver& structure, coupling::S
 void ContactLoop::forget_reports() {
   searches_ = SearchCounts();
   inside_ = crossing_ = stiff_ = brief_ = RunAlarm();
-  uncorrected_ = turning_ = not_static_ = MeshAlarm();
+  uncorrected_ = turning_ = kinked_ = not_static_ = MeshAlarm();
 }
 
 /* ---------------------------------------------------------------------- the list of candidates */

@@ -115,6 +115,8 @@ class ContactLoop {
   /// (MeshEstimate::squared_turning).
   const MeshAlarm& turning() const { return turning_; }
   static constexpr double kTurning = 0.41;  ///< those that are spread are refused then
+  /// Contacts that are corrected where the mesh kinks under them, by more than kMissing of their force.
+  const MeshAlarm& kinked() const { return kinked_; }
   /// Contacts that are corrected by what is static, and are shorter than that (MeshEstimate::waves > 1).
   const MeshAlarm& not_static() const { return not_static_; }
 
@@ -192,7 +194,7 @@ class ContactLoop {
   mutable ContactRows rows_;
   std::vector<coupling::ContactForce> forces_on_body_;
   RunAlarm inside_, crossing_, stiff_, brief_;
-  MeshAlarm uncorrected_, turning_, not_static_;
+  MeshAlarm uncorrected_, turning_, kinked_, not_static_;
   double body_squared_frequency_ = 0.0;            // in this step [1/time^2]
   double squared_time_ = 0.0, squared_way_ = 0.0;  // in this step: see squared_travel()
   bool is_plain_ = false;                          // in this step: steady contacts are soon complete

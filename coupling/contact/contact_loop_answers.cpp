@@ -115,6 +115,7 @@ inline void ContactLoop::look_at_mesh(const ParticleView& particles, const StepI
       fail_as_turning(particles, step, contact, turning);
     if (turning > kTurning) raise(turning_, turning);
   }
+  if (contact.missing > kMissing && wall_.is_at_kink(contact.foot)) raise(kinked_, contact.missing);
   constexpr double kFirst = 1.01;  // of the way of a step
   const int i = contact.particle;
   const double approach = contact.normal().dot(contact.wall_velocity - particles.velocity(i));

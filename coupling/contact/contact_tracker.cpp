@@ -141,16 +141,21 @@ void ContactTracker::keep_one_of_each_valley(const Query& query) {
 }
 
 // In a kink that counts as smooth there are two feet, side by side, where a smooth surface has one.
-void ContactTracker::keep_nearer_across_smooth_edges(const Query& query) {
-  const auto to_centre = [&](const Foot& foot) { return Vector3((query.centre - foot.point).normalized()); };
+bool ContactTracker::repeats_across_smooth_edge(const Query& query, const Foot& foot,
+                                                const Foot& nearer) const {
+  const auto to_centre = [&](const Foot& f) { return Vector3((query.centre - f.point).normalized()); };
   const auto angle = [](const Vector3& a, const Vector3& b) {  // 0 to pi, as edge_angle
     return std::atan2(a.cross(b).norm(), a.dot(b));
   };
+  return (foot.point - nearer.point).norm() <= 2.0 * edge_angle_ * foot.distance &&
+         angle(to_centre(foot), to_centre(nearer)) <= edge_angle_ &&
+         search_.projector().across_smooth_edge(foot, nearer);
+}
+
+void ContactTracker::keep_nearer_across_smooth_edges(const Query& query) {
   const auto repeats = [&](const Foot& foot, const Foot& nearer) {
     return (nearer.distance < foot.distance || (nearer.distance == foot.distance && &nearer < &foot)) &&
-           (foot.point - nearer.point).norm() <= 2.0 * edge_angle_ * foot.distance &&
-           angle(to_centre(foot), to_centre(nearer)) <= edge_angle_ &&
-           search_.projector().across_smooth_edge(foot, nearer);
+           repeats_across_smooth_edge(query, foot, nearer);
   };
   for (auto foot = found_.begin(); foot != found_.end();)
     if (std::any_of(found_.begin(), found_.end(), [&](const Foot& nearer) { return repeats(*foot, nearer); }))
@@ -159,7 +164,8 @@ void ContactTracker::keep_nearer_across_smooth_edges(const Query& query) {
       ++foot;
 }
 
-// A slot goes with its branch: to the foot that is reached from where the branch was last.
+// A slot goes with its branch: to the foot that is reached from where the branch was last, or in a kink that
+// counts as smooth to the one that is nearer now.
 void ContactTracker::match_slots(const Query& query, const ParticleSlots& slots, TrackedFoot* feet,
                                  int count) {
   for (int s = 0; s < slots.used(); ++s) {
@@ -168,8 +174,11 @@ void ContactTracker::match_slots(const Query& query, const ParticleSlots& slots,
     const SurfacePoint last = slot.foot();
     const Foot now = search_.projector().follow(query.centre, last, nearest_image(last, query.centre));
     TrackedFoot* const end = feet + count;
-    TrackedFoot* const found =
+    TrackedFoot* found =
         std::find_if(feet, end, [&](const TrackedFoot& f) { return same(f.foot, now, query.touch_reach); });
+    if (found == end)
+      found = std::find_if(
+          feet, end, [&](const TrackedFoot& f) { return repeats_across_smooth_edge(query, now, f.foot); });
     if (found != end && found->slot < 0)
       found->slot = s;
     else

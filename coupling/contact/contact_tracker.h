@@ -42,6 +42,8 @@ class ContactTracker final : public FeetTracker {
                 std::vector<TrackedFoot>& out);
   bool in_valley(const Query& query, const search::Foot& foot) const;
   void keep_one_of_each_valley(const Query& query);
+  bool repeats_across_smooth_edge(const Query& query, const search::Foot& foot,
+                                  const search::Foot& nearer) const;
   void keep_nearer_across_smooth_edges(const Query& query);
   void match_slots(const Query& query, const ParticleSlots& slots, TrackedFoot* feet, int count);
   void keep_feet_of_all_images(const Query& query);

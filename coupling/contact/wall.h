@@ -57,6 +57,7 @@ class Wall {
   }
   double largest_inverse_mass() const { return largest_inverse_mass_; }
   bool is_at_seam(const nurbs::SurfacePoint& foot) const { return exchange_.is_at_seam(foot); }
+  bool is_at_kink(const nurbs::SurfacePoint& foot) const { return exchange_.is_at_kink(foot); }
   /// Of the body's fastest vibration, at most, if it takes the same steps as the particles [1/time^2].
   double squared_frequency() const {
     const double stable = structure_.stable_time_step_with_contacts();

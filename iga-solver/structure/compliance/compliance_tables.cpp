@@ -86,10 +86,7 @@ ReferenceBody at_places(const ReferenceBody& body, const NodalVectors& places) {
 
 NodalVectors places_of(const ReferenceBody& body) {
   NodalVectors places(3, body.nodes.node_count());
-  for (Id node = 0; node < body.nodes.node_count(); ++node) {
-    const auto [patch, control_point] = body.nodes.place(node);
-    places.col(node) = body.patches[patch].control_points.col(control_point);
-  }
+  for (Id node = 0; node < body.nodes.node_count(); ++node) places.col(node) = body.place(node);
   return places;
 }
 

@@ -199,8 +199,7 @@ std::unique_ptr<SpreadTable> ElementCompliances::spread_table(int piece, int ele
     }
     double height = 0.0, moment = 0.0;
     for (std::size_t a = 0; a < foot.beside.nodes.size(); ++a) {
-      const auto [patch, control_point] = body_.nodes.place(foot.beside.nodes[a]);
-      const Vector3 way = body_.patches[patch].control_points.col(control_point) - foot.at.point;
+      const Vector3 way = body_.place(foot.beside.nodes[a]) - foot.at.point;
       const double above = way.dot(foot.at.outward_normal);
       height += foot.beside.Z[a] * above;
       moment += 0.5 * foot.beside.Z[a] * (way.squaredNorm() - above * above);

@@ -43,20 +43,16 @@ void LocalPatch::number_nodes(const NearElements& near) {
 
 // So matrices have narrow bands.
 void LocalPatch::sort_along_widest_axis() {
-  const auto place = [&](Id node) {
-    const auto [patch, control_point] = body_.nodes.place(node);
-    return Vector3(body_.patches[patch].control_points.col(control_point));
-  };
   if (nodes_.empty()) return;
-  Vector3 low = place(nodes_.front()), high = low;
+  Vector3 low = body_.place(nodes_.front()), high = low;
   for (const Id node : nodes_) {
-    low = low.cwiseMin(place(node));
-    high = high.cwiseMax(place(node));
+    low = low.cwiseMin(body_.place(node));
+    high = high.cwiseMax(body_.place(node));
   }
   int axis;
   (high - low).maxCoeff(&axis);
   std::vector<std::pair<double, Id>> sorted;
-  for (const Id node : nodes_) sorted.emplace_back(place(node)[axis], node);
+  for (const Id node : nodes_) sorted.emplace_back(body_.place(node)[axis], node);
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t i = 0; i < nodes_.size(); ++i) nodes_[i] = sorted[i].second;
 }

@@ -143,10 +143,7 @@ void LocalProblem::hold_by_springs() {
       nurbs::interpolate(volume.space, volume.control_points, volume.space.element_centre(hit.element));
   const double near = kNear * half_diagonal(volume, hit.element);
   std::vector<double> distance;
-  for (const Id node : patch_.nodes()) {
-    const auto [p, control_point] = body.nodes.place(node);
-    distance.push_back((body.patches[p].control_points.col(control_point) - centre).norm());
-  }
+  for (const Id node : patch_.nodes()) distance.push_back((body.place(node) - centre).norm());
   const double farthest = *std::max_element(distance.begin(), distance.end());
   for (std::size_t place = 0; place < distance.size(); ++place)
     if (distance[place] >= kFar * farthest && held_.nearest(patch_.nodes()[place], centre) > near) {
@@ -294,10 +291,7 @@ std::vector<LocalProblem::OfSpread> LocalProblem::spread_compliances(
   const std::vector<int> places = places_of(nodes);
   const ReferenceBody& body = patch_.body();
   std::vector<Vector3> points;
-  for (const Id node : nodes) {
-    const auto [patch, control_point] = body.nodes.place(node);
-    points.push_back(body.patches[patch].control_points.col(control_point));
-  }
+  for (const Id node : nodes) points.push_back(body.place(node));
   const auto count = static_cast<Eigen::Index>(nodes.size());
   std::vector<SkinPoint> at, around;
   std::vector<double> weights;  // of those around

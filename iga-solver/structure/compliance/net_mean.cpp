@@ -55,11 +55,7 @@ struct Opposite {
 // Where the net turns by more than an eighth of a circle there are none: at edges, and where it is coarse.
 std::vector<Opposite> opposites(const ReferenceBody& body, Id node, const std::set<Id>& neighbours) {
   constexpr double kStraight = -0.7;
-  const auto place = [&](Id of) {
-    const auto [patch, control_point] = body.nodes.place(of);
-    return Vector3(body.patches[patch].control_points.col(control_point));
-  };
-  const Vector3 centre = place(node);
+  const Vector3 centre = body.place(node);
   struct Way {
     Id node;
     double distance;
@@ -67,7 +63,7 @@ std::vector<Opposite> opposites(const ReferenceBody& body, Id node, const std::s
   };
   std::vector<Way> ways;
   for (const Id other : neighbours) {
-    const Vector3 way = place(other) - centre;
+    const Vector3 way = body.place(other) - centre;
     if (const double distance = way.norm(); distance > 0.0) ways.push_back({other, distance, way / distance});
   }
   struct Candidate {

@@ -17,6 +17,12 @@ struct ReferenceBody {
   std::vector<std::shared_ptr<const Material>> materials;  ///< of each patch
   NodeNumbering nodes;                                     ///< of their control points
   Quadrature quadrature = Quadrature::full;                ///< of its internal forces
+
+  /// Where a node stands [length].
+  nurbs::Vector3 place(Id node) const {
+    const auto [patch, control_point] = nodes.place(node);
+    return patches[patch].control_points.col(control_point);
+  }
 };
 
 /// An element of a body: counted as nurbs::Space does.

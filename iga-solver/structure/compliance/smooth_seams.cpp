@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "structure/compliance/smooth_seams.h"
 
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+
 #include <algorithm>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "structure/conditions/skin_surface.h"
@@ -20,11 +25,11 @@ std::vector<int> places_of_creases(const nurbs::KnotVector& knots) {
   return places;
 }
 
-/// Nodes beside one on such a line, across it, with the degree there and the next one beyond; -1: there is
-/// none.
+/// Nodes beside one on such a line, across it, with the degree there, the next one beyond, and those beside
+/// them along the line; -1: there is none.
 struct Beyond {
   int degree;
-  Id next;
+  Id next, along[2];
 };
 using Across = std::map<Id, Beyond>;
 
@@ -40,55 +45,18 @@ std::map<Id, Across> nodes_across(const ReferenceBody& body, const std::vector<S
       for (const int crease : places_of_creases(space.knots(d)))
         for (int along = 0; along < counts[1 - d]; ++along)
           for (const int side : {-1, 1}) {
-            const auto node = [&](int steps) {
-              const int at = crease + side * steps;
-              return at < 0 || at >= counts[d] ? Id(-1) : Id(nodes[along * strides[1 - d] + at * strides[d]]);
+            const auto node = [&](int steps, int aside = 0) {
+              const int at[] = {crease + side * steps, along + aside};
+              return at[0] < 0 || at[0] >= counts[d] || at[1] < 0 || at[1] >= counts[1 - d]
+                         ? Id(-1)
+                         : Id(nodes[at[1] * strides[1 - d] + at[0] * strides[d]]);
             };
             const Id beside = node(1);
             if (beside < 0 || beside == node(0)) continue;  // they are one at a pole
-            found[node(0)].emplace(beside, Beyond{space.degree(d), node(2)});
+            found[node(0)].emplace(beside, Beyond{space.degree(d), node(2), {node(1, -1), node(1, 1)}});
           }
   }
   return found;
-}
-
-/// Two nodes that one is between, on a line.
-struct Pair {
-  Id nodes[2], next[2];
-  double shares[2];
-  int degree;
-  double bend;  // a - b over the same of those next, of cubic patches, if it is on a parallel; else 0
-};
-
-Vector3 place_of(const ReferenceBody& body, Id node) {
-  const auto [patch, control_point] = body.nodes.place(node);
-  return body.patches[patch].control_points.col(control_point);
-}
-
-std::vector<Pair> pairs_of(const ReferenceBody& body, Id node, const Across& across) {
-  constexpr double kStraight = 1e-6;  // how far from the line, beside the distances
-  const Vector3 here = place_of(body, node);
-  std::vector<Pair> pairs;
-  for (auto a = across.begin(); a != across.end(); ++a)
-    for (auto b = std::next(a); b != across.end(); ++b) {
-      const Vector3 ways[] = {place_of(body, a->first) - here, place_of(body, b->first) - here};
-      const double distances[] = {ways[0].norm(), ways[1].norm()}, both = distances[0] + distances[1];
-      const double shares[] = {distances[1] / both, distances[0] / both};
-      if (!((shares[0] * ways[0] + shares[1] * ways[1]).norm() <= kStraight * both)) continue;
-      Pair pair = {{a->first, b->first},
-                   {a->second.next, b->second.next},
-                   {shares[0], shares[1]},
-                   std::min(a->second.degree, b->second.degree),
-                   0.0};
-      if (pair.degree > 2 && pair.next[0] >= 0 && pair.next[1] >= 0) {
-        const Vector3 way = ways[0] - ways[1],
-                      further = place_of(body, pair.next[0]) - place_of(body, pair.next[1]);
-        const double bend = way.norm() / further.norm();
-        if ((way - bend * further).norm() <= kStraight * both) pair.bend = bend;
-      }
-      pairs.push_back(pair);
-    }
-  return pairs;
 }
 
 using Row = SmoothSeams::Row;
@@ -97,17 +65,115 @@ void add(Row& row, double share, const Row& other) {
   for (const auto& [node, part] : other) row[node] += share * part;
 }
 
-Row row_of(const Pair& pair) { return {{pair.nodes[0], pair.shares[0]}, {pair.nodes[1], pair.shares[1]}}; }
+/// The row that differs least from `start`, by shares of nodes beside its own, of those that take any affine
+/// map to that of `sum` times a node's: at `here` if sum is 1.  None: it would take too much of them.
+/// `scale`: how far apart its nodes are.
+std::optional<Row> affine_row(const ReferenceBody& body, const Vector3& here, double scale, double sum,
+                              const Row& start, const std::vector<Id>& beside) {
+  constexpr double kExact = 1e-6, kMost = 0.5;
+  const auto affine = [&](Id node) {
+    return Eigen::Vector4d(((body.place(node) - here) / scale).homogeneous());
+  };
+  Eigen::Vector4d missing = sum * Eigen::Vector4d::UnitW();
+  for (const auto& [node, share] : start) missing -= share * affine(node);
+  if (missing.norm() <= kExact) return start;
+  std::vector<Id> nodes = beside;
+  for (const auto& [node, share] : start) nodes.push_back(node);
+  Eigen::MatrixXd of_nodes(4, nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k) of_nodes.col(k) = affine(nodes[k]);
+  const Eigen::VectorXd change = of_nodes.completeOrthogonalDecomposition().solve(missing);
+  if ((missing - of_nodes * change).norm() > kExact || change.cwiseAbs().maxCoeff() > kMost) return {};
+  Row row = start;
+  for (std::size_t k = 0; k < nodes.size(); ++k) row[nodes[k]] += change[k];
+  return row;
+}
+
+/// Two nodes that one is between.
+struct Pair {
+  Id nodes[2], next[2];
+  int degree;
+  Row between, bend;  // of cubic patches: a - b less as much of those next
+};
+
+/// None if it is on no line with them, and nodes beside them cannot mend it.
+std::optional<Pair> pair_of(const ReferenceBody& body, Id node, const Across::value_type& a,
+                            const Across::value_type& b, const std::vector<Id>& beside) {
+  const Vector3 here = body.place(node), ways[] = {body.place(a.first) - here, body.place(b.first) - here};
+  if (!(ways[0].dot(ways[1]) < 0.0)) return {};
+  const double distances[] = {ways[0].norm(), ways[1].norm()}, both = distances[0] + distances[1];
+  const Row line = {{a.first, distances[1] / both}, {b.first, distances[0] / both}};
+  auto between = affine_row(body, here, both, 1.0, line, beside);
+  if (!between) return {};
+  return Pair{{a.first, b.first},
+              {a.second.next, b.second.next},
+              std::min(a.second.degree, b.second.degree),
+              std::move(*between),
+              {}};
+}
+
+/// Of nodes on seams; first those that are on lines, in both directions where two seams cross, then those
+/// whose rows are askew.
+std::map<Id, std::vector<Pair>> pairs_of(const ReferenceBody& body, const std::map<Id, Across>& all) {
+  std::map<Id, std::vector<Pair>> pairs;
+  std::map<Id, std::vector<Id>> askew;  // none yet beside those
+  for (const auto& [node, across] : all) {
+    std::vector<Pair> found;
+    for (auto a = across.begin(); a != across.end(); ++a)
+      for (auto b = std::next(a); b != across.end(); ++b)
+        if (auto pair = pair_of(body, node, *a, *b, {})) found.push_back(std::move(*pair));
+    if (!found.empty())
+      pairs.emplace(node, std::move(found));
+    else if (across.size() == 2)
+      askew[node];
+  }
+  const auto is_on_seam = [&](Id node) { return pairs.count(node) + askew.count(node) > 0; };
+  const auto beside = [&](const Across& across) {
+    std::vector<Id> nodes;
+    for (const auto& [node, beyond] : across)
+      for (const Id along : beyond.along)
+        if (along >= 0 && !is_on_seam(along)) nodes.push_back(along);
+    return nodes;
+  };
+  for (auto& [node, nodes] : askew) nodes = beside(all.at(node));
+  for (const auto& [node, nodes] : askew) {
+    const auto &a = *all.at(node).begin(), &b = *all.at(node).rbegin();
+    if (is_on_seam(a.first) || is_on_seam(b.first)) continue;
+    if (auto pair = pair_of(body, node, a, b, nodes)) pairs[node].push_back(std::move(*pair));
+  }
+  for (auto& [node, own] : pairs)
+    for (Pair& pair : own) {
+      if (pair.degree < 3 || pair.next[0] < 0 || pair.next[1] < 0) continue;
+      const double of_both = (body.place(pair.nodes[0]) - body.place(pair.nodes[1])).norm(),
+                   ratio = of_both / (body.place(pair.next[0]) - body.place(pair.next[1])).norm();
+      const Row parallel = {
+          {pair.nodes[0], 1.0}, {pair.nodes[1], -1.0}, {pair.next[0], -ratio}, {pair.next[1], ratio}};
+      if (auto bend = affine_row(body, body.place(node), of_both, 0.0, parallel, beside(all.at(node))))
+        pair.bend = std::move(*bend);
+    }
+  return pairs;
+}
+
+/// Whether the net goes on beyond a node, or turns by some 65 degrees at most.
+bool goes_on(const ReferenceBody& body, Id node, const Across& across) {
+  constexpr double kOn = -0.4;
+  std::vector<Vector3> ways;
+  for (const auto& [beside, beyond] : across)
+    ways.push_back((body.place(beside) - body.place(node)).normalized());
+  for (std::size_t k = 1; k < ways.size(); ++k)
+    for (std::size_t j = 0; j < k; ++j)
+      if (ways[j].dot(ways[k]) < kOn) return true;
+  return false;
+}
 
 const SmoothSeams::Press& press_of(const Pair& pair) { return SmoothSeams::kPress[pair.degree > 2]; }
 
 }  // namespace
 
 SmoothSeams::SmoothSeams(const ReferenceBody& body, const std::vector<SkinPiece>& skin) {
-  std::map<Id, std::vector<Pair>> pairs;
-  for (const auto& [node, across] : nodes_across(body, skin))
-    if (std::vector<Pair> found = pairs_of(body, node, across); !found.empty())
-      pairs.emplace(node, std::move(found));
+  const std::map<Id, Across> all = nodes_across(body, skin);
+  const std::map<Id, std::vector<Pair>> pairs = pairs_of(body, all);
+  for (const auto& [node, across] : all)
+    if (pairs.count(node) == 0 && goes_on(body, node, across)) kinks_.push_back(node);
   const auto first_pair = [&](Id node) {
     const auto found = pairs.find(node);
     return found == pairs.end() ? nullptr : &found->second.front();
@@ -116,10 +182,12 @@ SmoothSeams::SmoothSeams(const ReferenceBody& body, const std::vector<SkinPiece>
     const Pair& pair = own.front();
     Row& between = between_[node];
     const Pair* const beside[] = {first_pair(pair.nodes[0]), first_pair(pair.nodes[1])};
-    for (int k = 0; k < 2; ++k)
-      add(between, pair.shares[k], beside[k] ? row_of(*beside[k]) : Row{{pair.nodes[k], 1.0}});
+    for (const auto& [to, share] : pair.between) {
+      const Pair* const crossing = first_pair(to);
+      add(between, share, crossing ? crossing->between : Row{{to, 1.0}});
+    }
     Row kink = {{node, 1.0}};
-    for (const Pair& one : own) add(kink, -1.0, row_of(one));
+    for (const Pair& one : own) add(kink, -1.0, one.between);
     const Press& press = press_of(pair);
     if (beside[0] || beside[1]) {  // two seams cross: products of both
       if (!beside[0] || !beside[1] || own.size() != 2) continue;
@@ -128,24 +196,22 @@ SmoothSeams::SmoothSeams(const ReferenceBody& body, const std::vector<SkinPiece>
         add(rows_[met], press.kink[0] * press_of(*beside[0]).kink[0], kink);
       continue;
     }
-    const Row bend = {
-        {pair.nodes[0], 1.0}, {pair.nodes[1], -1.0}, {pair.next[0], -pair.bend}, {pair.next[1], pair.bend}};
     for (int k = 0; k < 2; ++k)
       for (int step = 0; step < 2; ++step) {
         const Id met = step == 0 ? pair.nodes[k] : pair.next[k];
         if (met < 0 || pairs.count(met) > 0) continue;
         add(rows_[met], press.kink[step], kink);
-        if (pair.bend > 0.0) add(rows_[met], k == 0 ? press.bend[step] : -press.bend[step], bend);
+        add(rows_[met], k == 0 ? press.bend[step] : -press.bend[step], pair.bend);
       }
   }
   for (auto& [node, row] : rows_) row[node] += 1.0;
-  std::map<Id, Row> on_seams;
+  std::map<Id, Row> of_seams;
   for (const auto& [node, between] : between_)
     for (const auto& [beside, share] : between) {
       const auto met = rows_.find(beside);
-      add(on_seams[node], share, met == rows_.end() ? Row{{beside, 1.0}} : met->second);
+      add(of_seams[node], share, met == rows_.end() ? Row{{beside, 1.0}} : met->second);
     }
-  rows_.insert(on_seams.begin(), on_seams.end());
+  rows_.insert(of_seams.begin(), of_seams.end());
 }
 
 std::vector<SmoothSeams::Share> SmoothSeams::shares() const {

@@ -51,6 +51,9 @@ class SmoothSeams {
     const auto found = between_.find(node);
     return found == between_.end() ? nullptr : &found->second;
   }
+  /// Nodes where a mesh kinks, and is met so: between no two of those beside them, though the undeformed
+  /// surface has no edge there.  Rising.
+  const std::vector<Id>& kinks() const { return kinks_; }
   /// What forces on nodes, as they are met, are on the body's: by nodes, rising, but as they are if none is
   /// met elsewhere.
   void carry(std::vector<Id>& nodes, std::vector<double>& forces) const;
@@ -59,6 +62,7 @@ class SmoothSeams {
  private:
   std::map<Id, Row> between_;
   std::map<Id, Row> rows_;  // of nodes that are met elsewhere
+  std::vector<Id> kinks_;
 };
 
 }  // namespace structure

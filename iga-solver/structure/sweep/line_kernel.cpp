@@ -4,6 +4,7 @@
 // what the linker picks for all.
 #include "structure/sweep/line_kernel.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "nurbs/lanes.h"
@@ -269,15 +270,20 @@ template <int P, bool WithValue, class Take>
 }
 
 /// Where knots are repeated, span s does not begin at control point s: the values of each span's functions
-/// one row after the other.
+/// one row after the other, as many spans at a time as follow each other.
 template <int P>
 void expand(const LaneBasis& x, const double* rows, int count) {
-  for (int k = 0; k < count; ++k)
-    for (int a = 0; a <= P; ++a) {
-      double* out = x.scratch + (k * (P + 1) + a) * std::size_t(x.row);
-      for (int s = 0; s < x.spans; ++s) out[s] = rows[k * std::size_t(x.row) + x.first_control[s] + a];
-      for (int s = x.spans; s < x.words * kLanes; ++s) out[s] = 0.0;
-    }
+  const std::size_t row = x.row;
+  const auto out = [&](int k, int a) { return x.scratch + (k * (P + 1) + a) * row; };
+  for (int s = 0, end; s < x.spans; s = end) {
+    for (end = s + 1; end < x.spans && x.first_control[end] == x.first_control[end - 1] + 1;) ++end;
+    for (int k = 0; k < count; ++k)
+      for (int a = 0; a <= P; ++a)
+        std::copy_n(rows + k * row + x.first_control[s] + a, end - s, out(k, a) + s);
+  }
+  const int rest = x.words * kLanes - x.spans;
+  for (int k = 0; k < count && rest > 0; ++k)
+    for (int a = 0; a <= P; ++a) std::fill_n(out(k, a) + x.spans, rest, 0.0);
 }
 
 template <int P, bool WithValue>

@@ -53,6 +53,7 @@ class Scene {
     return ContactMemory{slots_.data(), static_cast<int>(slots_.size()), 0}.of(particle, used_[particle]);
   }
   const SearchCounts& counts() const { return counts_; }
+  int contacts_begun() const { return contacts_begun_; }
 
   /// One step as the fix makes it, `block` candidates at a time: take(particle, its feet).  Feet that touch
   /// get a slot.
@@ -84,7 +85,10 @@ class Scene {
         tracked.slot = -1;
         continue;
       }
-      if (tracked.slot < 0) tracked.slot = slots.take_empty();
+      if (tracked.slot < 0) {
+        tracked.slot = slots.take_empty();
+        ++contacts_begun_;
+      }
       slots.slot(tracked.slot).set_foot(tracked.foot.at(), 0);
     }
     take(particle, feet);
@@ -101,6 +105,7 @@ class Scene {
   std::vector<std::vector<double>> values_;  // of each slot, a row for each particle
   std::vector<double*> slots_;
   std::vector<int> used_ = std::vector<int>(centres_.size(), 0);  // of them, by particle
+  int contacts_begun_ = 0;
 };
 
 // Between two plates each particle has two feet, and each keeps its slot, whatever the size of the block: 300
@@ -232,6 +237,7 @@ TEST(ContactTracker, AKinkBelowTheEdgeAngleHasOneFoot) {
             << x;
       });
     }
+    EXPECT_EQ(rolling.contacts_begun(), 1) << "one contact, with its memory";
   }
 }
 
