@@ -84,7 +84,7 @@ def three_patches(n: int, degree: int) -> str:
 
 
 TUBE = f"""units: si
-geometry: {{tube: {{origin: [0, -0.0004, -1.6e-3], axis: [0, 1, 0], inner_radius: 1.2e-3, outer_radius: 1.6e-3, length: 0.8e-3, angle: [0, 360],
+geometry: {{tube: {{origin: [0, -0.0004, -1.6e-3], axis: [0, 1, 0], inner_radius: 1.2e-3, outer_radius: 1.6e-3, length: 0.8e-3, angle: [90, 450],
   elements: [104, 8, 4]}}}}
 material: {{law: linear_elastic, youngs_modulus: {STEEL[0]}, poissons_ratio: {STEEL[1]}, density: 7850}}
 surfaces: {{top: zeta+}}
@@ -138,12 +138,8 @@ class Seams(unittest.TestCase):
             self.assertEqual(run.text.count("the mesh kinks below the contact of particle 1 at"), 1 if is_told else 0)
 
     def test_a_ball_on_the_seam_of_a_tube(self):
-        """At its top is the knot of a quarter, which is C0, or its angle begins there."""
-        for turn in (0, 90):
-            with self.subTest(turn=turn):
-                model = TUBE.replace("[0, 360]", f"[{turn}, {turn + 360}]")
-                table = bounce(model, velocity=(4.0, 2.0, -1.0), start=(-10e-6, 17e-6))
-                self.assert_keeps_energy(table)
+        """At its top, where its angle begins."""
+        self.assert_keeps_energy(bounce(TUBE, velocity=(4.0, 2.0, -1.0), start=(-10e-6, 17e-6)))
 
     def test_elements_at_a_weld_turn_earlier(self):
         deck = bob.prelude(**SETTINGS | dict(velocity=(0.0, 0.0, -1.0), balls=((12e-6, 12e-6, bob.RADIUS),))) + bob.wall(FRICTIONLESS, CORRECTED)
