@@ -5,6 +5,7 @@
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -25,17 +26,18 @@ std::vector<int> places_of_creases(const nurbs::KnotVector& knots) {
   return places;
 }
 
-/// Nodes beside one on such a line, across it, with the degree there, the next one beyond, and those beside
-/// them along the line; -1: there is none.
+/// Nodes beside one on such a line, across it, with the piece and the direction there, the next one beyond,
+/// and those beside them along the line; -1: there is none.
 struct Beyond {
-  int degree;
+  int piece, direction, degree;
   Id next, along[2];
 };
 using Across = std::map<Id, Beyond>;
 
 std::map<Id, Across> nodes_across(const ReferenceBody& body, const std::vector<SkinPiece>& skin) {
   std::map<Id, Across> found;
-  for (const SkinPiece& piece : skin) {
+  for (std::size_t p = 0; p < skin.size(); ++p) {
+    const SkinPiece& piece = skin[p];
     const SkinSurface surface = skin_surface(body.patches[piece.patch], piece, body.nodes);
     const nurbs::Space<2>& space = surface.face.space;
     const std::vector<int>& nodes = surface.face.volume_control_point;
@@ -53,7 +55,8 @@ std::map<Id, Across> nodes_across(const ReferenceBody& body, const std::vector<S
             };
             const Id beside = node(1);
             if (beside < 0 || beside == node(0)) continue;  // they are one at a pole
-            found[node(0)].emplace(beside, Beyond{space.degree(d), node(2), {node(1, -1), node(1, 1)}});
+            found[node(0)].emplace(
+                beside, Beyond{static_cast<int>(p), d, space.degree(d), node(2), {node(1, -1), node(1, 1)}});
           }
   }
   return found;
@@ -86,6 +89,37 @@ std::optional<Row> affine_row(const ReferenceBody& body, const Vector3& here, do
   Row row = start;
   for (std::size_t k = 0; k < nodes.size(); ++k) row[nodes[k]] += change[k];
   return row;
+}
+
+/// Pairs of nodes across from each other, about: not the corner of a piece.
+using Sides = std::vector<std::pair<Across::const_iterator, Across::const_iterator>>;
+Sides sides_of(const ReferenceBody& body, Id node, const Across& across) {
+  constexpr double kOn = -0.4;
+  const Vector3 here = body.place(node);
+  Sides sides;
+  for (auto a = across.begin(); a != across.end(); ++a)
+    for (auto b = std::next(a); b != across.end(); ++b) {
+      if (a->second.piece == b->second.piece && a->second.direction != b->second.direction) continue;
+      const Vector3 ways[] = {body.place(a->first) - here, body.place(b->first) - here};
+      if (ways[0].dot(ways[1]) < kOn * ways[0].norm() * ways[1].norm()) sides.emplace_back(a, b);
+    }
+  return sides;
+}
+
+/// Whether the net is about plane at a node: edges, of some 10 degrees and more, are not.
+bool is_flat(const ReferenceBody& body, Id node, const Across& across) {
+  constexpr double kFlat = 0.1;
+  std::vector<Vector3> ways(3, Vector3::Zero());
+  const auto way_to = [&](Id other) { ways.push_back((body.place(other) - body.place(node)).normalized()); };
+  for (const auto& [beside, beyond] : across) {
+    way_to(beside);
+    for (const Id along : beyond.along)
+      if (along >= 0) way_to(along);
+  }
+  Eigen::MatrixXd of_ways(3, ways.size());
+  for (std::size_t k = 0; k < ways.size(); ++k) of_ways.col(k) = ways[k];
+  const Eigen::MatrixXd R = of_ways.colPivHouseholderQr().matrixR();
+  return std::abs(R(2, 2)) <= kFlat * std::abs(R(0, 0));
 }
 
 /// Two nodes that one is between.
@@ -123,7 +157,7 @@ std::map<Id, std::vector<Pair>> pairs_of(const ReferenceBody& body, const std::m
         if (auto pair = pair_of(body, node, *a, *b, {})) found.push_back(std::move(*pair));
     if (!found.empty())
       pairs.emplace(node, std::move(found));
-    else if (across.size() == 2)
+    else if (sides_of(body, node, across).size() == 1 && is_flat(body, node, across))
       askew[node];
   }
   const auto is_on_seam = [&](Id node) { return pairs.count(node) + askew.count(node) > 0; };
@@ -136,9 +170,9 @@ std::map<Id, std::vector<Pair>> pairs_of(const ReferenceBody& body, const std::m
   };
   for (auto& [node, nodes] : askew) nodes = beside(all.at(node));
   for (const auto& [node, nodes] : askew) {
-    const auto &a = *all.at(node).begin(), &b = *all.at(node).rbegin();
-    if (is_on_seam(a.first) || is_on_seam(b.first)) continue;
-    if (auto pair = pair_of(body, node, a, b, nodes)) pairs[node].push_back(std::move(*pair));
+    const auto [a, b] = sides_of(body, node, all.at(node)).front();
+    if (is_on_seam(a->first) || is_on_seam(b->first)) continue;
+    if (auto pair = pair_of(body, node, *a, *b, nodes)) pairs[node].push_back(std::move(*pair));
   }
   for (auto& [node, own] : pairs)
     for (Pair& pair : own) {
@@ -153,18 +187,6 @@ std::map<Id, std::vector<Pair>> pairs_of(const ReferenceBody& body, const std::m
   return pairs;
 }
 
-/// Whether the net goes on beyond a node, or turns by some 65 degrees at most.
-bool goes_on(const ReferenceBody& body, Id node, const Across& across) {
-  constexpr double kOn = -0.4;
-  std::vector<Vector3> ways;
-  for (const auto& [beside, beyond] : across)
-    ways.push_back((body.place(beside) - body.place(node)).normalized());
-  for (std::size_t k = 1; k < ways.size(); ++k)
-    for (std::size_t j = 0; j < k; ++j)
-      if (ways[j].dot(ways[k]) < kOn) return true;
-  return false;
-}
-
 const SmoothSeams::Press& press_of(const Pair& pair) { return SmoothSeams::kPress[pair.degree > 2]; }
 
 }  // namespace
@@ -173,7 +195,8 @@ SmoothSeams::SmoothSeams(const ReferenceBody& body, const std::vector<SkinPiece>
   const std::map<Id, Across> all = nodes_across(body, skin);
   const std::map<Id, std::vector<Pair>> pairs = pairs_of(body, all);
   for (const auto& [node, across] : all)
-    if (pairs.count(node) == 0 && goes_on(body, node, across)) kinks_.push_back(node);
+    if (pairs.count(node) == 0 && !sides_of(body, node, across).empty() && is_flat(body, node, across))
+      kinks_.push_back(node);
   const auto first_pair = [&](Id node) {
     const auto found = pairs.find(node);
     return found == pairs.end() ? nullptr : &found->second.front();

@@ -149,6 +149,30 @@ TEST(SmoothSeams, AreMetWhereRowsAreAskew) {
   }
 }
 
+// Three patches that meet in a point: their seams are met but for it.  A chamfer and
+// the end of a skin are no kinks of a mesh.
+TEST(SmoothSeams, KnowKinksThatStay) {
+  std::vector<Volume> rhombs;
+  for (int p = 0; p < 3; ++p) {
+    rhombs.push_back(models::block({6, 6, 3}, {6, 6, 3}, 2));
+    const double from = 2.0 * M_PI / 3.0 * p, to = 2.0 * M_PI / 3.0 * (p + 1);
+    Eigen::Matrix3d ways = Eigen::Matrix3d::Identity();
+    ways.col(0) << std::cos(from), std::sin(from), 0.0;
+    ways.col(1) << std::cos(to), std::sin(to), 0.0;
+    rhombs.back().control_points = (ways * rhombs.back().control_points).eval();
+  }
+  const structure::ReferenceBody body = body_of(rhombs);
+  const std::vector<Id> kinks = SmoothSeams(body, tops(3)).kinks();
+  ASSERT_EQ(kinks.size(), 1u);
+  EXPECT_LT(body.place(kinks[0]).head<2>().norm(), 1e-12);
+
+  const Volume left = models::block({4, 4, 2}, {4, 4, 2}, 2);
+  Volume right = moved(left, 4, 0);
+  EXPECT_TRUE(SmoothSeams(body_of({left, right}), tops(2)).kinks().empty());
+  right.control_points.row(2) -= (right.control_points.row(0).array() - 4.0).matrix();
+  EXPECT_TRUE(SmoothSeams(body_of({left, right}), tops(2)).kinks().empty());
+}
+
 TEST(SmoothSeams, AreNoEdges) {
   const Volume left = models::block({4, 4, 2}, {4, 4, 2}, 2);
   Volume right = moved(left, 4, 0);
