@@ -5,7 +5,8 @@
 //
 //   x_s = share x_a + (1 - share) x_b,
 //
-// which leaves the surface G1 however a and b move.  The seam itself would still give way as twice as fine a
+// which leaves the surface G1 however a and b move; where s is on no line with them, with shares of those
+// beside the two along the seam, too, about G1.  The seam itself would still give way as twice as fine a
 // mesh does; so a and b are met beside where they are by part of the kink k,
 //
 //   x_a + kPress k,  x_b + kPress k,   k = x_s - share x_a - (1 - share) x_b,

@@ -241,6 +241,25 @@ TEST(ContactTracker, AKinkBelowTheEdgeAngleHasOneFoot) {
   }
 }
 
+// The same on sides so round that feet are looked for anew in each step, z = x^2 + slope |x|.
+TEST(ContactTracker, AContactKeepsItsSlotThroughASmoothKink) {
+  std::vector<nurbs::Surface> trough = shallow_trough(0.004, false);
+  for (nurbs::Surface& side : trough) {
+    const std::vector<double>& t = side.space.knots(0).knots();
+    const double from = side.control_points(0, 0);
+    for (Eigen::Index a = 0; a < side.control_points.cols(); ++a) {
+      const auto i = static_cast<std::size_t>(a % side.space.control_point_count(0));
+      side.control_points(2, a) += (from + 2.0 * t[i + 1]) * (from + 2.0 * t[i + 2]);
+    }
+  }
+  Scene rolling(trough, {Vector3(-0.01, 0.1, 0.25)}, 0.3, 0.9);
+  for (int k = 0; k <= 200; ++k) {
+    rolling.centres()[0][0] = -0.01 + 1e-4 * k;
+    rolling.step(1, [&](int, const FeetRange& feet) { EXPECT_EQ(feet.count, 1) << k; });
+  }
+  EXPECT_EQ(rolling.contacts_begun(), 1);
+}
+
 // Also where it turns by more than a right angle, up to pi.
 TEST(ContactTracker, ASharpKinkBelowTheEdgeAngleHasOneFoot) {
   constexpr double kDistance = 0.25;
