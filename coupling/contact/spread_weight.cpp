@@ -69,7 +69,8 @@ SpreadLaw::State SpreadLaw::solve(double overlap, double from, double limit) con
     state = at(next);
     if (is_same) return state;
   }
-  state.s = std::max(state.s, limit);  // none was found
+  // None was found: where it looked last says nothing, a point force with that overlap does.
+  state.s = std::max(1.5 * K * c * std::sqrt(std::max(overlap, 0.0)), limit);
   return state;
 }
 

@@ -137,6 +137,13 @@ class Seams(unittest.TestCase):
             run = decks.good(deck + "run 300\n", files={"block.yaml": three_patches(8, 2)})
             self.assertEqual(run.text.count("the mesh kinks below the contact of particle 1 at"), 1 if is_told else 0)
 
+    def test_where_three_patches_meet_small_elements_stop_the_run(self):
+        """Four times as soft as others there, they leave no equilibrium, not even of a force that is spread."""
+        deck = bob.prelude(**SETTINGS) + bob.wall(FRICTIONLESS, CORRECTED) + "run 2300\n"
+        run = decks.run(deck, files={"block.yaml": three_patches(10, 2)}, timeout=300)
+        self.assertNotEqual(run.code, 0)
+        self.assertRegex(run.errors[0], r"elements at .* too small for the contact of particle 1 .* use elements at least 1\.\d times as large there")
+
     def test_a_ball_on_the_seam_of_a_tube(self):
         """At its top, where its angle begins."""
         self.assert_keeps_energy(bounce(TUBE, velocity=(4.0, 2.0, -1.0), start=(-10e-6, 17e-6)))

@@ -161,6 +161,12 @@ std::map<Id, std::vector<Pair>> pairs_of(const ReferenceBody& body, const std::m
       askew[node];
   }
   const auto is_on_seam = [&](Id node) { return pairs.count(node) + askew.count(node) > 0; };
+  std::map<Id, int> seams_beside;
+  for (const auto& [node, across] : all)
+    if (is_on_seam(node))
+      for (const auto& [beside, beyond] : across) ++seams_beside[beside];
+  // Where three seams meet what is beside one is beside another.
+  const auto is_beside_others = [&](Id node) { return is_on_seam(node) || seams_beside.at(node) > 1; };
   const auto beside = [&](const Across& across) {
     std::vector<Id> nodes;
     for (const auto& [node, beyond] : across)
@@ -171,7 +177,7 @@ std::map<Id, std::vector<Pair>> pairs_of(const ReferenceBody& body, const std::m
   for (auto& [node, nodes] : askew) nodes = beside(all.at(node));
   for (const auto& [node, nodes] : askew) {
     const auto [a, b] = sides_of(body, node, all.at(node)).front();
-    if (is_on_seam(a->first) || is_on_seam(b->first)) continue;
+    if (is_beside_others(a->first) || is_beside_others(b->first)) continue;
     if (auto pair = pair_of(body, node, *a, *b, nodes)) pairs[node].push_back(std::move(*pair));
   }
   for (auto& [node, own] : pairs)
