@@ -158,7 +158,7 @@ ComplianceTables::Tensors ComplianceTables::means(int piece, int element, int of
     return known != grids.end() ? known->second
                                 : grids.emplace(e, in_frames(piece, e, offset, tensors, state)).first->second;
   };
-  const TensorGrid own = grid(element, solved(state, piece, element).tensors);
+  const TensorGrid& own = grid(element, solved(state, piece, element).tensors);
   const std::vector<Matrix3> frames = state.frames(piece, element);
   std::vector<BorderChange> changes;
   for (const std::vector<TablePoint>& points : state.shared().of(piece, element)) {
