@@ -16,6 +16,22 @@ namespace structure {
 
 namespace {
 
+/// Changes the values inside as smoothly as `change` asks for on the sides: bilinear between them (Coons,
+/// 1967).
+void blend(const std::array<int, 2>& counts, const std::vector<Matrix3>& change,
+           std::vector<Matrix3>& values) {
+  const std::vector<double> s = lobatto_points(counts[0]), t = lobatto_points(counts[1]);
+  const int right = counts[0] - 1, top = counts[1] - 1;
+  const auto at = [&](int i, int j) -> const Matrix3& { return change[i + counts[0] * j]; };
+  for (int j = 1; j < top; ++j)
+    for (int i = 1; i < right; ++i) {
+      const double x1 = 0.5 * (1.0 + s[i]), x0 = 1.0 - x1, y1 = 0.5 * (1.0 + t[j]), y0 = 1.0 - y1;
+      values[i + counts[0] * j] += x0 * at(0, j) + x1 * at(right, j) + y0 * at(i, 0) + y1 * at(i, top) -
+                                   x0 * y0 * at(0, 0) - x1 * y0 * at(right, 0) - x0 * y1 * at(0, top) -
+                                   x1 * y1 * at(right, top);
+    }
+}
+
 /// With the normal, as contacts over an edge are.
 Matrix3 turned(const Matrix3& tensor, const Vector3& from, const Vector3& to) {
   if (from == to) return tensor;
@@ -131,41 +147,18 @@ void ComplianceTables::expect_solved(const ElementCompliances::Solved& own, int 
                   own.problem));
 }
 
-/// Those of an element as a state of the body has them, each in its point's frame, which hardly turns where
-/// one element goes on as the next.
-TensorGrid ComplianceTables::in_frames(int piece, int element, int offset, const Tensors& tensors,
-                                       const ElementCompliances& state) const {
-  const std::vector<Matrix3> frames = state.frames(piece, element);
-  Tensors seen;
-  for (std::size_t k = 0; k < frames.size(); ++k) {
-    const TablePoint point{piece, element, static_cast<int>(k), {}};
-    const Matrix3 c = tensor(point, tensors, offset_of(offset, tensors) + point.index, state);
-    seen.push_back(frames[k].transpose() * c * frames[k]);
-  }
-  return TensorGrid(table_counts(state.surface(piece).space()), std::move(seen));
-}
-
 /// At its points, on borders the mean of all that have them: of `solved(state, piece, element)` of each,
-/// `offset` from the first; of slopes, too, where they are met going straight on.  To `origin` goes what they
-/// are made of.
+/// `offset` from the first. To `origin` goes what they are made of.
 template <class Solved>
 ComplianceTables::Tensors ComplianceTables::means(int piece, int element, int offset, Solved solved,
                                                   Origin& origin) const {
   ElementCompliances& state = *state_of_[piece][element];
-  std::map<int, TensorGrid> grids;  // of elements of the piece
-  const auto grid = [&](int e, const Tensors& tensors) -> const TensorGrid& {
-    const auto known = grids.find(e);
-    return known != grids.end() ? known->second
-                                : grids.emplace(e, in_frames(piece, e, offset, tensors, state)).first->second;
-  };
-  const TensorGrid& own = grid(element, solved(state, piece, element).tensors);
-  const std::vector<Matrix3> frames = state.frames(piece, element);
-  std::vector<BorderChange> changes;
+  const Tensors& own = solved(state, piece, element).tensors;
+  Tensors means, change;
   for (const std::vector<TablePoint>& points : state.shared().of(piece, element)) {
-    const TablePoint here{piece, element, static_cast<int>(changes.size()), {}};
+    const TablePoint here{piece, element, static_cast<int>(means.size()), {}};
     const Vector3& normal = std::lower_bound(points.begin(), points.end(), here)->normal;
-    BorderChange mean;
-    mean.has_slopes = true;
+    Matrix3 sum = Matrix3::Zero();
     int count = 0;
     for (const TablePoint& point : points) {
       ElementCompliances& theirs = *state_of_[point.piece][point.element];
@@ -173,22 +166,15 @@ ComplianceTables::Tensors ComplianceTables::means(int piece, int element, int of
       if (&theirs != &state) theirs.rest();
       if (tensors.empty()) continue;
       const int index = offset_of(offset, tensors) + point.index;
-      mean.value += turned(tensor(point, tensors, index, state), point.normal, normal);
-      if (const auto scale = state.scale(here, point); scale && mean.has_slopes)
-        mean.add_slopes(grid(point.element, tensors), point.index, *scale);
-      else
-        mean.has_slopes = false;
+      sum += turned(tensor(point, tensors, index, state), point.normal, normal);
       ++count;
       origin.emplace_back(&tensors, index);
     }
     origin.emplace_back(nullptr, 0);
-    const Matrix3& frame = frames[here.index];
-    mean.value = frame.transpose() * mean.value * frame;
-    changes.push_back(mean.less(own, here.index, count));
+    means.push_back(sum / count);
+    change.push_back(means.back() - own[offset_of(offset, own) + here.index]);
   }
-  Tensors means = own.values();
-  add_blend(table_counts(state.surface(piece).space()), std::move(changes), means);
-  for (std::size_t k = 0; k < means.size(); ++k) means[k] = frames[k] * means[k] * frames[k].transpose();
+  blend(table_counts(state.surface(piece).space()), change, means);
   return means;
 }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Local compliances of a body's skin: one table per element, made when it is first asked for.  The elements
 // that take part are others on the two sides of a border; there tables have the mean, so that a foot that
-// crosses it changes no force, and of slopes, too, so that it does so smoothly.  Where strain has changed the
-// elements themselves, tables are made anew while nobody touches them: a few states of the body are known at
-// a time, and each element belongs to one. Whoever moves the surface by what cross_compliance.h takes off has
-// that of a foot's own force there already.
+// crosses it changes no force.  Where strain has changed the elements themselves, tables are made anew while
+// nobody touches them: a few states of the body are known at a time, and each element belongs to one.
+// Whoever moves the surface by what cross_compliance.h takes off has that of a foot's own force there
+// already.
 #pragma once
 
 #include <map>
@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "structure/compliance/border_blend.h"
 #include "structure/compliance/cross_compliance.h"
 #include "structure/compliance/element_compliances.h"
 
@@ -75,8 +74,6 @@ class ComplianceTables {
   const ComplianceTable& find(int piece, int element);
   const SpreadTable& find_spread(int piece, int element);
   void expect_solved(const ElementCompliances::Solved& own, int piece, int element) const;
-  TensorGrid in_frames(int piece, int element, int offset, const Tensors& tensors,
-                       const ElementCompliances& state) const;
   template <class Solved>
   Tensors means(int piece, int element, int offset, Solved solved, Origin& origin) const;
   void forget(int piece, int element);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
@@ -115,49 +114,6 @@ int ElementCompliances::first_alike(int piece, int element) const {
   return space.element_index(span);
 }
 
-std::vector<Matrix3> ElementCompliances::frames(int piece, int element) const {
-  const int first = first_alike(piece, element);
-  const HitElement hit = this->hit(piece, first);
-  std::vector<Matrix3> frames;
-  for (const nurbs::Parameter<2>& xi : table_points(surfaces_[piece].space(), first))
-    frames.push_back(hit.frame(xi));
-  return frames;
-}
-
-std::optional<std::array<double, 2>> ElementCompliances::scale(const TablePoint& from,
-                                                               const TablePoint& to) const {
-  if (from.piece != to.piece) return std::nullopt;
-  const nurbs::Space<2>& space = surfaces_[from.piece].space();
-  const std::array<int, 2> counts = table_counts(space);
-  const nurbs::Indices<2> own = space.element_indices(from.element),
-                          other = space.element_indices(to.element);
-  const auto widths = [&](int element) {
-    const nurbs::Indices<2> span = space.element_indices(first_alike(from.piece, element));
-    std::array<double, 2> widths;
-    for (int d = 0; d < 2; ++d) {
-      const std::vector<double>& breaks = space.knots(d).breaks();
-      widths[d] = breaks[span[d] + 1] - breaks[span[d]];
-    }
-    return widths;
-  };
-  const std::array<double, 2> of_own = widths(from.element), of_other = widths(to.element);
-  std::array<double, 2> scale;
-  for (int d = 0; d < 2; ++d) {
-    const nurbs::KnotVector& knots = space.knots(d);
-    const int stride = d == 0 ? 1 : counts[0], last = counts[d] - 1, step = other[d] - own[d];
-    const int here = from.index / stride % counts[d], there = to.index / stride % counts[d];
-    const bool is_there = step == 0   ? there == here
-                          : step == 1 ? here == last && there == 0
-                                      : step == -1 && here == 0 && there == last;
-    if (!is_there) return std::nullopt;
-    const int multiplicity =
-        step == 0 ? 1 : std::abs(knots.span_of_element(other[d]) - knots.span_of_element(own[d]));
-    if (multiplicity >= knots.degree()) return std::nullopt;
-    scale[d] = of_own[d] / of_other[d];
-  }
-  return scale;
-}
-
 const ElementCompliances::Solved& ElementCompliances::solved(int piece, int element) {
   const int first = first_alike(piece, element);
   Solved& solved = solved_of_[piece][first];
@@ -207,15 +163,18 @@ Components in_frame(const Matrix3& tensor, const Matrix3& frame) {
 
 std::unique_ptr<ComplianceTable> ElementCompliances::table(int piece, int element, const Tensors& tensors,
                                                            const std::vector<double>& taken) const {
-  const std::vector<Matrix3> frames = this->frames(piece, element);
+  const int same = first_alike(piece, element);
+  const HitElement hit = this->hit(piece, same);
+  const nurbs::Space<2>& space = surfaces_[piece].space();
+  const std::vector<nurbs::Parameter<2>> points = table_points(space, same);
   std::vector<std::vector<double>> values(ComplianceTable::kComponents);
-  for (std::size_t point = 0; point < frames.size(); ++point) {
-    const Components components = in_frame(tensors[point], frames[point]);
+  for (std::size_t point = 0; point < points.size(); ++point) {
+    const Components components = in_frame(tensors[point], hit.frame(points[point]));
     for (int k = 0; k < ComplianceTable::kComponents; ++k) values[k].push_back(components[k]);
   }
   for (std::size_t point = 0; point < taken.size(); ++point)
     values[ComplianceTable::normal][point] -= taken[point];
-  return std::make_unique<ComplianceTable>(table_counts(surfaces_[piece].space()), values, taken);
+  return std::make_unique<ComplianceTable>(table_counts(space), values, taken);
 }
 
 std::unique_ptr<SpreadTable> ElementCompliances::spread_table(int piece, int element, const Tensors& tensors,

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,11 +51,6 @@ class ElementCompliances {
   int solved_count() const { return solved_; }
   /// Of those that see the same.
   int first_alike(int piece, int element) const;
-  /// At the points of its table, as the first of those that are alike.
-  std::vector<Matrix3> frames(int piece, int element) const;
-  /// By how much slopes in `to`'s own parameters are larger in those of `from`, where it is met going
-  /// straight on over knots at which the surface has slopes; nothing elsewhere.
-  std::optional<std::array<double, 2>> scale(const TablePoint& from, const TablePoint& to) const;
   /// Others are asked from here on: keeps what it has solved, and nothing that would help to solve more.
   void rest() { gradients_.forget(); }
   /// At any point of it.
