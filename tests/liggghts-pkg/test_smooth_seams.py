@@ -120,6 +120,11 @@ class Seams(unittest.TestCase):
                 print(f"n {n}, degree {degree}: force {force:.2e}")
                 self.assertLess(abs(force), most)
 
+    def test_a_ball_on_the_border_of_elements_is_not_rocked(self):
+        """Of one patch, beside which tables have slopes of their own; elements of 1.3 contact radii."""
+        for place in (0.0, 1e-9, 1e-7):
+            self.assert_keeps_energy(bounce(block(14, 2, 1), velocity=(0.0, 0.0, -1.0), start=(7e-6, place)), most=2e-8)
+
     def test_a_ball_that_slides_over_a_weld_whose_rows_are_askew(self):
         """By 17 degrees in all: what is left of the kink is small."""
         for n, degree, most in ((8, 3, 1e-5), (14, 2, 1e-4)):

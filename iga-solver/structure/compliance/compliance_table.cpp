@@ -72,7 +72,9 @@ ComplianceTable::Value ComplianceTable::at(Component component, const nurbs::Par
                                            const nurbs::Parameter<2>& xi) const {
   const double* const first = powers_.data() + static_cast<std::size_t>(component) * counts_[0] * counts_[1];
   const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
-  const TablePolynomial at(first, counts_, s.value, t.value);
+  TablePolynomial at(first, counts_, s.value, t.value);
+  if (strips_.reach(s.value, t.value))
+    strips_.add(s.value, t.value, component, 1, &at.value, &at.by_s, &at.by_t);
   return {at.value, {at.by_s * s.change, at.by_t * t.change}};
 }
 

@@ -4,9 +4,11 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "nurbs/patch.h"
+#include "structure/compliance/border_strips.h"
 #include "structure/compliance/table_kernel.h"
 
 namespace structure {
@@ -16,6 +18,7 @@ class ComplianceTable {
   /// Components of the tensor in the frame (t_1, t_2, n): t_1 along the surface's first direction, n out of
   /// the body, t_2 = n x t_1.
   enum Component { normal, first, second, first_second, first_normal, second_normal, kComponents };
+  static constexpr int kPolynomials = kComponents;
   static constexpr int kTogether = first_second + 1;  ///< those that a contact with friction asks for
 
   /// c [length/force], and its changes with the parameters [length/force/parameter].
@@ -28,6 +31,11 @@ class ComplianceTable {
   /// (cross_compliance.h), which is no part of the values, or nothing.
   ComplianceTable(const std::array<int, 2>& counts, const std::vector<std::vector<double>>& values,
                   const std::vector<double>& taken = {});
+  /// Where it goes on as those beside it.
+  ComplianceTable(const ComplianceTable& other, BorderStrips strips) : ComplianceTable(other) {
+    strips_ = std::move(strips);
+  }
+  const double* powers() const { return powers_.data(); }  ///< [component][of t][of s]
 
   /// On the element [low, high] of the parameters.
   Value at(Component component, const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high,
@@ -40,6 +48,8 @@ class ComplianceTable {
     const OwnParameter s(low[0], high[0], xi[0]), t(low[1], high[1], xi[1]);
     FourPolynomials at;
     kernel_(together_.data(), counts_[0], counts_[1], s.value, t.value, at);
+    if (strips_.reach(s.value, t.value))
+      strips_.add(s.value, t.value, 0, kTogether, at.value, at.by_s, at.by_t);
     for (int k = 0; k < kTogether; ++k)
       f(k, Value{at.value[k], {at.by_s[k] * s.change, at.by_t[k] * t.change}});
   }
@@ -77,6 +87,7 @@ class ComplianceTable {
   double largest_normal_;
   std::array<double, kTogether * kMost> together_;  // [of t][of s][component] in s, t from -1 to 1
   std::array<float, kMost> taken_{};                // [of t][of s]; few, as they come for each contact
+  BorderStrips strips_;
   std::array<double, kComponents * kMost> powers_;  // [component][of t][of s], the same
 };
 

@@ -98,9 +98,11 @@ ComplianceTables::ComplianceTables(ReferenceBody body, std::vector<SkinPiece> sk
   for (std::size_t piece = 0; piece < skin_.size(); ++piece) {
     const int count = undeformed_->surface(static_cast<int>(piece)).space().element_count();
     state_of_.emplace_back(count, undeformed_);
-    known_.emplace_back(count, nullptr);
-    known_spread_.emplace_back(count, nullptr);
+    tables_.known.emplace_back(count, nullptr);
+    spread_tables_.known.emplace_back(count, nullptr);
   }
+  tables_.known_plain = tables_.known;
+  spread_tables_.known_plain = spread_tables_.known;
 }
 
 /// Of one that shares a point with an element, in the directions of that one's state of the body.
@@ -178,34 +180,68 @@ ComplianceTables::Tensors ComplianceTables::means(int piece, int element, int of
   return means;
 }
 
-const ComplianceTable& ComplianceTables::find(int piece, int element) {
+/// Null where none can be made.
+const ComplianceTable* ComplianceTables::plain(int piece, int element) {
+  const ComplianceTable*& known = tables_.known_plain[piece][element];
+  if (known) return known;
   ElementCompliances& state = *state_of_[piece][element];
   const auto solved = [](ElementCompliances & of, int p, int e) -> auto& { return of.solved(p, e); };
-  expect_solved(solved(state, piece, element), piece, element);
+  if (!solved(state, piece, element).problem.empty()) return nullptr;
   Origin origin;
   const Tensors tensors = means(piece, element, 0, solved, origin);
   const auto [taken, first] = taken_off(piece, element, state.first_alike(piece, element));
   origin.emplace_back(nullptr, first);
-  std::unique_ptr<ComplianceTable>& made = tables_[origin];
+  std::unique_ptr<ComplianceTable>& made = tables_.plain[origin];
   if (!made) made = state.table(piece, element, tensors, taken);
   if (asked_ && asked_.get() != &state) asked_->rest();
   asked_ = state_of_[piece][element];
-  return *(known_[piece][element] = made.get());
+  return known = made.get();
 }
 
-const SpreadTable& ComplianceTables::find_spread(int piece, int element) {
+const SpreadTable* ComplianceTables::plain_spread(int piece, int element) {
+  const SpreadTable*& known = spread_tables_.known_plain[piece][element];
+  if (known) return known;
   ElementCompliances& state = *state_of_[piece][element];
   const auto solved = [](ElementCompliances & of, int p, int e) -> auto& { return of.solved_spread(p, e); };
-  expect_solved(solved(state, piece, element), piece, element);
+  if (!solved(state, piece, element).problem.empty()) return nullptr;
   Origin origin;
   Tensors tensors = means(piece, element, 0, solved, origin);
   const Tensors both = means(piece, element, 1, solved, origin);
   tensors.insert(tensors.end(), both.begin(), both.end());
   const int first = taken_off(piece, element, state.first_alike(piece, element)).second;
   origin.emplace_back(nullptr, first);
-  std::unique_ptr<SpreadTable>& made = spread_tables_[origin];
+  std::unique_ptr<SpreadTable>& made = spread_tables_.plain[origin];
   if (!made) made = state.spread_table(piece, first, tensors, links_.get());
-  return *(known_spread_[piece][element] = made.get());
+  return known = made.get();
+}
+
+/// The element's own, rounded on borders where it goes on as those beside it.
+template <class Table, class Plain>
+const Table& ComplianceTables::joined(Kind<Table>& tables, int piece, int element, Plain plain) {
+  const ElementCompliances& state = *state_of_[piece][element];
+  std::array<const Table*, 9> around{};
+  BorderStrips::Block block;
+  for (int k = 0; k < 9; ++k) {
+    const int other = state.next(piece, element, {k % 3 - 1, k / 3 - 1});
+    if (other < 0 || !(around[k] = plain(piece, other))) continue;
+    block[k / 3][k % 3] = {around[k]->powers(), state_of_[piece][other]->lengths(piece, other)};
+  }
+  std::unique_ptr<Table>& made = tables.made[around];
+  const Table& own = *around[4];
+  if (!made)
+    made = std::make_unique<Table>(
+        own, BorderStrips(table_counts(state.surface(piece).space()), Table::kPolynomials, block));
+  return *(tables.known[piece][element] = made.get());
+}
+
+const ComplianceTable& ComplianceTables::find(int piece, int element) {
+  expect_solved(state_of_[piece][element]->solved(piece, element), piece, element);
+  return joined(tables_, piece, element, [&](int p, int e) { return plain(p, e); });
+}
+
+const SpreadTable& ComplianceTables::find_spread(int piece, int element) {
+  expect_solved(state_of_[piece][element]->solved_spread(piece, element), piece, element);
+  return joined(spread_tables_, piece, element, [&](int p, int e) { return plain_spread(p, e); });
 }
 
 bool ComplianceTables::follows_strain() const {
@@ -227,13 +263,16 @@ void ComplianceTables::for_each_neighbour(const SkinElement& of, Function f) con
     }
 }
 
-// Tables have points in common, so one that changes is new to its neighbours.
+// Plain tables have points in common, so one that changes is new to its neighbours, and what is made of those
+// to theirs.
 bool ComplianceTables::follow(const NodalVectors& places, const std::vector<SkinElement>& touched) {
   const ReferenceBody& undeformed = undeformed_->body();
   std::vector<std::vector<bool>> stays;
-  for (const auto& elements : known_) stays.emplace_back(elements.size(), false);
+  for (const auto& elements : state_of_) stays.emplace_back(elements.size(), false);
   for (const SkinElement& one : touched)
-    for_each_neighbour(one, [&](int piece, int element) { stays[piece][element] = true; });
+    for_each_neighbour(one, [&](int p, int e) {
+      for_each_neighbour({p, e}, [&](int piece, int element) { stays[piece][element] = true; });
+    });
   ReferenceBody now = at_places(undeformed, places);
   std::vector<SkinElement> changed;
   for (std::size_t piece = 0; piece < skin_.size(); ++piece)
@@ -251,15 +290,18 @@ bool ComplianceTables::follow(const NodalVectors& places, const std::vector<Skin
               volume = element_behind(undeformed, skin_[one.piece], one.element).element;
     const bool is_back = !differ(state->body().patches[patch], undeformed.patches[patch], volume);
     state_of_[one.piece][one.element] = is_back ? undeformed_ : state;
-    for_each_neighbour(one, [&](int piece, int element) { forget(piece, element); });
+    for_each_neighbour(one, [&](int p, int e) {
+      tables_.known_plain[p][e] = nullptr;
+      spread_tables_.known_plain[p][e] = nullptr;
+      for_each_neighbour({p, e}, [&](int piece, int element) {
+        tables_.known[piece][element] = nullptr;
+        spread_tables_.known[piece][element] = nullptr;
+      });
+    });
   }
-  forget_unused();
+  tables_.forget_unused();
+  spread_tables_.forget_unused();
   return true;
-}
-
-void ComplianceTables::forget(int piece, int element) {
-  known_[piece][element] = nullptr;
-  known_spread_[piece][element] = nullptr;
 }
 
 namespace {
@@ -274,9 +316,17 @@ void erase_unknown(const Known& known, Tables& tables) {
 
 }  // namespace
 
-void ComplianceTables::forget_unused() {
-  erase_unknown(known_, tables_);
-  erase_unknown(known_spread_, spread_tables_);
+template <class Table>
+void ComplianceTables::Kind<Table>::forget_unused() {
+  erase_unknown(known, made);
+  erase_unknown(known_plain, plain);
+}
+
+template <class Table>
+void ComplianceTables::Kind<Table>::forget_all() {
+  for (Known* of : {&known, &known_plain})
+    for (auto& elements : *of) std::fill(elements.begin(), elements.end(), nullptr);
+  forget_unused();
 }
 
 std::vector<double> ComplianceTables::save() const {
@@ -302,7 +352,7 @@ void ComplianceTables::load(const std::vector<double>& numbers) {
   const ReferenceBody& undeformed = undeformed_->body();
   const std::size_t size = 3 * static_cast<std::size_t>(undeformed.nodes.node_count());
   std::size_t elements = 0;
-  for (const auto& of_piece : known_) elements += of_piece.size();
+  for (const auto& of_piece : state_of_) elements += of_piece.size();
   const double count = numbers.empty() ? 0.0 : numbers[0];
   const auto expected = [&] {
     return 1.0 + count * static_cast<double>(size) + static_cast<double>(elements);
@@ -325,9 +375,8 @@ void ComplianceTables::load(const std::vector<double>& numbers) {
             fmt::format("a state of strain with the number {}, expected 0 to {}", k, states.size() - 1));
       state = states[static_cast<std::size_t>(k)];
     }
-  for (auto& of_piece : known_) std::fill(of_piece.begin(), of_piece.end(), nullptr);
-  for (auto& of_piece : known_spread_) std::fill(of_piece.begin(), of_piece.end(), nullptr);
-  forget_unused();
+  tables_.forget_all();
+  spread_tables_.forget_all();
 }
 
 }  // namespace structure

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Local compliances of a body's skin: one table per element, made when it is first asked for.  The elements
 // that take part are others on the two sides of a border; there tables have the mean, so that a foot that
-// crosses it changes no force.  Where strain has changed the elements themselves, tables are made anew while
-// nobody touches them: a few states of the body are known at a time, and each element belongs to one.
-// Whoever moves the surface by what cross_compliance.h takes off has that of a foot's own force there
-// already.
+// crosses it changes no force, and are rounded, so that it does so smoothly.  Where strain has changed the
+// elements themselves, tables are made anew while nobody touches them: a few states of the body are known at
+// a time, and each element belongs to one. Whoever moves the surface by what cross_compliance.h takes off has
+// that of a foot's own force there already.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <utility>
@@ -33,12 +34,12 @@ class ComplianceTables {
   /// Of an element of a piece's surface.  Throws std::invalid_argument, with the place, where none can be
   /// made.
   const ComplianceTable& of(int piece, int element) {
-    const ComplianceTable* const known = known_[piece][element];
+    const ComplianceTable* const known = tables_.known[piece][element];
     return known ? *known : find(piece, element);
   }
   /// The same of forces that are spread, worked out when it is first asked for.
   const SpreadTable& spread_of(int piece, int element) {
-    const SpreadTable* const known = known_spread_[piece][element];
+    const SpreadTable* const known = spread_tables_.known[piece][element];
     return known ? *known : find_spread(piece, element);
   }
   /// How forces are on nodes, and what they are spread by.
@@ -71,17 +72,31 @@ class ComplianceTables {
   /// What a table is made of: tensors and which of them, point by point.
   using Origin = std::vector<std::pair<const Tensors*, int>>;
 
+  /// Tables of one kind.
+  template <class Table>
+  struct Kind {
+    /// [piece][element]; null: not asked for before.
+    using Known = std::vector<std::vector<const Table*>>;
+    Known known, known_plain;
+    std::map<Origin, std::unique_ptr<Table>> plain;                      // each as if there were no other
+    std::map<std::array<const Table*, 9>, std::unique_ptr<Table>> made;  // of plain ones, the middle's own
+    void forget_all();
+    void forget_unused();
+  };
+
   const ComplianceTable& find(int piece, int element);
   const SpreadTable& find_spread(int piece, int element);
+  const ComplianceTable* plain(int piece, int element);
+  const SpreadTable* plain_spread(int piece, int element);
+  template <class Table, class Plain>
+  const Table& joined(Kind<Table>& tables, int piece, int element, Plain plain);
   void expect_solved(const ElementCompliances::Solved& own, int piece, int element) const;
   template <class Solved>
   Tensors means(int piece, int element, int offset, Solved solved, Origin& origin) const;
-  void forget(int piece, int element);
   Matrix3 tensor(const TablePoint& point, const Tensors& tensors, int index,
                  const ElementCompliances& state) const;
   template <class Function>
   void for_each_neighbour(const SkinElement& of, Function f) const;
-  void forget_unused();
 
   std::pair<std::vector<double>, int> taken_off(int piece, int element, int alike);
   std::vector<double> linked(int piece, int element) const;
@@ -91,10 +106,8 @@ class ComplianceTables {
   std::unique_ptr<CrossCompliance> links_;
   std::map<std::pair<int, int>, std::vector<double>> linked_;  // of the first of those that are alike
   std::vector<std::vector<State>> state_of_;                   // [piece][element]
-  std::map<Origin, std::unique_ptr<ComplianceTable>> tables_;
-  std::map<Origin, std::unique_ptr<SpreadTable>> spread_tables_;
-  std::vector<std::vector<const ComplianceTable*>> known_;  // [piece][element]; null: not asked for before
-  std::vector<std::vector<const SpreadTable*>> known_spread_;
+  Kind<ComplianceTable> tables_;
+  Kind<SpreadTable> spread_tables_;
 };
 
 }  // namespace structure

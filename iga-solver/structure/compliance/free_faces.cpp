@@ -116,13 +116,14 @@ double FaceSurface::size_of(int element, const Cell& cell) const {
                   (place(element, {low[0], high[1]}) - place(element, {high[0], low[1]})).norm());
 }
 
-// A traction falls as the square of the distance: a cell is cut in four for feet that are nearer than its
-// size, and far ones have fewer points, both so that more would change c by some millionths.
+// A traction falls as the square of the distance: a cell is cut in four for feet that are about as near as
+// its size, and far ones have fewer points, both so that more would change c by some millionths.
 void FaceSurface::integrate(int element, const Cell& cell, int depth, const std::vector<int>& feet_here,
                             const std::vector<SkinPoint>& feet,
                             const std::vector<HalfSpace>& half_spaces) const {
   constexpr int kDeepest = 4;
-  constexpr double kFar = 2.0;  // sizes
+  constexpr double kInside = 1.01,
+                   kFar = 2.03;  // sizes; not such as regular meshes have, or rounding decides
   if (feet_here.empty()) return;
   const nurbs::Parameter<2> middle = {0.5 * (cell.low[0] + cell.high[0]), 0.5 * (cell.low[1] + cell.high[1])};
   const Vector3 centre = place(element, middle);
@@ -130,7 +131,10 @@ void FaceSurface::integrate(int element, const Cell& cell, int depth, const std:
   std::vector<int> inside, near, far;
   for (const int f : feet_here) {
     const double distance = (feet[f].point - centre).norm();
-    (depth < kDeepest && distance < size ? inside : distance < kFar * size ? near : far).push_back(f);
+    (depth < kDeepest && distance < kInside * size ? inside
+     : distance < kFar * size                      ? near
+                                                   : far)
+        .push_back(f);
   }
   for (int quarter = 0; quarter < 4; ++quarter) {
     Cell part = cell;

@@ -22,7 +22,8 @@ ComplianceTable::Value SpreadTable::at(int scalar, const nurbs::Parameter<2>& lo
     change[d] = 2.0 / (high[d] - low[d]);
     own[d] = change[d] * (xi[d] - low[d]) - 1.0;
   }
-  const TablePolynomial at(first, counts_, own[0], own[1]);
+  TablePolynomial at(first, counts_, own[0], own[1]);
+  if (strips_.reach(own[0], own[1])) strips_.add(own[0], own[1], scalar, 1, &at.value, &at.by_s, &at.by_t);
   return {at.value, {at.by_s * change[0], at.by_t * change[1]}};
 }
 

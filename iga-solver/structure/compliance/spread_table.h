@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "structure/compliance/compliance_table.h"
@@ -26,9 +27,15 @@ class SpreadTable {
     taken_both,
     kScalars
   };
+  static constexpr int kPolynomials = kScalars;
   using Values = std::array<std::vector<double>, kScalars>;  ///< at table_points()
 
   SpreadTable(const std::array<int, 2>& counts, const Values& values);
+  /// Where it goes on as those beside it.
+  SpreadTable(const SpreadTable& other, BorderStrips strips) : SpreadTable(other) {
+    strips_ = std::move(strips);
+  }
+  const double* powers() const { return powers_.data(); }  ///< [scalar][of t][of s]
 
   /// f(scalar, value) for each; on the element [low, high] of the parameters.
   template <class Function>
@@ -42,6 +49,7 @@ class SpreadTable {
                             const nurbs::Parameter<2>& xi) const;
 
   std::array<int, 2> counts_;
+  BorderStrips strips_;
   std::vector<double> powers_;  // [scalar][of t][of s] in s, t from -1 to 1
 };
 
