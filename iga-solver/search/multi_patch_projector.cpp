@@ -165,10 +165,12 @@ void MultiPatchProjector::add_minima(const Vector3& d, const Vector3& image, dou
   const auto known = [&](const Foot& foot) {
     return std::any_of(out.begin(), out.end(), [&](const Foot& other) { return same(foot, other); });
   };
-  // A minimum within round-off of a border may seem to lie beyond it from either side.
-  const auto lies_beyond = [&](const Foot& foot) {
+  // A minimum near a border is that of the patch which it is inside of, not the end of the other one's way.
+  // Within round-off it may seem to lie beyond from either side.
+  const auto add = [&](const Foot& foot) {
     Foot beyond;
-    return leads_on(d, foot, beyond) && !same(foot, beyond);
+    const bool goes_on = leads_on(d, foot, beyond);
+    if (!goes_on || same(foot, beyond)) out.push_back(goes_on ? beyond : foot);
   };
   const auto first_new = static_cast<std::ptrdiff_t>(out.size());
   for (int k = 0; k < count;) {
@@ -181,7 +183,7 @@ void MultiPatchProjector::add_minima(const Vector3& d, const Vector3& image, dou
                                static_cast<int>(patch_elements_.size()), found_);
     for (const Foot& on_patch : found_) {
       const Foot foot = placed(on_patch, p, image);
-      if (!known(foot) && !lies_beyond(foot)) out.push_back(foot);
+      if (!known(foot)) add(foot);
     }
   }
   std::sort(out.begin() + first_new, out.end(),

@@ -125,6 +125,11 @@ class Seams(unittest.TestCase):
         for place in (0.0, 1e-9, 1e-7):
             self.assert_keeps_energy(bounce(block(14, 2, 1), velocity=(0.0, 0.0, -1.0), start=(7e-6, place)), most=2e-8)
 
+    def test_a_ball_on_a_weld_is_not_rocked(self):
+        """Where elements are as small, of two patches; by as little as feet on a border could be taken for those on it."""
+        for place in (1e-9, 1e-7):
+            self.assert_keeps_energy(bounce(block(14, 2, 2), velocity=(0.0, 0.0, -1.0), start=(place, 7e-6)), most=5e-5)
+
     def test_a_ball_that_slides_over_a_weld_whose_rows_are_askew(self):
         """By 17 degrees in all: what is left of the kink is small."""
         for n, degree, most in ((8, 3, 1e-5), (14, 2, 1e-4)):

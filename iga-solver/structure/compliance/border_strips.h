@@ -19,17 +19,22 @@ class BorderStrips {
   /// quarter as wide, as its foot goes by the surface's tilt; no more in those of 0.05.
   static constexpr double kWidth = 0.08;
 
-  /// An element: its polynomials by their powers, [polynomial][of t][of s], null if there is none; and how
-  /// long it is in the patch's parameters.
-  struct Element {
-    const double* powers = nullptr;
-    std::array<double, 2> length{};
+  /// Where slopes per length of an element are met, `a` on this side of a border and `b` beyond, which is
+  /// 1/`ratio` as long: what the mean over windows of half a strip to both sides adds on the border.
+  static constexpr double rounded(double a, double b, double ratio) {
+    return 0.5 * kWidth * (b - a) / (1.0 + ratio);
+  }
+
+  /// What is added, of each polynomial of an element.
+  struct Kinks {
+    /// [direction][end]: on the border there, by powers of the other direction; empty where none goes on.
+    std::array<std::array<std::vector<double>, 2>, 2> border;
+    /// [end of s][end of t]: at the corner of four elements; empty beside others, where borders end.
+    std::array<std::array<std::vector<double>, 2>, 2> corner;
   };
-  /// [of t][of s]: an element in the middle, and those that go on from it.
-  using Block = std::array<std::array<Element, 3>, 3>;
 
   BorderStrips() = default;  ///< changes nothing
-  BorderStrips(const std::array<int, 2>& counts, int polynomials, const Block& block);
+  BorderStrips(const std::array<int, 2>& counts, const Kinks& kinks);
 
   bool reach(double s, double t) const {
     return std::max(std::abs(s), std::abs(t)) > 1.0 - kWidth && !borders_.empty();
@@ -38,14 +43,9 @@ class BorderStrips {
   void add(double s, double t, int first, int count, double* value, double* by_s, double* by_t) const;
 
  private:
-  static int corner(int end_of_s, int end_of_t) { return end_of_s + 2 * end_of_t; }
-  /// Where the changes of the border at an end of direction d are: [polynomial][of the other direction].
-  int border(int d, int end) const { return polynomials_ * (2 * d * counts_[1] + end * counts_[1 - d]); }
-
   std::array<int, 2> counts_{};
-  int polynomials_ = 0;
-  std::vector<double> borders_, corners_;  // corners_: [corner][polynomial]
-  std::array<bool, 4> is_among_four_{};    // [corner]: of elements that go on from each other
+  std::vector<double> borders_, corners_;                  // in one piece, as they come from memory
+  std::array<std::array<int, 2>, 2> border_{}, corner_{};  // where they begin; -1: none
 };
 
 }  // namespace structure

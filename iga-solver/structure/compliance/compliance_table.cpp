@@ -67,6 +67,20 @@ ComplianceTable::ComplianceTable(const std::array<int, 2>& counts,
     for (int c = 0; c < kTogether; ++c) together_[k * kTogether + c] = powers_[c * count + k];
 }
 
+void ComplianceTable::turn_together(double* components, double c, double s) {
+  const double t11 = components[first], t22 = components[second], t12 = components[first_second];
+  components[first] = c * c * t11 - 2.0 * c * s * t12 + s * s * t22;
+  components[second] = s * s * t11 + 2.0 * c * s * t12 + c * c * t22;
+  components[first_second] = c * s * (t11 - t22) + (c * c - s * s) * t12;
+}
+
+void ComplianceTable::turn(double* components, double c, double s) {
+  turn_together(components, c, s);
+  const double t1n = components[first_normal], t2n = components[second_normal];
+  components[first_normal] = c * t1n - s * t2n;
+  components[second_normal] = s * t1n + c * t2n;
+}
+
 ComplianceTable::Value ComplianceTable::at(Component component, const nurbs::Parameter<2>& low,
                                            const nurbs::Parameter<2>& high,
                                            const nurbs::Parameter<2>& xi) const {

@@ -36,6 +36,9 @@ class ComplianceTable {
     strips_ = std::move(strips);
   }
   const double* powers() const { return powers_.data(); }  ///< [component][of t][of s]
+  /// Components in another frame, whose t_1 is c t_1 + s t_2 of this one, into those in this one.
+  static void turn(double* components, double c, double s);
+  static void turn_together(double* components, double c, double s);  ///< of the first kTogether
 
   /// On the element [low, high] of the parameters.
   Value at(Component component, const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high,

@@ -93,7 +93,9 @@ NodalVectors places_of(const ReferenceBody& body) {
 }  // namespace
 
 ComplianceTables::ComplianceTables(ReferenceBody body, std::vector<SkinPiece> skin, bool beside_links)
-    : skin_(std::move(skin)), undeformed_(std::make_shared<ElementCompliances>(std::move(body), skin_)) {
+    : skin_(std::move(skin)),
+      undeformed_(std::make_shared<ElementCompliances>(std::move(body), skin_)),
+      borders_(*undeformed_) {
   if (beside_links) links_ = std::make_unique<CrossCompliance>(undeformed_->body(), skin_);
   for (std::size_t piece = 0; piece < skin_.size(); ++piece) {
     const int count = undeformed_->surface(static_cast<int>(piece)).space().element_count();
@@ -218,19 +220,22 @@ const SpreadTable* ComplianceTables::plain_spread(int piece, int element) {
 /// The element's own, rounded on borders where it goes on as those beside it.
 template <class Table, class Plain>
 const Table& ComplianceTables::joined(Kind<Table>& tables, int piece, int element, Plain plain) {
-  const ElementCompliances& state = *state_of_[piece][element];
-  std::array<const Table*, 9> around{};
-  BorderStrips::Block block;
-  for (int k = 0; k < 9; ++k) {
-    const int other = state.next(piece, element, {k % 3 - 1, k / 3 - 1});
-    if (other < 0 || !(around[k] = plain(piece, other))) continue;
-    block[k / 3][k % 3] = {around[k]->powers(), state_of_[piece][other]->lengths(piece, other)};
+  const SmoothBorders::Around around = borders_.around(piece, element);
+  std::array<const Table*, 9> of{};
+  for (int k = 0; k < 9; ++k)
+    if (const SkinElement& one = around.elements[k / 3][k % 3]; one.piece >= 0)
+      of[k] = plain(one.piece, one.element);
+  const std::pair<int, int> alone = around.is_regular ? std::pair{-1, -1} : std::pair{piece, element};
+  std::unique_ptr<Table>& made = tables.made[{of, alone}];
+  if (!made) {
+    const auto powers = [&](int p, int e) -> const double* {
+      const Table* const table = plain(p, e);
+      return table ? table->powers() : nullptr;
+    };
+    const BorderStrips strips(table_counts(undeformed_->surface(piece).space()),
+                              borders_.kinks(piece, element, {Table::kPolynomials, powers, Table::turn}));
+    made = std::make_unique<Table>(*of[4], strips);
   }
-  std::unique_ptr<Table>& made = tables.made[around];
-  const Table& own = *around[4];
-  if (!made)
-    made = std::make_unique<Table>(
-        own, BorderStrips(table_counts(state.surface(piece).space()), Table::kPolynomials, block));
   return *(tables.known[piece][element] = made.get());
 }
 

@@ -15,13 +15,9 @@
 
 #include "structure/compliance/cross_compliance.h"
 #include "structure/compliance/element_compliances.h"
+#include "structure/compliance/smooth_borders.h"
 
 namespace structure {
-
-/// Of a piece of the surface that is touched, counted as nurbs::Space does.
-struct SkinElement {
-  int piece, element;
-};
 
 class ComplianceTables {
  public:
@@ -78,8 +74,9 @@ class ComplianceTables {
     /// [piece][element]; null: not asked for before.
     using Known = std::vector<std::vector<const Table*>>;
     Known known, known_plain;
-    std::map<Origin, std::unique_ptr<Table>> plain;                      // each as if there were no other
-    std::map<std::array<const Table*, 9>, std::unique_ptr<Table>> made;  // of plain ones, the middle's own
+    std::map<Origin, std::unique_ptr<Table>> plain;  // each as if there were no other
+    // Of the plain ones of an element and those around it, and which one it is if not all are of one patch.
+    std::map<std::pair<std::array<const Table*, 9>, std::pair<int, int>>, std::unique_ptr<Table>> made;
     void forget_all();
     void forget_unused();
   };
@@ -108,6 +105,7 @@ class ComplianceTables {
   std::vector<std::vector<State>> state_of_;                   // [piece][element]
   Kind<ComplianceTable> tables_;
   Kind<SpreadTable> spread_tables_;
+  SmoothBorders borders_;
 };
 
 }  // namespace structure

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
@@ -124,20 +123,6 @@ std::array<double, 2> ElementCompliances::lengths(int piece, int element) const 
     lengths[d] = breaks[span[d] + 1] - breaks[span[d]];
   }
   return lengths;
-}
-
-int ElementCompliances::next(int piece, int element, const std::array<int, 2>& steps) const {
-  const nurbs::Space<2>& space = surfaces_[piece].space();
-  nurbs::Indices<2> span = space.element_indices(element);
-  for (int d = 0; d < 2; ++d) {
-    const nurbs::KnotVector& knots = space.knots(d);
-    const int from = span[d];
-    span[d] += steps[d];
-    if (span[d] < 0 || span[d] >= knots.element_count()) return -1;
-    const int multiplicity = std::abs(knots.span_of_element(span[d]) - knots.span_of_element(from));
-    if (multiplicity >= knots.degree()) return -1;
-  }
-  return space.element_index(span);
 }
 
 const ElementCompliances::Solved& ElementCompliances::solved(int piece, int element) {

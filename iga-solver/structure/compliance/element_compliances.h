@@ -53,9 +53,6 @@ class ElementCompliances {
   int first_alike(int piece, int element) const;
   /// In the surface's parameters, as the first of those that are alike.
   std::array<double, 2> lengths(int piece, int element) const;
-  /// The one that is so many steps, at most one in each direction, away over knots where the surface goes on
-  /// smoothly; -1 if there is none.
-  int next(int piece, int element, const std::array<int, 2>& steps) const;
   /// Others are asked from here on: keeps what it has solved, and nothing that would help to solve more.
   void rest() { gradients_.forget(); }
   /// At any point of it.

@@ -65,6 +65,13 @@ SkinPoint FaceSurface::at(int element, const nurbs::Parameter<2>& xi) const {
   return {at.point, at.area.normalized(), nodes_of(element), {basis.R, basis.R + basis.count}};
 }
 
+std::array<Vector3, 2> FaceSurface::tangents(int element, const nurbs::Parameter<2>& xi) const {
+  nurbs::RationalBasis<2> basis;
+  nurbs::evaluate_on_element(space(), element, xi, 1, basis);
+  const Tangents at = tangents(basis);
+  return {at.t[0], at.t[1]};
+}
+
 Matrix3 FaceSurface::frame(int element, const nurbs::Parameter<2>& xi) const {
   nurbs::RationalBasis<2> basis;
   nurbs::evaluate_on_element(space(), element, xi, 1, basis);

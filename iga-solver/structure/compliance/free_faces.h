@@ -32,6 +32,8 @@ class FaceSurface {
   const nurbs::Space<2>& space() const { return face_.space; }
   /// On the closed element.  Throws std::invalid_argument if the surface has no normal there.
   SkinPoint at(int element, const nurbs::Parameter<2>& xi) const;
+  /// By the parameters [length/parameter].
+  std::array<Vector3, 2> tangents(int element, const nurbs::Parameter<2>& xi) const;
   /// Columns t_1, t_2, n of a frame there: t_1 along the first direction, n out of the body.
   Matrix3 frame(int element, const nurbs::Parameter<2>& xi) const;
   Vector3 at_centre(int element) const { return place(element, space().element_centre(element)); }

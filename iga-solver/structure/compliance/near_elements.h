@@ -9,6 +9,11 @@
 
 namespace structure {
 
+/// Of a piece of the surface that is touched, counted as nurbs::Space does.
+struct SkinElement {
+  int piece, element;
+};
+
 class NearElements {
  public:
   /// Keeps a reference to the body.

@@ -36,6 +36,11 @@ class SpreadTable {
     strips_ = std::move(strips);
   }
   const double* powers() const { return powers_.data(); }  ///< [scalar][of t][of s]
+  /// As ComplianceTable::turn().
+  static void turn(double* scalars, double c, double s) {
+    ComplianceTable::turn_together(scalars + one, c, s);
+    ComplianceTable::turn_together(scalars + both, c, s);
+  }
 
   /// f(scalar, value) for each; on the element [low, high] of the parameters.
   template <class Function>

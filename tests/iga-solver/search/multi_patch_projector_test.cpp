@@ -28,7 +28,7 @@ std::vector<Foot> minima(const MultiPatchProjector& projector, const Vector3& d,
 }
 
 // On a closed surface a foot within round-off of the seam, of one patch or between two, is one minimum:
-// neither two nor none.
+// neither two nor none, and not on the seam where it is beside it.
 TEST(MultiPatchProjector, MinimaAtASeam) {
   for (const Frame& place : {frame({0, 0, 0}, {0, 0, 1}), frame({0.1, 0.2, 0.3}, {1, 2, 2})}) {
     const auto part = [&place](double from, double to) {
@@ -44,6 +44,7 @@ TEST(MultiPatchProjector, MinimaAtASeam) {
             const auto feet = minima(projector, place.origin + 0.9 * place.axes * direction, 0.11);
             ASSERT_EQ(feet.size(), 1U) << "y = " << y << ", latitude " << latitude;
             EXPECT_NEAR(feet[0].distance, 0.1, 1e-13);
+            EXPECT_LT((feet[0].point - place.origin - place.axes * direction.normalized()).norm(), 1e-11);
           }
     }
   }

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "models.h"
@@ -84,6 +86,9 @@ TEST(ComplianceAtBorders, HasSlopesThatGoOnOverBordersOfElements) {
         block_body({24, 24, 1}, {8, 8, 1}, 2),
         body_of(nurbs::box(Vector3::Zero(), {7, 6, 4},
                            {KnotVector(2, {0, 0, 0, 1, 2.5, 3, 4.2, 5, 5, 5}), KnotVector::uniform(2, 6),
+                            KnotVector::uniform(2, 4)})),
+        body_of(nurbs::box(Vector3::Zero(), {6, 6, 4},  // with a C0 knot
+                           {KnotVector(2, {0, 0, 0, 1, 2, 3, 3, 4.5, 5, 6, 6, 6}), KnotVector::uniform(2, 6),
                             KnotVector::uniform(2, 4)}))}) {
     const nurbs::Space<2> space =
         nurbs::boundary_surface(body.patches[0].space, nurbs::Face::zeta_plus).space;
@@ -192,6 +197,52 @@ TEST(ComplianceAtBorders, DoesNotJumpOverWelds) {
     EXPECT_LT((left - right).norm(), 1e-11 * left.norm()) << y;
     const double direct = tables.direct(0, 4 + 5 * row, {1.0, y / 6})(2, 2);
     EXPECT_NEAR(left(2, 2), direct, 0.01 * direct);
+  }
+}
+
+/// How the compliance along the normal changes along the surface, in space, where skin has a normal.
+Vector3 slope_at(ComplianceTables& tables, const structure::FaceSurface& surface, int p, int element,
+                 const nurbs::Parameter<2>& xi, ComplianceTable::Component component) {
+  const std::array<Vector3, 2> tangents = surface.tangents(element, xi);
+  const ComplianceTable::Value c = top::value(tables, surface.space(), p, element, xi, component);
+  Eigen::Matrix<double, 3, 2> t;
+  t << tangents[0], tangents[1];
+  return t * (t.transpose() * t).inverse() * Eigen::Vector2d(c.change[0], c.change[1]);
+}
+
+// Elements of the second patch, which has its directions the other way round, are longer across the weld, and
+// its rows may be askew.
+TEST(ComplianceAtBorders, HasSlopesThatGoOnOverWelds) {
+  for (const double askew : {0.0, 0.15}) {
+    const Volume first =
+        nurbs::box(Vector3::Zero(), {5, 6, 4},
+                   {KnotVector::uniform(2, 5), KnotVector::uniform(2, 6), KnotVector::uniform(2, 4)});
+    Volume second =
+        nurbs::box(Vector3::Zero(), {6, 5, 4},
+                   {KnotVector::uniform(2, 6), KnotVector::uniform(2, 4), KnotVector::uniform(2, 4)});
+    for (auto X : second.control_points.colwise())
+      X = Vector3(5 + X[1], 6 - X[0] - askew * X[1] * X[0] * (6 - X[0]) / 9, X[2]).eval();
+    const std::vector<Volume> patches = {first, second};
+    const ReferenceBody body{
+        patches, {models::elastic(1.0, kNu), models::elastic(1.0, kNu)}, structure::weld(patches)};
+    const std::vector<structure::SkinPiece> skin = {{0, nurbs::Face::zeta_plus}, {1, nurbs::Face::zeta_plus}};
+    const structure::FaceSurface left(body, skin[0]), right(body, skin[1]);
+    ComplianceTables tables(body, skin);
+    // The first patch's t_1 and the second's t_2 are across, but for their turn.
+    using Components = std::pair<ComplianceTable::Component, ComplianceTable::Component>;
+    std::vector<Components> components = {{ComplianceTable::normal, ComplianceTable::normal}};
+    if (askew == 0.0) {
+      components.push_back({ComplianceTable::first, ComplianceTable::second});
+      components.push_back({ComplianceTable::second, ComplianceTable::first});
+    }
+    for (const auto& [of_left, of_right] : components)
+      for (const double y : {1.2, 2.01, 2.25, 3.0, 3.8}) {
+        const int row = static_cast<int>(y);
+        const Vector3 a = slope_at(tables, left, 0, 4 + 5 * row, {1.0, y / 6}, of_left),
+                      b = slope_at(tables, right, 1, 5 - row, {1.0 - y / 6, 0.0}, of_right);
+        // How rows are askew is no polynomial along the border, and left out at corners; without strips 0.1.
+        EXPECT_LT((a - b).norm(), askew == 0.0 ? 1e-11 : 2e-3) << y << ' ' << askew;
+      }
   }
 }
 
