@@ -66,6 +66,9 @@ class LocalCompliance {
   virtual void find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,
                     Value& value) = 0;
 
+  /// The same will be asked for soon.
+  virtual void foresee(const nurbs::SurfacePoint& /*foot*/, const nurbs::Indices<2>& /*element*/) const {}
+
   /// Whether that changes with the strain of the body.
   virtual bool follows_strain() const { return false; }
   /// Takes the body as it is strained now, but for elements that contacts are on, whose forces would jump:

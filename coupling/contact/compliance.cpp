@@ -109,7 +109,10 @@ void ComplianceCorrection::before(const ParticleView& particles, const Time& now
                                   Contact* contacts, int count) {
   NURBS_ASSERT(count <= kCapacity, count);
   elastic_count_ = damped_count_ = shear_count_ = 0;
-  for (int k = 0; k < count; ++k) enter(particles, now, model, contacts[k], before_[k]);
+  // Tables come from far: all are on their way before the first is read.
+  for (int k = 0; k < count; ++k) look_at(particles, model, contacts[k], before_[k]);
+  for (int k = 0; k < count; ++k)
+    if (before_[k].is_corrected) enter(particles, now, model, contacts[k], before_[k]);
   const ApproachStep step = {kLargest, now.dt, now.is_setup ? 0.0 : now.dt};
   if (elastic_count_ > 0) approach_kernel_.elastic(elastic_, step);
   if (damped_count_ > 0) approach_kernel_.damped(damped_, step);
@@ -126,19 +129,28 @@ void ComplianceCorrection::before(const ParticleView& particles, const Time& now
     if (before_[k].shear_lane >= 0) see_slip(particles, now, contacts[k], before_[k]);
 }
 
-void ComplianceCorrection::enter(const ParticleView& particles, const Time& now, const ContactModel& model,
-                                 Contact& contact, Before& before) {
-  const int i = contact.particle;
+void ComplianceCorrection::look_at(const ParticleView& particles, const ContactModel& model,
+                                   const Contact& contact, Before& before) const {
   before.overlap = contact.overlap, before.distance = contact.distance, before.touches = contact.touches;
   before.delta = contact.delta, before.wall_velocity = before.met_velocity = contact.wall_velocity;
   before.block = nullptr, before.shear_lane = -1, before.is_light = false;
   before.spread = nullptr, before.w = before.expected_spread = 0.0;
-  const double damping = model.hertz_damping(i);
+  before.damping = model.hertz_damping(contact.particle);
+  before.is_corrected =
+      contact.overlap > 0.0 ||
+      (before.damping > 0.0 && held_gap(approach_memory_of(particles, contact)[ApproachBlock::kX]) > 0.0);
+  if (!before.is_corrected) return;
+  before.directions.find(wall_, contact.foot, contact.delta);
+  compliance_.foresee(contact.foot, before.directions.element);
+}
+
+void ComplianceCorrection::enter(const ParticleView& particles, const Time& now, const ContactModel& model,
+                                 Contact& contact, Before& before) {
+  const int i = contact.particle;
+  const double damping = before.damping;
   const bool is_damped = damping > 0.0;
   double* const memory = is_damped ? approach_memory_of(particles, contact) : nullptr;
-  if (!(contact.overlap > 0.0) && !(is_damped && held_gap(memory[ApproachBlock::kX]) > 0.0)) return;
   before.has_shear = model.shear_constant(i) > 0.0;
-  before.directions.find(wall_, contact.foot, contact.delta);
   const nurbs::Indices<2>& element = before.directions.element;
   compliance_.find(contact.foot, element, before.has_shear, before.give);
   before.n = contact.normal();

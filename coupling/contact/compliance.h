@@ -93,7 +93,8 @@ class ComplianceCorrection {
   /// What a contact was, and where it is in the blocks.
   struct Before {
     double overlap, distance;
-    bool touches;
+    bool touches, is_corrected;
+    double damping;
     Vector3 delta, wall_velocity;
     Vector3 met_velocity;        // of the surface as it is met, by its mean if the force is spread
     const ApproachBlock* block;  // null: not corrected, or over
@@ -112,6 +113,8 @@ class ComplianceCorrection {
   /// Of a contact that begins [energy] (approach_kernel.h).
   double credit(const ParticleView& particles, const ContactModel& model, const Contact& contact,
                 const Before& before) const;
+  void look_at(const ParticleView& particles, const ContactModel& model, const Contact& contact,
+               Before& before) const;
   void enter(const ParticleView& particles, const Time& now, const ContactModel& model, Contact& contact,
              Before& before);
   double overlap_of_others(const ParticleView& particles, const Time& now, const Contact& contact,

@@ -34,18 +34,23 @@ class BorderStrips {
   };
 
   BorderStrips() = default;  ///< changes nothing
-  BorderStrips(const std::array<int, 2>& counts, const Kinks& kinks);
+  BorderStrips(const std::array<int, 2>& counts, int polynomials, const Kinks& kinks);
 
   bool reach(double s, double t) const {
-    return std::max(std::abs(s), std::abs(t)) > 1.0 - kWidth && !borders_.empty();
+    return std::max(std::abs(s), std::abs(t)) > 1.0 - kWidth && !numbers_.empty();
   }
   /// To values and derivatives of `count` polynomials from the first on.
   void add(double s, double t, int first, int count, double* value, double* by_s, double* by_t) const;
 
  private:
+  template <int count>
+  void add(double s, double t, int first, double* value, double* by_s, double* by_t) const;
+  int append(const std::vector<double>& numbers);
+
   std::array<int, 2> counts_{};
-  std::vector<double> borders_, corners_;                  // in one piece, as they come from memory
+  int polynomials_ = 0;
   std::array<std::array<int, 2>, 2> border_{}, corner_{};  // where they begin; -1: none
+  std::vector<double> numbers_;                            // of each [power][polynomial]
 };
 
 }  // namespace structure

@@ -232,7 +232,7 @@ const Table& ComplianceTables::joined(Kind<Table>& tables, int piece, int elemen
       const Table* const table = plain(p, e);
       return table ? table->powers() : nullptr;
     };
-    const BorderStrips strips(table_counts(undeformed_->surface(piece).space()),
+    const BorderStrips strips(table_counts(undeformed_->surface(piece).space()), Table::kPolynomials,
                               borders_.kinks(piece, element, {Table::kPolynomials, powers, Table::turn}));
     made = std::make_unique<Table>(*of[4], strips);
   }

@@ -33,6 +33,10 @@ class ComplianceTables {
     const ComplianceTable* const known = tables_.known[piece][element];
     return known ? *known : find(piece, element);
   }
+  /// If it is known, its numbers come from memory until it is asked for.
+  [[gnu::always_inline]] void prefetch(int piece, int element) const {
+    if (const ComplianceTable* const known = tables_.known[piece][element]) known->prefetch();
+  }
   /// The same of forces that are spread, worked out when it is first asked for.
   const SpreadTable& spread_of(int piece, int element) {
     const SpreadTable* const known = spread_tables_.known[piece][element];
