@@ -200,6 +200,30 @@ TEST(ComplianceAtBorders, DoesNotJumpOverWelds) {
   }
 }
 
+// Each of the three patches has two of the three borders, whose strips fade out there.
+TEST(ComplianceAtBorders, DoesNotJumpWhereThreePatchesMeet) {
+  constexpr int kRow = 4;
+  const Vector3 way[] = {{1.0, 0.0, 0.0}, {-0.3, 1.2, 0.0}, {-0.5, -0.6, 0.0}};
+  std::vector<Volume> patches;
+  std::vector<structure::SkinPiece> skin;
+  for (int k = 0; k < 3; ++k) {
+    const KnotVector row = KnotVector::uniform(2, kRow), depth = KnotVector::uniform(2, 3);
+    Volume rhomb = nurbs::box(Vector3::Zero(), {kRow, kRow, 3}, {row, row, depth});
+    for (auto X : rhomb.control_points.colwise())
+      X = (X[0] * way[k] + X[1] * way[(k + 1) % 3] + X[2] * Vector3::UnitZ()).eval();
+    patches.push_back(rhomb);
+    skin.push_back({k, nurbs::Face::zeta_plus});
+  }
+  const ReferenceBody body{patches, {3, models::elastic(1.0, kNu)}, structure::weld(patches)};
+  const nurbs::Space<2> space = nurbs::boundary_surface(patches[0].space, nurbs::Face::zeta_plus).space;
+  ComplianceTables tables(body, skin);
+  for (const double along : {0.0, 0.005, 0.02, 0.035, 0.5, 0.99}) {
+    const double one = top::value(tables, space, 0, 0, {0.0, along / kRow}, ComplianceTable::normal).c,
+                 other = top::value(tables, space, 1, 0, {along / kRow, 0.0}, ComplianceTable::normal).c;
+    EXPECT_NEAR(one, other, 1e-11 * one) << along;
+  }
+}
+
 /// How the compliance along the normal changes along the surface, in space, where skin has a normal.
 Vector3 slope_at(ComplianceTables& tables, const structure::FaceSurface& surface, int p, int element,
                  const nurbs::Parameter<2>& xi, ComplianceTable::Component component) {
