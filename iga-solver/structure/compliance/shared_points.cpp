@@ -54,9 +54,7 @@ std::vector<SharedPoints::Sides> SharedPoints::beside(int piece, int element) co
   return found;
 }
 
-// The angle below which an edge is smooth is that of contacts.
 std::vector<std::vector<TablePoint>> SharedPoints::of(int piece, int element) const {
-  constexpr double kSmooth = 0.02;     // [rad]
   constexpr double kSamePlace = 1e-6;  // of the element
   const std::array<int, 2> counts = table_counts(surfaces_[piece].space());
   std::vector<std::vector<TablePoint>> shared(static_cast<std::size_t>(counts[0]) * counts[1]);

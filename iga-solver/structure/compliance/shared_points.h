@@ -20,6 +20,9 @@ struct TablePoint {
 
 class SharedPoints {
  public:
+  /// The angle between normals below which an edge is smooth, as it is for contacts [rad].
+  static constexpr double kSmooth = 0.02;
+
   /// Keeps references to all; surfaces are those of the pieces.
   SharedPoints(const ReferenceBody& body, const NearElements& near, const std::vector<SkinPiece>& skin,
                const std::vector<FaceSurface>& surfaces);

@@ -66,7 +66,6 @@ const SmoothBorders::Seams& SmoothBorders::seams(int piece, int element) const {
 
 std::optional<SmoothBorders::Beyond> SmoothBorders::beyond_seam(
     const Side& side, const std::vector<std::vector<TablePoint>>& points) const {
-  constexpr double kSmooth = 0.02;  // [rad], as SharedPoints has it
   const auto counts_of = [&](int piece) { return table_counts(undeformed_.surface(piece).space()); };
   const std::array<int, 2> counts = counts_of(side.piece);
   const int last = counts[1 - side.direction] - 1;
@@ -82,7 +81,7 @@ std::optional<SmoothBorders::Beyond> SmoothBorders::beyond_seam(
   // Two have the middle of a smooth border, if patches are not welded to themselves.
   const std::vector<TablePoint>& middle = at(last / 2);
   if (middle.size() != 2 || is_own(middle[0]) == is_own(middle[1]) ||
-      !((middle[0].normal - middle[1].normal).norm() <= kSmooth))
+      !((middle[0].normal - middle[1].normal).norm() <= SharedPoints::kSmooth))
     return {};
   const TablePoint& other = is_own(middle[0]) ? middle[1] : middle[0];
   const std::array<int, 2> theirs = counts_of(other.piece),
@@ -182,14 +181,12 @@ SmoothBorders::Side SmoothBorders::past(const Side& border, int corner_end) cons
 
 /// Where four elements meet: as each of the two borders' own strips have a kink where they cross the other.
 std::vector<double> SmoothBorders::corner_kink(int piece, int element, const std::array<int, 2>& ends,
-                                               const Polynomials& of) const {
+                                               const Borders& borders, const Polynomials& of) const {
   std::vector<double> mean(of.count, 0.0);
   for (int d = 0; d < 2; ++d) {
-    const Side border = {piece, element, d, ends[d]}, crossed = {piece, element, 1 - d, ends[1 - d]},
-               next = past(crossed, ends[d]);
+    const Side crossed = {piece, element, 1 - d, ends[1 - d]}, next = past(crossed, ends[d]);
     if (next.piece < 0) return {};
-    const std::vector<double> here = kink(border, of);
-    std::vector<double> there = kink(next, of);
+    const std::vector<double>&here = borders[d][ends[d]], there = kink(next, of);
     if (here.empty() || there.empty()) return {};
     const Beyond over = *beyond(crossed);
     const Meeting at = meeting(crossed, over, sign(ends[d]));
@@ -238,7 +235,7 @@ BorderStrips::Kinks SmoothBorders::kinks(int piece, int element, const Polynomia
   for (int s = 0; s < 2; ++s)
     for (int t = 0; t < 2; ++t)
       if (around.elements[2 * t][2 * s].piece >= 0)
-        kinks.corner[s][t] = corner_kink(piece, element, {s, t}, of);
+        kinks.corner[s][t] = corner_kink(piece, element, {s, t}, kinks.border, of);
   return kinks;
 }
 

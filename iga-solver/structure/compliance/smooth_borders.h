@@ -48,6 +48,7 @@ class SmoothBorders {
     bool is_regular;   // over a knot of the patch
   };
   struct Meeting;
+  using Borders = decltype(BorderStrips::Kinks::border);
   using Seams = std::array<std::array<std::optional<Beyond>, 2>, 2>;  // [direction][end]
   std::optional<Beyond> beyond(const Side& side) const;
   const Seams& seams(int piece, int element) const;
@@ -57,7 +58,7 @@ class SmoothBorders {
   Side past(const Side& border, int corner_end) const;
   std::vector<double> kink(const Side& own, const Polynomials& of) const;
   std::vector<double> corner_kink(int piece, int element, const std::array<int, 2>& ends,
-                                  const Polynomials& of) const;
+                                  const Borders& borders, const Polynomials& of) const;
 
   const ElementCompliances& undeformed_;
   mutable std::map<std::pair<int, int>, Seams> seams_;  // as far as asked for
