@@ -68,6 +68,11 @@ struct Place {
 
 }  // namespace
 
+void MeshCompliance::foresee(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element) const {
+  const Place at(spaces_[foot.patch], element);
+  tables_.prefetch(foot.patch, at.element, at.low, at.high, foot.xi);
+}
+
 void MeshCompliance::find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,
                           Value& value) {
   using Table = structure::ComplianceTable;

@@ -20,9 +20,7 @@ class MeshCompliance final : public LocalCompliance {
 
   void find(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element, bool with_shear,
             Value& value) override;
-  void foresee(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element) const override {
-    tables_.prefetch(foot.patch, spaces_[foot.patch].element_index(element));
-  }
+  void foresee(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element) const override;
   void find_spread(const nurbs::SurfacePoint& foot, const nurbs::Indices<2>& element,
                    Spread& spread) override;
   std::vector<Link> links() const override;

@@ -138,6 +138,7 @@ void ContactLoop::step(const ParticleView& particles, const StepInfo& step, Cont
     const int count = take_steady(particles, step, begin, end, queries);
     tracker_->follow(queries, count);
     for (int k = 0; k < count; ++k) find_contacts(particles, step, queries[k]);
+    if (correction_) prefetch_rows(particles, end, std::min(end + block, candidates));
     answer(particles, step, model, observer, first);
   }
   list_is_new_ = false;
@@ -189,6 +190,16 @@ inline SteadyFeet* ContactLoop::find_steady(const ParticleView& particles, const
   }
   steady->find({squared_time_, squared_way_, wall_.resolution()});
   return steady;
+}
+
+// Rows of contacts that are corrected are long, and the first to be read.
+[[gnu::always_inline]] inline void ContactLoop::prefetch_rows(const ParticleView& particles, int begin,
+                                                              int end) const {
+  const ContactMemory& memory = particles.memory;
+  const std::size_t bytes = sizeof(double) * ContactMemory::row_size(memory.history_count);
+  for (int candidate = begin; candidate < end; ++candidate)
+    if (const int i = candidates_.candidates()[candidate].particle; used_slots_[i] > 0)
+      nurbs::prefetch_to_write(memory.slots[0] + memory.offset(i), bytes);
 }
 
 // Contacts that are corrected may go on where the surfaces have lost touch.

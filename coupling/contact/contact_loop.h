@@ -131,6 +131,7 @@ class ContactLoop {
   void begin_query(const ParticleView& particles, const StepInfo& step, int candidate,
                    FeetTracker::Query& query) const;
   double squared_travel(const ParticleView& particles, int particle) const;
+  void prefetch_rows(const ParticleView& particles, int begin, int end) const;
   double touch_reach(const ParticleView& particles, const StepInfo& step, int particle) const;
   bool settle(const ParticleView& particles, SteadyFeet& steady, int k, int i);
   static bool find_slots(const ParticleSlots& slots, SteadyFeet& steady, int k);

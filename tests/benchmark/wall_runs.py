@@ -80,3 +80,8 @@ def fix_times(log: str) -> tuple[dict[str, float], float]:
     fixes = re.findall(r"^Fix (\S+) \S+ time \(%\) = (\S+)", last, re.MULTILINE)
     wall = {name: float(seconds) for name, seconds in fixes if re.search("wall|mesh|motion", name)}
     return wall, float(last.split()[3])
+
+
+def loop_times(log: str) -> list[float]:
+    """Of each run: seconds of the whole loop."""
+    return [float(seconds) for seconds in re.findall(r"^Loop time of (\S+)", log, re.MULTILINE)]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "structure/compliance/border_strips.h"
 
-#include <cstddef>
+#include "structure/compliance/table_kernel.h"
 
 namespace structure {
 
@@ -10,53 +10,54 @@ namespace {
 /// How far a place is in a strip: q from 0 to 1 on the border, and its derivative.
 struct Depth {
   explicit Depth(double s)
-      : end(s < 0.0 ? 0 : 1),
-        q(std::max(0.0, (std::abs(s) - 1.0) / BorderStrips::kWidth + 1.0)),
-        by_s((end == 0 ? -1.0 : 1.0) / BorderStrips::kWidth) {}
-  int end;
+      : q(std::max(0.0, (std::abs(s) - 1.0) / kStripWidth + 1.0)),
+        by_s((s < 0.0 ? -1.0 : 1.0) / kStripWidth) {}
   double q, by_s;
 };
 
 }  // namespace
 
-BorderStrips::BorderStrips(const std::array<int, 2>& counts, int polynomials, const Kinks& kinks)
-    : counts_(counts), polynomials_(polynomials) {
+template <int polynomials>
+BorderStrips<polynomials>::BorderStrips(const std::array<int, 2>& counts, const BorderKinks& kinks)
+    : counts_(counts) {
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b) {
-      border_[a][b] = append(kinks.border[a][b]);
-      corner_[a][b] = append(kinks.corner[a][b]);
+      const std::vector<double>&border = kinks.border[a][b], &corner = kinks.corner[a][b];
+      has_border_[a][b] = !border.empty();
+      has_corner_[a][b] = !corner.empty();
+      rounds_ = rounds_ || has_border_[a][b];
+      const std::size_t powers = border.size() / polynomials;
+      for (std::size_t power = 0; power < powers; ++power)
+        for (int k = 0; k < polynomials; ++k)
+          border_[a][b][power * polynomials + k] = border[power + k * powers];
+      std::copy(corner.begin(), corner.end(), corner_[a][b].begin());
     }
 }
 
-int BorderStrips::append(const std::vector<double>& numbers) {
-  if (numbers.empty()) return -1;
-  const std::size_t begin = numbers_.size(), powers = numbers.size() / polynomials_;
-  for (std::size_t power = 0; power < powers; ++power)
-    for (int k = 0; k < polynomials_; ++k) numbers_.push_back(numbers[power + k * powers]);
-  return static_cast<int>(begin);
-}
-
+template <int polynomials>
 template <int count>
-void BorderStrips::add(double s, double t, int first, double* value, double* by_s, double* by_t) const {
+void BorderStrips<polynomials>::add(double s, double t, int first, double* value, double* by_s,
+                                    double* by_t) const {
   const std::array<double, 2> own = {s, t};
+  const std::array<int, 2> end = {end_of(s), end_of(t)};
   const std::array<Depth, 2> depth = {Depth(s), Depth(t)};
   const std::array<double*, 2> by = {by_s, by_t};
-  const int corner = corner_[depth[0].end][depth[1].end];
+  const bool has_corner = has_corner_[end[0]][end[1]];
   for (int d = 0; d < 2; ++d) {
     const Depth &across = depth[d], &along = depth[1 - d];
-    if (across.q == 0.0 || border_[d][across.end] < 0) continue;
+    if (across.q == 0.0 || !has_border_[d][end[d]]) continue;
     // Beside fewer than four elements a border that ends there is let be.
     double fade = 1.0, fade_by = 0.0;
-    if (corner < 0) {
+    if (!has_corner) {
       fade = (1.0 - along.q) * (1.0 - along.q) * (1.0 + 2.0 * along.q);
       fade_by = -6.0 * along.q * (1.0 - along.q) * along.by_s;
     }
-    const double* const powers = numbers_.data() + border_[d][across.end] + first;
+    const double* const powers = border_[d][end[d]].data() + first;
     std::array<double, count> a{}, a_by{};
     for (int j = counts_[1 - d] - 1; j >= 0; --j)
       for (int k = 0; k < count; ++k) {
         a_by[k] = a_by[k] * own[1 - d] + a[k];
-        a[k] = a[k] * own[1 - d] + powers[j * polynomials_ + k];
+        a[k] = a[k] * own[1 - d] + powers[j * polynomials + k];
       }
     const double q2 = across.q * across.q, q2_by = 2.0 * across.q * across.by_s;
     for (int k = 0; k < count; ++k) {
@@ -66,20 +67,25 @@ void BorderStrips::add(double s, double t, int first, double* value, double* by_
     }
   }
   const double q_s = depth[0].q, q_t = depth[1].q;
-  if (corner < 0 || q_s == 0.0 || q_t == 0.0) return;
+  if (!has_corner || q_s == 0.0 || q_t == 0.0) return;
   for (int k = 0; k < count; ++k) {
-    const double change = numbers_[corner + first + k];
+    const double change = corner_[end[0]][end[1]][first + k];
     value[k] += change * q_s * q_s * q_t * q_t;
     by_s[k] += 2.0 * change * q_s * depth[0].by_s * q_t * q_t;
     by_t[k] += 2.0 * change * q_s * q_s * q_t * depth[1].by_s;
   }
 }
 
-void BorderStrips::add(double s, double t, int first, int count, double* value, double* by_s,
-                       double* by_t) const {
-  constexpr int kTogether = 4;
+template <int polynomials>
+void BorderStrips<polynomials>::add(double s, double t, int first, int count, double* value, double* by_s,
+                                    double* by_t) const {
+  constexpr int kTogether = FourPolynomials::kCount;
   if (count == kTogether) return add<kTogether>(s, t, first, value, by_s, by_t);
   for (int k = 0; k < count; ++k) add<1>(s, t, first + k, value + k, by_s + k, by_t + k);
 }
+
+// Tables with other numbers of polynomials do not link.
+template class BorderStrips<6>;   // ComplianceTable
+template class BorderStrips<13>;  // SpreadTable
 
 }  // namespace structure

@@ -5,21 +5,22 @@
 
 #include <array>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include "nurbs/patch.h"
 #include "structure/compliance/border_strips.h"
 #include "structure/compliance/table_kernel.h"
+#include "structure/compliance/table_memory.h"
 
 namespace structure {
 
-class ComplianceTable {
+class ComplianceTable : public InTableMemory<ComplianceTable> {
  public:
   /// Components of the tensor in the frame (t_1, t_2, n): t_1 along the surface's first direction, n out of
   /// the body, t_2 = n x t_1.
   enum Component { normal, first, second, first_second, first_normal, second_normal, kComponents };
   static constexpr int kPolynomials = kComponents;
+  using Strips = BorderStrips<kPolynomials>;
   static constexpr int kTogether = first_second + 1;  ///< those that a contact with friction asks for
 
   /// c [length/force], and its changes with the parameters [length/force/parameter].
@@ -33,8 +34,8 @@ class ComplianceTable {
   ComplianceTable(const std::array<int, 2>& counts, const std::vector<std::vector<double>>& values,
                   const std::vector<double>& taken = {});
   /// Where it goes on as those beside it.
-  ComplianceTable(const ComplianceTable& other, BorderStrips strips) : ComplianceTable(other) {
-    strips_ = std::move(strips);
+  ComplianceTable(const ComplianceTable& other, const Strips& strips) : ComplianceTable(other) {
+    strips_ = strips;
   }
   const double* powers() const { return powers_.data(); }  ///< [component][of t][of s]
   /// Components in another frame, whose t_1 is c t_1 + s t_2 of this one, into those in this one.
@@ -57,14 +58,15 @@ class ComplianceTable {
     for (int k = 0; k < kTogether; ++k)
       f(k, Value{at.value[k], {at.by_s[k] * s.change, at.by_t[k] * t.change}});
   }
-  /// Has what together() and taken() read of a quadratic one come from memory, and the beginning of others,
-  /// while something else is done: nothing is read here.  (Calls that are not inlined gcc takes for such as
-  /// do nothing.)
-  [[gnu::always_inline]] void prefetch() const {
+  /// Has what together() and taken() read there of a quadratic one come from memory, and the beginning of
+  /// others, while something else is done: nothing is read here.
+  [[gnu::always_inline]] void prefetch(const nurbs::Parameter<2>& low, const nurbs::Parameter<2>& high,
+                                       const nurbs::Parameter<2>& xi) const {
     constexpr std::ptrdiff_t kLine = 64, kQuadratic = 5 * 5;
     const char* const end = reinterpret_cast<const char*>(together_.data() + kTogether * kQuadratic);
     for (const char* line = reinterpret_cast<const char*>(this); line < end; line += kLine)
       __builtin_prefetch(line);
+    strips_.prefetch(OwnParameter(low[0], high[0], xi[0]).value, OwnParameter(low[1], high[1], xi[1]).value);
   }
   /// Largest value at its points [length/force].
   double largest_normal() const { return largest_normal_; }
@@ -98,9 +100,9 @@ class ComplianceTable {
   TableKernel kernel_;
   std::array<int, 2> counts_;
   double largest_normal_;
-  BorderStrips strips_;
   std::array<float, kMost> taken_{};                // [of t][of s]; few, as they come for each contact
   std::array<double, kTogether * kMost> together_;  // [of t][of s][component] in s, t from -1 to 1
+  Strips strips_;
   std::array<double, kComponents * kMost> powers_;  // [component][of t][of s], the same
 };
 

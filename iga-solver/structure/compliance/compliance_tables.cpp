@@ -232,8 +232,9 @@ const Table& ComplianceTables::joined(Kind<Table>& tables, int piece, int elemen
       const Table* const table = plain(p, e);
       return table ? table->powers() : nullptr;
     };
-    const BorderStrips strips(table_counts(undeformed_->surface(piece).space()), Table::kPolynomials,
-                              borders_.kinks(piece, element, {Table::kPolynomials, powers, Table::turn}));
+    const typename Table::Strips strips(
+        table_counts(undeformed_->surface(piece).space()),
+        borders_.kinks(piece, element, {Table::kPolynomials, powers, Table::turn}));
     made = std::make_unique<Table>(*of[4], strips);
   }
   return *(tables.known[piece][element] = made.get());

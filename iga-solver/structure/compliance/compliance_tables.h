@@ -34,8 +34,9 @@ class ComplianceTables {
     return known ? *known : find(piece, element);
   }
   /// If it is known, its numbers come from memory until it is asked for.
-  [[gnu::always_inline]] void prefetch(int piece, int element) const {
-    if (const ComplianceTable* const known = tables_.known[piece][element]) known->prefetch();
+  [[gnu::always_inline]] void prefetch(int piece, int element, const nurbs::Parameter<2>& low,
+                                       const nurbs::Parameter<2>& high, const nurbs::Parameter<2>& xi) const {
+    if (const ComplianceTable* const known = tables_.known[piece][element]) known->prefetch(low, high, xi);
   }
   /// The same of forces that are spread, worked out when it is first asked for.
   const SpreadTable& spread_of(int piece, int element) {

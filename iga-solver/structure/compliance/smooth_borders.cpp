@@ -165,7 +165,7 @@ std::vector<double> SmoothBorders::kink(const Side& own, const Polynomials& of) 
           at.along * by(b[k], 1 - other.direction) - at.across * sign(other.end) * by(b[k], other.direction);
     of.turn(slopes.data(), at.c, at.s);
     for (int k = 0; k < of.count; ++k)
-      values(j, k) = BorderStrips::rounded(sign(own.end) * by(a[k], own.direction), slopes[k], at.across);
+      values(j, k) = kink_of_slopes(sign(own.end) * by(a[k], own.direction), slopes[k], at.across);
   }
   const Eigen::MatrixXd powers = lobatto_powers(count) * values;
   return {powers.data(), powers.data() + powers.size()};
@@ -197,8 +197,8 @@ std::vector<double> SmoothBorders::corner_kink(int piece, int element, const std
       slopes[k] = -at.length * slope_out(there.data() + k * count_there, count_there, over.side.end);
     of.turn(slopes.data(), at.c, at.s);
     for (int k = 0; k < of.count; ++k)
-      mean[k] += 0.5 * BorderStrips::rounded(slope_out(here.data() + k * count, count, ends[1 - d]),
-                                             slopes[k], at.length);
+      mean[k] +=
+          0.5 * kink_of_slopes(slope_out(here.data() + k * count, count, ends[1 - d]), slopes[k], at.length);
   }
   return mean;
 }
@@ -227,9 +227,9 @@ SmoothBorders::Around SmoothBorders::around(int piece, int element) const {
   return around;
 }
 
-BorderStrips::Kinks SmoothBorders::kinks(int piece, int element, const Polynomials& of) const {
+BorderKinks SmoothBorders::kinks(int piece, int element, const Polynomials& of) const {
   const Around around = this->around(piece, element);
-  BorderStrips::Kinks kinks;
+  BorderKinks kinks;
   for (int d = 0; d < 2; ++d)
     for (int end = 0; end < 2; ++end) kinks.border[d][end] = kink({piece, element, d, end}, of);
   for (int s = 0; s < 2; ++s)

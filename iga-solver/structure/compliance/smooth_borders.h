@@ -35,7 +35,7 @@ class SmoothBorders {
     std::function<const double*(int piece, int element)> powers;
     void (*turn)(double* values, double c, double s);
   };
-  BorderStrips::Kinks kinks(int piece, int element, const Polynomials& of) const;
+  BorderKinks kinks(int piece, int element, const Polynomials& of) const;
 
  private:
   struct Side {
@@ -48,7 +48,7 @@ class SmoothBorders {
     bool is_regular;   // over a knot of the patch
   };
   struct Meeting;
-  using Borders = decltype(BorderStrips::Kinks::border);
+  using Borders = decltype(BorderKinks::border);
   using Seams = std::array<std::array<std::optional<Beyond>, 2>, 2>;  // [direction][end]
   std::optional<Beyond> beyond(const Side& side) const;
   const Seams& seams(int piece, int element) const;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <utility>
 #include <vector>
 
 #include "structure/compliance/compliance_table.h"
@@ -28,13 +27,12 @@ class SpreadTable {
     kScalars
   };
   static constexpr int kPolynomials = kScalars;
+  using Strips = BorderStrips<kPolynomials>;
   using Values = std::array<std::vector<double>, kScalars>;  ///< at table_points()
 
   SpreadTable(const std::array<int, 2>& counts, const Values& values);
   /// Where it goes on as those beside it.
-  SpreadTable(const SpreadTable& other, BorderStrips strips) : SpreadTable(other) {
-    strips_ = std::move(strips);
-  }
+  SpreadTable(const SpreadTable& other, const Strips& strips) : SpreadTable(other) { strips_ = strips; }
   const double* powers() const { return powers_.data(); }  ///< [scalar][of t][of s]
   /// As ComplianceTable::turn().
   static void turn(double* scalars, double c, double s) {
@@ -54,7 +52,7 @@ class SpreadTable {
                             const nurbs::Parameter<2>& xi) const;
 
   std::array<int, 2> counts_;
-  BorderStrips strips_;
+  Strips strips_;
   std::vector<double> powers_;  // [scalar][of t][of s] in s, t from -1 to 1
 };
 

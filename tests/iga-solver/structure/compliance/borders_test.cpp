@@ -127,7 +127,7 @@ TEST(ComplianceAtBorders, OfTheMiddleChangesAsThatOfTheSides) {
 // Beside borders, where strips take up what is left of a kink, as inside, the skin's ends and C0 knots
 // included: there borders end that are rounded.
 TEST(ComplianceAtBorders, HasTheSlopesThatItSays) {
-  const double w = 0.5 * structure::BorderStrips::kWidth;
+  const double w = 0.5 * structure::kStripWidth;
   const ReferenceBody body = body_of(nurbs::box(Vector3::Zero(), {6, 6, 4},
                                                 {KnotVector(2, {0, 0, 0, 1, 2, 3, 3, 4.5, 5, 6, 6, 6}),
                                                  KnotVector::uniform(2, 6), KnotVector::uniform(2, 4)}));
